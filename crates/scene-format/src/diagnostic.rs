@@ -1,0 +1,157 @@
+//! Diagnostics as data: what is wrong, where, what was expected, and how to mend it.
+
+use std::path::PathBuf;
+
+/// A range of bytes in one source text. `Span::NONE` stands for things that no file says (built in code, defaults).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Span {
+    /// Which source of [`crate::SceneDesc::sources`] (`u32::MAX`: none).
+    pub source: u32,
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// No position: the value was not read from a file.
+    pub const NONE: Span = Span { source: u32::MAX, start: 0, end: 0 };
+}
+
+impl Default for Span {
+    fn default() -> Self {
+        Span::NONE
+    }
+}
+
+/// A value and where it was written.
+#[derive(Clone, Debug, Default)]
+pub struct Spanned<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl<T> From<T> for Spanned<T> {
+    fn from(value: T) -> Self {
+        Spanned { value, span: Span::NONE }
+    }
+}
+
+/// Two values are equal when they say the same, wherever they stand.
+impl<T: PartialEq> PartialEq for Spanned<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T> std::ops::Deref for Spanned<T> {
+    type Target = T;
+    fn deref(&self) -> &T {
+        &self.value
+    }
+}
+
+/// One text that spans point into: a scene file, an argument of `--set`, or a mesh, texture or placements file that is wrong.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Source {
+    /// The name to show (`scenes/fig4.ron`, `<stdin>`, `--set`).
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+/// How grave a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Severity {
+    /// The picture is made, but something is probably not what was meant.
+    Warning,
+    /// No picture can be made.
+    Error,
+}
+
+/// A line in a file other than the scene (a mesh, a placements file), where no byte span into a [`Source`] is kept because the
+/// file may be large.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileLine {
+    /// The file.
+    pub path: PathBuf,
+    /// 1-based; 0 when the whole file is meant.
+    pub line: u64,
+}
+
+/// A replacement of the bytes of `span` that mends the fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// The bytes to replace.
+    pub span: Span,
+    /// What to write there.
+    pub replacement: String,
+}
+
+/// One thing that is wrong (or doubtful), with its position, what was expected and a hint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Error or warning.
+    pub severity: Severity,
+    /// Stable, documented code (`E0102`).
+    pub code: &'static str,
+    /// One sentence: what is wrong.
+    pub message: String,
+    /// The very value, in the scene file.
+    pub span: Span,
+    /// Field path (`objects[2].radius`), empty when there is none.
+    pub path: String,
+    /// What was expected, with unit and range; may be empty.
+    pub expected: String,
+    /// What to do; may be empty.
+    pub hint: String,
+    /// The place in another file (mesh, placements) that is at fault.
+    pub elsewhere: Option<FileLine>,
+    /// A change of the scene file that mends it, when one is certain enough to offer.
+    pub edit: Option<Edit>,
+}
+
+impl Diagnostic {
+    /// An error with code, place and message; the rest empty.
+    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+        Diagnostic {
+            severity: Severity::Error,
+            code,
+            message: message.into(),
+            span,
+            path: String::new(),
+            expected: String::new(),
+            hint: String::new(),
+            elsewhere: None,
+            edit: None,
+        }
+    }
+
+    /// A warning with code, place and message; the rest empty.
+    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
+    }
+
+    /// Adds what was expected.
+    pub fn expected(mut self, expected: impl Into<String>) -> Self {
+        self.expected = expected.into();
+        self
+    }
+
+    /// Adds what to do.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = hint.into();
+        self
+    }
+
+    /// Adds the place in another file.
+    pub fn at_line(mut self, path: impl Into<PathBuf>, line: u64) -> Self {
+        self.elsewhere = Some(FileLine { path: path.into(), line });
+        self
+    }
+}
+
+/// All that was found in one run, in order of position.
+pub type Diagnostics = Vec<Diagnostic>;
