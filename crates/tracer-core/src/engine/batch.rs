@@ -108,6 +108,8 @@ pub struct Shadows {
     pub from_instance: Vec<u32>,
     /// The light's own primitive.
     pub light_primitive: Vec<u32>,
+    /// The instance of a light: always NONE.
+    pub light_instance: Vec<u32>,
     /// 1: something is between.
     pub occluded: Vec<u32>,
 }
@@ -151,6 +153,8 @@ pub struct Batch {
     pub shadows: Shadows,
     /// Radiance of each slot.
     pub radiance: Columns,
+    /// Indices of the rays that the tree is asked about.
+    pub active: Vec<u32>,
     /// Counters.
     pub counters: Counters,
 }
@@ -174,9 +178,11 @@ impl Batch {
                 from_primitive: words(),
                 from_instance: words(),
                 light_primitive: words(),
+                light_instance: vec![NONE; CAPACITY],
                 occluded: words(),
             },
             radiance: columns(),
+            active: Vec::with_capacity(CAPACITY),
             counters: Counters::default(),
         }
     }
