@@ -380,9 +380,9 @@ fn hind_leg(side: f64, step: f64) -> Melt {
 /// A paw with four toes; `center` is the middle of its pad.
 fn paw(center: [f64; 3], side: f64) -> Vec<Blob> {
     let [x, y, z] = center;
-    let mut blobs = vec![Blob::ellipsoid([x, y + 0.2, z], [2.2, 1.5, 2.0])];
+    let mut blobs = vec![Blob::ellipsoid([x, y - 0.25, z], [2.3, 1.75, 2.05])];
     for (dx, dz, r) in [(1.2, -1.5, 0.86), (2.05, -0.54, 0.98), (2.05, 0.54, 0.98), (1.2, 1.5, 0.86)] {
-        blobs.push(Blob::bone([x + dx - 0.9, y + 0.3, z + dz * side], r, [x + dx, y - 0.3, z + dz * 1.05 * side], r));
+        blobs.push(Blob::bone([x + dx - 0.9, y + 0.3, z + dz * side], r, [x + dx, y - 0.55, z + dz * 1.05 * side], r));
     }
     blobs
 }

@@ -18,6 +18,7 @@ use anatomy::Cat;
 use glam::DVec3;
 use mesh::Mesh;
 use polygonise::Grid;
+use unwrap::{Atlas, Charted};
 
 /// Texels per side of the texture.
 const TEXTURE_SIZE: usize = 1024;
@@ -35,28 +36,21 @@ pub struct File {
 /// Makes the cat's files: two OBJ meshes that share one texture, the small one also as OFF.
 ///
 /// # Errors
-/// When the atlas lacks a chart of the coarse mesh or the PNG cannot be encoded.
+/// When the PNG cannot be encoded.
 pub fn files() -> anyhow::Result<Vec<File>> {
     let cat = Cat::new();
     let fine = mesh(&cat, &finest(&cat), 60_000);
     let coarse = mesh(&cat, &fine, 4_000);
-    let fine_charts = unwrap::charts(&fine, &cat);
-    let atlas = unwrap::Atlas::pack(&fine, &fine_charts, TEXTURE_SIZE);
-    let coarse_charts = atlas.assign(&coarse, &cat);
-    let texture = paint::paint(
-        &cat,
-        &atlas,
-        TEXTURE_SIZE,
-        &[
-            paint::Charted { mesh: &fine, charts: &fine_charts },
-            paint::Charted { mesh: &coarse, charts: &coarse_charts },
-        ],
-    );
+    let off = write::off(&coarse);
+    let meshes = [Charted::new(fine, &cat), Charted::new(coarse, &cat)];
+    let atlas = Atlas::pack(&meshes, TEXTURE_SIZE);
+    let texture = paint::paint(&cat, &atlas, TEXTURE_SIZE, &meshes);
+    let [fine, coarse] = &meshes;
     Ok(vec![
-        File { name: "cat.obj", bytes: write::obj(&cat, &coarse, &atlas, &coarse_charts, MATERIAL)?.into() },
-        File { name: "cat_60k.obj", bytes: write::obj(&cat, &fine, &atlas, &fine_charts, MATERIAL)?.into() },
+        File { name: "cat.obj", bytes: write::obj(&cat, coarse, &atlas, MATERIAL)?.into() },
+        File { name: "cat_60k.obj", bytes: write::obj(&cat, fine, &atlas, MATERIAL)?.into() },
         File { name: "cat.mtl", bytes: write::mtl(MATERIAL).into() },
-        File { name: "cat.off", bytes: write::off(&coarse).into() },
+        File { name: "cat.off", bytes: off.into() },
         File { name: "cat.png", bytes: write::png(&texture)? },
     ])
 }

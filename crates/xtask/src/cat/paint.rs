@@ -2,8 +2,7 @@
 
 use super::anatomy::Cat;
 use super::coat;
-use super::mesh::Mesh;
-use super::unwrap::{Atlas, ChartId};
+use super::unwrap::{Atlas, Charted};
 use glam::{DVec2, DVec3};
 
 /// Rings of texels that a chart's border colour is carried beyond it, for filters that reach across.
@@ -15,14 +14,6 @@ pub struct Texture {
     pub size: usize,
     /// Three bytes per texel.
     pub rgb: Vec<u8>,
-}
-
-/// A mesh and the chart of each of its triangles.
-pub struct Charted<'a> {
-    /// The mesh.
-    pub mesh: &'a Mesh,
-    /// A chart per triangle.
-    pub charts: &'a [ChartId],
 }
 
 /// Paints what the meshes show of the texture; where they overlap, the first one counts.

@@ -94,10 +94,9 @@ fn smooth(mesh: &mut Mesh, surface: &impl Surface) {
             triangles_at[v].push(t);
         }
     }
-    for v in 0..mesh.positions.len() {
+    for (v, ring) in triangles_at.iter().enumerate() {
         let p = mesh.positions[v];
         let n = surface.normal(p);
-        let ring = &triangles_at[v];
         let middle =
             ring.iter().map(|&t| mesh.corners(t).iter().sum::<DVec3>() - p).sum::<DVec3>() / (2.0 * ring.len() as f64);
         let along = middle - p;

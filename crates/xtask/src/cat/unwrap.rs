@@ -68,8 +68,23 @@ pub struct ChartId {
     pub side: Side,
 }
 
-/// The chart of each triangle of a mesh.
-pub fn charts(mesh: &Mesh, cat: &Cat) -> Vec<ChartId> {
+/// A mesh and the chart of each of its triangles.
+pub struct Charted {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// A chart per triangle.
+    pub charts: Vec<ChartId>,
+}
+
+impl Charted {
+    /// Gives each triangle its chart.
+    pub fn new(mesh: Mesh, cat: &Cat) -> Charted {
+        let charts = charts(&mesh, cat);
+        Charted { mesh, charts }
+    }
+}
+
+fn charts(mesh: &Mesh, cat: &Cat) -> Vec<ChartId> {
     let normals: Vec<DVec3> =
         (0..mesh.triangles.len()).map(|t| area_vector(mesh.corners(t)).normalize_or_zero()).collect();
     let mut ids: Vec<ChartId> = (0..mesh.triangles.len())
@@ -118,15 +133,17 @@ struct Place {
 }
 
 impl Atlas {
-    /// Packs the charts of a mesh into a square of `size` texels, as dense as they fit.
-    pub fn pack(mesh: &Mesh, ids: &[ChartId], size: usize) -> Atlas {
+    /// Packs the charts of all meshes into a square of `size` texels, as dense as they fit.
+    pub fn pack(meshes: &[Charted], size: usize) -> Atlas {
         let mut boxes: BTreeMap<ChartId, (DVec2, DVec2)> = BTreeMap::new();
-        for (t, id) in ids.iter().enumerate() {
-            for p in mesh.corners(t) {
-                let seen = id.side.see(p);
-                let (min, max) = boxes.entry(*id).or_insert((seen, seen));
-                *min = min.min(seen);
-                *max = max.max(seen);
+        for charted in meshes {
+            for (t, id) in charted.charts.iter().enumerate() {
+                for p in charted.mesh.corners(t) {
+                    let seen = id.side.see(p);
+                    let (min, max) = boxes.entry(*id).or_insert((seen, seen));
+                    *min = min.min(seen);
+                    *max = max.max(seen);
+                }
             }
         }
         let size = size as f64;
@@ -144,23 +161,6 @@ impl Atlas {
     pub fn uv(&self, id: ChartId, p: DVec3) -> Option<DVec2> {
         let place = self.charts.get(&id)?;
         Some((place.corner + (id.side.see(p) - place.min) * place.density) / self.size)
-    }
-
-    /// The chart of each triangle of a coarser mesh: what `charts` says, or another chart of the same part where the atlas lacks it.
-    pub fn assign(&self, mesh: &Mesh, cat: &Cat) -> Vec<ChartId> {
-        let mut ids = charts(mesh, cat);
-        for (t, id) in ids.iter_mut().enumerate() {
-            if !self.charts.contains_key(id) {
-                let n = area_vector(mesh.corners(t));
-                let facing = |c: &&ChartId| (c.part == id.part, c.side.direction().dot(n));
-                let best = self.charts.keys().max_by(|a, b| {
-                    let (fa, fb) = (facing(a), facing(b));
-                    fa.0.cmp(&fb.0).then(fa.1.total_cmp(&fb.1))
-                });
-                *id = best.copied().unwrap_or(*id);
-            }
-        }
-        ids
     }
 }
 

@@ -3,7 +3,7 @@
 use super::anatomy::Cat;
 use super::mesh::Mesh;
 use super::paint::Texture;
-use super::unwrap::{Atlas, ChartId};
+use super::unwrap::{Atlas, Charted};
 use anyhow::Context as _;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -13,7 +13,8 @@ use std::fmt::Write as _;
 ///
 /// # Errors
 /// When the atlas lacks a chart of the mesh.
-pub fn obj(cat: &Cat, mesh: &Mesh, atlas: &Atlas, charts: &[ChartId], material: &str) -> anyhow::Result<String> {
+pub fn obj(cat: &Cat, charted: &Charted, atlas: &Atlas, material: &str) -> anyhow::Result<String> {
+    let Charted { mesh, charts } = charted;
     let mut text = String::with_capacity(100 * mesh.positions.len());
     text.push_str(
         "# A tabby cat, made by `cargo xtask cat`. x forward, y up, floor at y = 0.\nmtllib cat.mtl\no cat\n",
