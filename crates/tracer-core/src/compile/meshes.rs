@@ -5,9 +5,9 @@
 
 use super::materials::MaterialBuilder;
 use super::placing::place as place_matrix;
+use crate::bvh;
 use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
 use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
-use crate::bvh;
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3A};
 use rayon::prelude::*;
 use scene_format::desc::{self, MaterialRef, Object, Placements, Shading};
@@ -121,8 +121,7 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
         };
         let map = place_matrix(&mesh.transform, DVec3::from(data.barycentre()), &lowest);
         let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
-        let usable =
-            |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
+        let usable = |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
         if let Some(at) = maps.iter().position(|m| !usable(m)) {
             let which = if maps.len() > 1 { format!(" (copy {})", at + 1) } else { String::new() };
             let at = mesh.transform.first().map_or(span, |t| t.span);
@@ -145,7 +144,9 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
 fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
-        Placements::List(list) => list.iter().map(|steps: &Vec<Spanned<_>>| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect(),
+        Placements::List(list) => {
+            list.iter().map(|steps: &Vec<Spanned<_>>| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect()
+        }
         Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {
@@ -214,13 +215,18 @@ pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, 
         let maps = &placed.maps[object];
         let whole = assigned.of_object[object];
         let data = &loaded.files[variant.file];
-        let copies: usize =
-            variant_of_object.iter().zip(&placed.maps).filter(|(v, _)| **v == Some(variant)).map(|(_, m)| m.len()).sum();
+        let copies: usize = variant_of_object
+            .iter()
+            .zip(&placed.maps)
+            .filter(|(v, _)| **v == Some(variant))
+            .map(|(_, m)| m.len())
+            .sum();
         if copies == 1 {
             for map in maps {
                 // Subtract the centre before scaling: nothing is lost far away from the world's origin.
                 let world = DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre };
-                let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, &assigned.of_file[variant.file]);
+                let mesh =
+                    built.add_mesh(data, variant.smooth, &world, frame.scale, whole, &assigned.of_file[variant.file]);
                 built.instances.push(Instance { mesh, material: whole, placement: None });
             }
             continue;
@@ -328,14 +334,20 @@ impl Built {
             let first = t.normals.len();
             // Inverse transpose; turned along when the map mirrors, because the outside stays outside.
             let inverse = map.matrix3.inverse().transpose();
-            t.normals.par_extend(normals.par_iter().map(|n| {
-                (inverse * DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()
-            }));
+            t.normals.par_extend(
+                normals
+                    .par_iter()
+                    .map(|n| (inverse * DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()),
+            );
             t.normal_indices.resize(first_triangle as usize, [NONE; 3]);
             // A triangle with a corner that has no normal is flat.
-            t.normal_indices.par_extend(indices.par_iter().map(|n| {
-                if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
-            }));
+            t.normal_indices.par_extend(
+                indices.par_iter().map(
+                    |n| {
+                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+                    },
+                ),
+            );
         } else if !t.normal_indices.is_empty() {
             t.normal_indices.resize(t.vertices.len(), [NONE; 3]);
         }
@@ -345,9 +357,13 @@ impl Built {
             t.uvs.extend_from_slice(&data.uvs);
             t.uv_indices.resize(first_triangle as usize, [NONE; 3]);
             let indices = data.uv_triangles.as_ref().unwrap_or(&data.triangles);
-            t.uv_indices.par_extend(indices.par_iter().map(|n| {
-                if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
-            }));
+            t.uv_indices.par_extend(
+                indices.par_iter().map(
+                    |n| {
+                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+                    },
+                ),
+            );
         } else if !t.uv_indices.is_empty() {
             t.uv_indices.resize(t.vertices.len(), [NONE; 3]);
         }

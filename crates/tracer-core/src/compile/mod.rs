@@ -6,13 +6,13 @@ mod placing;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sphere, SphereTable,
-    Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sphere, SphereTable, Tables,
+    TextureTable,
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
-use scene_format::diagnostic::Span;
 use scene_format::desc::{Acceleration, Emission, Object, PixelFilter, SphereLight};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
 

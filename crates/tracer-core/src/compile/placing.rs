@@ -6,11 +6,7 @@ use scene_format::diagnostic::Spanned;
 
 /// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along. `lowest` gives the
 /// smallest y of the vertices under a map (asked only by `DropTo`).
-pub fn place(
-    transforms: &[Spanned<Transform>],
-    barycentre: DVec3,
-    lowest: &dyn Fn(&DAffine3) -> f64,
-) -> DAffine3 {
+pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
         let here = |about: Option<[f64; 3]>, map: &DAffine3| {

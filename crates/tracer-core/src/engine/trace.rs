@@ -66,7 +66,8 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
 
 /// Which shadow rays the tree blocks, of those that no sphere has blocked.
 fn occluded_in_tree(accel: &Accel, batch: &mut Batch) {
-    let (shadows, len) = (&mut batch.shadows, batch.shadows.len);
+    let len = batch.shadows.len;
+    let shadows = &mut batch.shadows;
     batch.active.clear();
     batch.active.extend((0..len as u32).filter(|&i| shadows.occluded[i as usize] == 0));
     let mut occlusion = Occlusion {

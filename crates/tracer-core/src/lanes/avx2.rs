@@ -159,8 +159,7 @@ impl Bits for U8 {
             let low = _mm256_set1_epi8(0x0f);
             let table =
                 _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
-            let swap =
-                _mm256_broadcastsi128_si256(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+            let swap = _mm256_broadcastsi128_si256(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
             let a = _mm256_shuffle_epi8(table, _mm256_and_si256(self.0, low));
             let b = _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32::<4>(self.0), low));
             U8(_mm256_shuffle_epi8(_mm256_or_si256(_mm256_slli_epi32::<4>(a), b), swap))

@@ -58,11 +58,7 @@ impl<F: Lanes> V3<F> {
     /// Cross product; each component is fma(a, b, -(c * d)).
     #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
-        V3(
-            self.1.fma(o.2, -(self.2 * o.1)),
-            self.2.fma(o.0, -(self.0 * o.2)),
-            self.0.fma(o.1, -(self.1 * o.0)),
-        )
+        V3(self.1.fma(o.2, -(self.2 * o.1)), self.2.fma(o.0, -(self.0 * o.2)), self.0.fma(o.1, -(self.1 * o.0)))
     }
     /// Negative.
     #[inline(always)]

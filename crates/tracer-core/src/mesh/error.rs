@@ -57,7 +57,8 @@ impl MeshError {
         match self {
             MeshError::File(error) => error.to_diagnostic(span),
             MeshError::UnknownFormat { path } => {
-                let packed = path.extension().is_some_and(|e| ["gz", "zip", "xz", "bz2", "zst"].iter().any(|p| e == *p));
+                let packed =
+                    path.extension().is_some_and(|e| ["gz", "zip", "xz", "bz2", "zst"].iter().any(|p| e == *p));
                 let hint = if packed { "unpack the file first" } else { "export the mesh as OBJ or OFF" };
                 Diagnostic::error("E0502", span, self.to_string())
                     .expected("a mesh file that ends in `.obj` or `.off`")

@@ -159,7 +159,9 @@ mod tests {
             .collect();
         let triangles: Vec<[u32; 3]> = (0..side)
             .flat_map(|y| (0..side).map(move |x| y * (side + 1) + x))
-            .flat_map(|corner| [[corner, corner + 1, corner + side + 2], [corner, corner + side + 2, corner + side + 1]])
+            .flat_map(|corner| {
+                [[corner, corner + 1, corner + side + 2], [corner, corner + side + 2, corner + side + 1]]
+            })
             .collect();
         let with_threads = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");

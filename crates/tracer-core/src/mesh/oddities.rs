@@ -65,9 +65,13 @@ impl Oddity {
             Oddity::LineElement => ["line (`l`)", "lines (`l`)", "left out"],
             Oddity::PointElement => ["point element (`p`)", "point elements (`p`)", "left out"],
             Oddity::MissingNormals => ["triangle without vertex normals", "triangles without vertex normals", "kept"],
-            Oddity::MissingUvs => ["triangle without texture coordinates", "triangles without texture coordinates", "kept"],
+            Oddity::MissingUvs => {
+                ["triangle without texture coordinates", "triangles without texture coordinates", "kept"]
+            }
             Oddity::ZeroNormal => ["vertex normal of length zero", "vertex normals of length zero", "ignored"],
-            Oddity::UnusedNormals => ["vertex normal that no face names", "vertex normals that no face names", "ignored"],
+            Oddity::UnusedNormals => {
+                ["vertex normal that no face names", "vertex normals that no face names", "ignored"]
+            }
             Oddity::UnusedUvs => {
                 ["texture coordinate that no face names", "texture coordinates that no face names", "ignored"]
             }

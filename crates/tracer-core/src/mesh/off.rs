@@ -169,10 +169,9 @@ impl Reader<'_> {
         self.expect_end_of_line(EXPECTED)?;
         // The last line may lack its line break.
         let room = self.cursor.rest().len() as u64 + 1;
-        for (at, count, shortest, what) in [
-            (vertices_at, vertices, SHORTEST_VERTEX, "vertices"),
-            (faces_at, faces, SHORTEST_FACE, "faces"),
-        ] {
+        for (at, count, shortest, what) in
+            [(vertices_at, vertices, SHORTEST_VERTEX, "vertices"), (faces_at, faces, SHORTEST_FACE, "faces")]
+        {
             if count > room / shortest {
                 let message = format!("the header promises {count} {what}, but the file is too short for them");
                 let expected = format!("at most {} {what} in the {} bytes that follow", room / shortest, room - 1);

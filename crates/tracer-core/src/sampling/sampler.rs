@@ -84,13 +84,7 @@ impl Pair {
     pub fn new(seed: u32, purpose: Purpose) -> Self {
         let a = hash3(seed, purpose.id(), 0x5ca1_ab1e);
         let b = hash3(seed, purpose.id(), 0x0ddc_0ffe);
-        Pair {
-            purpose,
-            seed,
-            pixel_key: a as u32,
-            owen_x: b as u32,
-            owen_y: (b >> 32) as u32,
-        }
+        Pair { purpose, seed, pixel_key: a as u32, owen_x: b as u32, owen_y: (b >> 32) as u32 }
     }
 
     /// The part that depends on the block and the sample index.

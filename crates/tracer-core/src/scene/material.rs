@@ -94,9 +94,13 @@ impl MaterialTable {
         let mut rows: Vec<Row> = materials
             .iter()
             .map(|m| match *m {
-                Material::Diffuse { albedo } => {
-                    Row { kind: kind::DIFFUSE, color: color(albedo), parameter: 0.0, specular: 0.0, texture: texture(albedo) }
-                }
+                Material::Diffuse { albedo } => Row {
+                    kind: kind::DIFFUSE,
+                    color: color(albedo),
+                    parameter: 0.0,
+                    specular: 0.0,
+                    texture: texture(albedo),
+                },
                 Material::Mirror { reflectance } => {
                     Row { kind: kind::MIRROR, color: reflectance, parameter: 0.0, specular: 0.0, texture: 0 }
                 }

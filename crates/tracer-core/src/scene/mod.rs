@@ -15,8 +15,8 @@ pub use camera::{Camera, Filter};
 pub use frame::Frame;
 pub use light::Light;
 pub(crate) use light::LightTable;
-pub(crate) use material::{MaterialTable, kind};
 pub use material::{Albedo, Material};
+pub(crate) use material::{MaterialTable, kind};
 pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
@@ -83,6 +83,15 @@ pub(crate) struct Tables {
 /// Pads a look-up table: 16 and 32 entries are looked up by a permutation of registers, and no table may be empty.
 pub(crate) fn padded(mut table: Vec<f32>) -> Vec<f32> {
     let n = table.len();
-    table.resize(if n <= 16 { 16 } else if n <= 32 { 32 } else { n }, 0.0);
+    table.resize(
+        if n <= 16 {
+            16
+        } else if n <= 32 {
+            32
+        } else {
+            n
+        },
+        0.0,
+    );
     table
 }

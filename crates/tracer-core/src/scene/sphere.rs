@@ -96,7 +96,10 @@ impl SphereTable {
             n: [0, 1, 2].map(|a| column(&|s| s.n[a])),
             k: column(&|s| s.k),
             material: padded(
-                spheres.iter().map(|s| (if s.light == super::NONE { s.material } else { emitter_material }) as f32).collect(),
+                spheres
+                    .iter()
+                    .map(|s| (if s.light == super::NONE { s.material } else { emitter_material }) as f32)
+                    .collect(),
             ),
             light: padded(spheres.iter().map(|s| s.light.wrapping_add(1) as f32).collect()),
             len: spheres.len() as u32,

@@ -99,10 +99,15 @@ fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
         _ => false,
     };
     let texels = match picture {
-        DynamicImage::ImageLumaA16(_) | DynamicImage::ImageLuma16(_) | DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => {
+        DynamicImage::ImageLumaA16(_)
+        | DynamicImage::ImageLuma16(_)
+        | DynamicImage::ImageRgb16(_)
+        | DynamicImage::ImageRgba16(_) => {
             let table = srgb::linear_of_srgb16();
             let picture = picture.into_rgb16();
-            Texels::Linear(picture.as_raw().par_chunks_exact(3).map(|p| [0, 1, 2].map(|c| table[usize::from(p[c])])).collect())
+            Texels::Linear(
+                picture.as_raw().par_chunks_exact(3).map(|p| [0, 1, 2].map(|c| table[usize::from(p[c])])).collect(),
+            )
         }
         other => {
             let picture = other.into_rgb8();

@@ -36,8 +36,11 @@ impl<F: Lanes> Bsdf<F> {
         let none = F::M::from_bits(0);
         let kind = F::gather(&table.kind, material).to_int();
         let is = |k: u32| if table.kinds >> k & 1 == 1 { valid & kind.eq(F::U::splat(k)) } else { none };
-        let color =
-            V3(F::gather(&table.color[0], material), F::gather(&table.color[1], material), F::gather(&table.color[2], material));
+        let color = V3(
+            F::gather(&table.color[0], material),
+            F::gather(&table.color[1], material),
+            F::gather(&table.color[2], material),
+        );
         let (transparent, conserving) = (is(kind::TRANSPARENT), is(kind::BLINN_PHONG_CONSERVING));
         let glossy = is(kind::BLINN_PHONG) | conserving;
         let (mut parameter, mut specular) = (F::splat(1.0), F::splat(0.0));
@@ -45,7 +48,16 @@ impl<F: Lanes> Bsdf<F> {
             parameter = F::gather(&table.parameter, material);
             specular = F::gather(&table.specular, material);
         }
-        Bsdf { color, parameter, specular, diffuse: is(kind::DIFFUSE), mirror: is(kind::MIRROR), transparent, glossy, conserving }
+        Bsdf {
+            color,
+            parameter,
+            specular,
+            diffuse: is(kind::DIFFUSE),
+            mirror: is(kind::MIRROR),
+            transparent,
+            glossy,
+            conserving,
+        }
     }
 
     /// Probability that the glossy lobe is sampled: its share of the reflected light at normal incidence, where the report's

@@ -181,8 +181,7 @@ fn on_triangles<F: Lanes>(
     let b = barycentrics(origin, direction, corner);
     let p = corner[0].scale(b[0]).add(corner[1].scale(b[1])).add(corner[2].scale(b[2]));
     // pbrt 4, 6.8.4: |error| <= gamma(7) (|b0 v0| + |b1 v1| + |b2 v2|) per axis, gamma(n) = n e/(1 - n e), e = 2^-24.
-    let magnitude =
-        |k: usize| V3((corner[k].0 * b[k]).abs(), (corner[k].1 * b[k]).abs(), (corner[k].2 * b[k]).abs());
+    let magnitude = |k: usize| V3((corner[k].0 * b[k]).abs(), (corner[k].1 * b[k]).abs(), (corner[k].2 * b[k]).abs());
     let error = magnitude(0).add(magnitude(1)).add(magnitude(2)).scale(c(7.0 * 5.960_465e-8));
     let edge_normal = corner[1].sub(corner[0]).cross(corner[2].sub(corner[0]));
     let n = V3::select(mirrored, edge_normal.neg(), edge_normal).normalise();
@@ -203,8 +202,7 @@ fn on_triangles<F: Lanes>(
             if placed {
                 normal = [placement.normal(normal[0]), placement.normal(normal[1]), placement.normal(normal[2])];
             }
-            let interpolated =
-                normal[0].scale(b[0]).add(normal[1].scale(b[1])).add(normal[2].scale(b[2]));
+            let interpolated = normal[0].scale(b[0]).add(normal[1].scale(b[1])).add(normal[2].scale(b[2]));
             // Normals that cancel out say nothing: the triangle's own.
             let length2 = interpolated.dot(interpolated);
             smooth = smooth & c(1e-12).lt(length2);
@@ -246,19 +244,7 @@ fn on_triangles<F: Lanes>(
         let whole = F::U::gather(&instances.material, instance);
         material = F::U::select(transformed & !whole.eq(F::U::splat(NONE)), whole, material);
     }
-    Surface {
-        p,
-        start,
-        ng,
-        ns,
-        outside,
-        smooth,
-        offset,
-        u,
-        v,
-        material,
-        light: F::U::splat(0),
-    }
+    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light: F::U::splat(0) }
 }
 
 /// The matrix of an instance: rows of its linear part, and the translation.

@@ -42,8 +42,15 @@ enum Attribute {
 /// A face that cannot be had.
 enum BadFace {
     /// An index of something that does not exist.
-    Index { face: usize, corner: usize, attribute: Attribute },
-    TooIntricate { face: usize, corners: usize },
+    Index {
+        face: usize,
+        corner: usize,
+        attribute: Attribute,
+    },
+    TooIntricate {
+        face: usize,
+        corners: usize,
+    },
 }
 
 /// From a face on, this material.
@@ -238,11 +245,17 @@ impl Lookup<'_> {
             resolve(&piece.corners[range.clone()], before.positions, self.total.positions, &mut corners)
                 .map_err(|corner| BadFace::Index { face, corner, attribute: Attribute::Position })?;
             let raw = piece.uv_corners.get(range.clone()).unwrap_or_default();
-            resolve(raw, before.uvs, self.total.uvs, &mut uvs)
-                .map_err(|corner| BadFace::Index { face, corner, attribute: Attribute::Uv })?;
+            resolve(raw, before.uvs, self.total.uvs, &mut uvs).map_err(|corner| BadFace::Index {
+                face,
+                corner,
+                attribute: Attribute::Uv,
+            })?;
             let raw = piece.normal_corners.get(range).unwrap_or_default();
-            resolve(raw, before.normals, self.total.normals, &mut normals)
-                .map_err(|corner| BadFace::Index { face, corner, attribute: Attribute::Normal })?;
+            resolve(raw, before.normals, self.total.normals, &mut normals).map_err(|corner| BadFace::Index {
+                face,
+                corner,
+                attribute: Attribute::Normal,
+            })?;
 
             let position = |&corner: &u32| self.positions[corner as usize];
             let triangles = match corners[..] {
@@ -306,7 +319,12 @@ struct Indexed<T> {
 }
 
 /// Drops values that no corner names, and indices that are those of the positions.
-fn without_needless_indices<T>(values: Vec<T>, own: Vec<[u32; 3]>, shared: &[[u32; 3]], positions: usize) -> Indexed<T> {
+fn without_needless_indices<T>(
+    values: Vec<T>,
+    own: Vec<[u32; 3]>,
+    shared: &[[u32; 3]],
+    positions: usize,
+) -> Indexed<T> {
     if own.as_flattened().iter().all(|&index| index == NO_INDEX) {
         Indexed { values: Vec::new(), triangles: None }
     } else if values.len() == positions && own == shared {

@@ -11,7 +11,8 @@ const MOST_CORNERS: usize = 1 << 24;
 const VERTEX: &str = "a vertex: `v x y z`, possibly with a weight or a colour (3, 4, 6 or 7 numbers)";
 const UV: &str = "texture coordinates: `vt u v` (1 to 3 numbers)";
 const NORMAL: &str = "a vertex normal: `vn x y z`";
-const FACE: &str = "a face of 3 or more corners: `f 1 2 3`, `f 1/1 2/2 3/3`, `f 1//1 2//2 3//3` or `f 1/1/1 2/2/2 3/3/3`";
+const FACE: &str =
+    "a face of 3 or more corners: `f 1 2 3`, `f 1/1 2/2 3/3`, `f 1//1 2//2 3//3` or `f 1/1/1 2/2/2 3/3/3`";
 
 pub(super) const OBJ_BLANKS: Blanks = Blanks { comma: false, continuation: true };
 
