@@ -1,1 +1,3 @@
 //! x
+pub mod mesh;
+pub mod texture;
