@@ -1,8 +1,8 @@
 //! Cutting polygons into triangles.
 //!
 //! Convex polygons (and all that are star-shaped around their first corner) become the fan that every program makes.
-//! Others are cut by ear clipping (Meisters, "Polygons have ears", 1975) in the plane of Newell's normal, projected by
-//! leaving out the normal's largest coordinate, so that corners on one line stay on one line. Corners that are not
+//! Others are cut by ear clipping (Meisters, "Polygons have ears", 1975) in the plane of Newell's normal; a
+//! bent quadrilateral along the diagonal that folds it less. Corners that are not
 //! strictly convex are kept in a grid, and only those near an ear are tested against it. Corners on a straight edge are
 //! kept as corners of triangles, so that no gap opens against the neighbouring face.
 
@@ -43,6 +43,10 @@ fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
@@ -69,6 +73,14 @@ struct Turn {
     corner: u32,
     /// Counts the corner's turns; this one is void when it got a later one.
     number: u32,
+}
+
+/// What became of a quadrilateral.
+#[derive(PartialEq)]
+enum Quadrilateral {
+    Cut,
+    /// Both diagonals leave triangles that face apart.
+    Unclear,
 }
 
 /// How much an ear must look like one to be cut off, strictest first.
@@ -98,7 +110,7 @@ impl PolygonCutter {
             if self.project() {
                 if self.is_fan() {
                     (1..count as u32 - 1).for_each(|corner| self.emit([0, corner, corner + 1]));
-                } else {
+                } else if count > 4 || self.cut_quadrilateral() == Quadrilateral::Unclear {
                     crossing = self.clip_ears()?;
                 }
             } else {
@@ -116,8 +128,9 @@ impl PolygonCutter {
         }
     }
 
-    /// Projects the corners so that the polygon runs counter-clockwise; `false` when it has no normal.
+    /// Projects the corners along Newell's normal so that the polygon runs counter-clockwise; `false` when it has none.
     fn project(&mut self) -> bool {
+        // From the first corner, so that a polygon far away keeps its digits.
         let origin = self.corners[0];
         let mut normal = [0.0; 3];
         let mut from = [0.0; 3];
@@ -129,22 +142,45 @@ impl PolygonCutter {
             }
             from = to;
         }
-        let mut largest = 0;
-        for axis in 1..3 {
-            if normal[axis].abs() > normal[largest].abs() {
-                largest = axis;
-            }
-        }
-        if normal[largest] == 0.0 {
+        let length = dot(normal, normal).sqrt();
+        if length == 0.0 {
             return false;
         }
-        let (mut u, mut v) = ((largest + 1) % 3, (largest + 2) % 3);
-        if normal[largest] < 0.0 {
-            std::mem::swap(&mut u, &mut v);
-        }
+        let normal = normal.map(|part| part / length);
+        let mut across = [0.0; 3];
+        let smallest =
+            (0..3).fold(0, |least, axis| if normal[axis].abs() < normal[least].abs() { axis } else { least });
+        across[smallest] = 1.0;
+        let v = cross(normal, across);
+        let length = dot(v, v).sqrt();
+        let v = v.map(|part| part / length);
+        let u = cross(v, normal);
         self.flat.clear();
-        self.flat.extend(self.corners.iter().map(|corner| [corner[u], corner[v]]));
+        self.flat.extend(self.corners.iter().map(|&corner| {
+            let from_origin = difference(corner, origin);
+            [dot(from_origin, u), dot(from_origin, v)]
+        }));
         true
+    }
+
+    /// Cuts a quadrilateral that is bent, or whose fan is not clear, along the diagonal with the smaller fold.
+    fn cut_quadrilateral(&mut self) -> Quadrilateral {
+        let fold = |[a, b, c, d]: [usize; 4]| {
+            let [first, second] = [[a, b, c], [a, c, d]].map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| self.corners[corner]);
+                cross(difference(b, a), difference(c, a))
+            });
+            let lengths = dot(first, first).sqrt() * dot(second, second).sqrt();
+            // The cosine of the angle between the triangles; a triangle without area is no good half.
+            if lengths > 0.0 { dot(first, second) / lengths } else { 0.0 }
+        };
+        let (first, second) = (fold([0, 1, 2, 3]), fold([1, 2, 3, 0]));
+        if first.max(second) <= 0.0 {
+            return Quadrilateral::Unclear;
+        }
+        let halves = if first >= second { [[0, 1, 2], [0, 2, 3]] } else { [[1, 2, 3], [1, 3, 0]] };
+        halves.into_iter().for_each(|half| self.emit(half));
+        Quadrilateral::Cut
     }
 
     /// Twice the signed area of a projected triangle.
@@ -156,11 +192,16 @@ impl PolygonCutter {
     /// Whether the corner `b` between `a` and `c` turns clearly to the inside: by more than rounded coordinates of a
     /// straight edge do.
     fn is_clearly_convex(&self, a: u32, b: u32, c: u32) -> bool {
+        self.area(a, b, c) > 1e-6 * self.longest_squared(a, b, c)
+    }
+
+    /// The square of a projected triangle's longest edge.
+    fn longest_squared(&self, a: u32, b: u32, c: u32) -> f64 {
         let squared = |p: u32, q: u32| {
             let (p, q) = (self.flat[p as usize], self.flat[q as usize]);
             (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
         };
-        self.area(a, b, c) > 1e-6 * squared(a, b).max(squared(b, c)).max(squared(c, a))
+        squared(a, b).max(squared(b, c)).max(squared(c, a))
     }
 
     /// Whether the fan around the first corner covers the polygon with well-shaped triangles that do not overlap: they
@@ -278,13 +319,15 @@ impl PolygonCutter {
     /// holes pass twice through the ends of the bridge to the hole).
     fn is_blocked(&mut self, a: u32, b: u32, c: u32) -> bool {
         let points = [a, b, c].map(|corner| self.flat[corner as usize]);
+        // A corner on the border is there only up to rounding.
+        let rounding = -1e-12 * self.longest_squared(a, b, c);
         let search = self.grid.any_near(points, |blocker| {
             let point = self.flat[blocker as usize];
             self.alive[blocker as usize]
                 && !points.contains(&point)
-                && self.area(a, b, blocker) >= 0.0
-                && self.area(b, c, blocker) >= 0.0
-                && self.area(c, a, blocker) >= 0.0
+                && self.area(a, b, blocker) >= rounding
+                && self.area(b, c, blocker) >= rounding
+                && self.area(c, a, blocker) >= rounding
         });
         self.tests += search.cost;
         search.found
