@@ -88,10 +88,6 @@ impl<'a> Cursor<'a> {
         self.text.get(self.at).copied()
     }
 
-    pub(super) fn is_at_end_of_text(&self) -> bool {
-        self.at >= self.text.len()
-    }
-
     /// Bytes from here on.
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.text[self.at..]

@@ -152,6 +152,20 @@ fn tilted_and_far_polygons_are_cut_as_well() {
 }
 
 #[test]
+fn bent_quadrilaterals_are_cut_along_the_smaller_fold() {
+    let mut cutter = PolygonCutter::default();
+    // A concave one, bent; and a strip so twisted that its halves nearly stand at right angles (cosines of the folds: 0.05
+    // along 0 2, -0.01 along 1 3).
+    let concave = [[0.0, 0.0, 0.0], [1.0, 0.4, 0.3], [2.0, 0.0, 0.0], [1.0, 2.0, 0.0]];
+    let twisted = [[0.0, 0.0, 0.0], [10.0, 0.0, 1.0], [9.0, 0.1, -1.0], [0.0, 1.0, 0.0]];
+    for (corners, expected) in [(concave, [[1, 2, 3], [1, 3, 0]]), (twisted, [[0, 1, 2], [0, 2, 3]])] {
+        let cut = cutter.cut(corners.into_iter()).expect("cut");
+        assert!(!cut.crossing);
+        assert_eq!(cut.triangles, expected, "{corners:?}");
+    }
+}
+
+#[test]
 fn polygons_without_area_have_no_triangles() {
     let mut cutter = PolygonCutter::default();
     for corners in [
