@@ -8,22 +8,33 @@
 #![forbid(unsafe_code)]
 
 pub mod codes;
+mod convert;
 pub mod desc;
 pub mod diagnostic;
+mod examples;
 mod form;
+mod json_schema;
 mod load;
 mod overrides;
+mod print;
 mod read;
+mod reference;
 pub mod render;
 mod schema;
 mod suggest;
 mod syntax;
 mod tree;
 mod words;
+mod write;
 
 pub use codes::explain;
+pub use convert::convert;
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use examples::{Example, ExampleFile, examples};
+pub use json_schema::schema;
 pub use load::{LoadError, Loaded, MAX_FILE_BYTES, load, load_bytes, load_str, load_with};
 pub use overrides::Override;
+pub use reference::{diagnostics_reference, reference};
 pub use syntax::Syntax;
+pub use write::{Defaults, hash, hash_hex, to_ron, to_text, to_toml};

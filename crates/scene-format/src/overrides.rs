@@ -5,7 +5,7 @@ use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::read::shortened;
-use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef};
+use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax, ron, span};
 use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
@@ -414,17 +414,6 @@ impl Setter {
 
     fn fault(&self, code: &'static str, step: &Step<'_>, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(code, span(self.source, step.start, step.end), message)
-    }
-}
-
-/// Whether a value is written as this kind is.
-fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
-    let compound = matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some();
-    match kind {
-        Type::Text | Type::File => item.kind() == Kind::Text,
-        Type::Enum(_) | Type::Struct(_) => compound,
-        Type::List(_) => item.kind() == Kind::List,
-        _ => !compound && item.kind() != Kind::Text,
     }
 }
 

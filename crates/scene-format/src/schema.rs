@@ -2,6 +2,7 @@
 //! comments; the reader, the writer, the JSON Schema and the reference all go by it.
 
 use crate::form::Form;
+use crate::tree::{Item, Kind};
 
 /// What a value of the language is.
 #[derive(Clone, Copy, Debug)]
@@ -219,4 +220,20 @@ impl Range {
             format!("from {} to {}", self.low, self.high)
         }
     }
+}
+
+/// Whether a value is written as this kind is.
+pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
+    let compound = matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some();
+    match kind {
+        Type::Text | Type::File => item.kind() == Kind::Text,
+        Type::Enum(_) | Type::Struct(_) => compound,
+        Type::List(_) => item.kind() == Kind::List,
+        _ => !compound && item.kind() != Kind::Text,
+    }
+}
+
+/// Doc comments as one paragraph.
+pub(crate) fn prose(doc: &[&str]) -> String {
+    doc.iter().map(|line| line.trim()).collect::<Vec<&str>>().join(" ")
 }

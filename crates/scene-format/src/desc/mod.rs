@@ -13,11 +13,14 @@ mod object;
 mod transform;
 mod view;
 
+pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
 pub use light::{Emission, Light, SphereLight};
+pub(crate) use material::Pattern;
 pub use material::{Albedo, Material, MaterialRef, NamedMaterial, Texture, TextureFilter, TextureWrap};
 pub use object::{Mesh, Object, Placements, Shading, Sphere};
 pub use transform::Transform;
+pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Image, Render};
 
 use crate::diagnostic::{Source, Spanned};

@@ -100,6 +100,15 @@ impl Words for Transform {
             Transform::Rotate { axis, degrees, about } => TransformWords::Rotate { axis, degrees, about },
             Transform::DropTo { y } => TransformWords::DropTo { y },
         };
-        words.form(all)
+        let mut form = words.form(all);
+        // Scale(2) says the same as Scale(factor: 2).
+        if let Form::Variant { name: "Scale", content: Some(content) } = &mut form
+            && let Form::Struct { fields, .. } = &mut **content
+            && fields.len() == 1
+            && let Some(only) = fields.pop()
+        {
+            **content = only.value;
+        }
+        form
     }
 }

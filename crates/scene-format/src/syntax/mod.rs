@@ -9,6 +9,7 @@ mod toml_literal;
 mod toml_tables;
 
 use crate::diagnostic::{Diagnostic, Span};
+use crate::tree::Kind;
 use std::path::Path;
 
 /// Brackets inside brackets deeper than this are refused, so that no file can overflow the stack.
@@ -89,6 +90,11 @@ impl Sink {
             );
         }
     }
+}
+
+/// Whether TOML reads this lexeme as a number.
+pub(crate) fn is_toml_number(lexeme: &str) -> bool {
+    matches!(toml_literal::scalar_kind(lexeme), Some(Kind::Integer | Kind::Float))
 }
 
 /// A span of `usize` bytes in source `source`.

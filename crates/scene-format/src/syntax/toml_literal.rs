@@ -131,7 +131,7 @@ impl Parser<'_> {
 }
 
 /// Whether a lexeme is a value in TOML, and of which kind.
-fn scalar_kind(lexeme: &str) -> Option<Kind> {
+pub(super) fn scalar_kind(lexeme: &str) -> Option<Kind> {
     match lexeme {
         "true" | "false" => return Some(Kind::Bool),
         "inf" | "+inf" | "-inf" | "nan" | "+nan" | "-nan" => return Some(Kind::Float),
