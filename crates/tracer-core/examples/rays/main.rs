@@ -1,0 +1,76 @@
+//! How fast the tree is: million rays a second, one thread, for each set of rays, level and mode.
+//!
+//! `cargo run --release -p tracer-core --example rays -- [room | field | FILE.obj] [TRIANGLES] [SIZE]`
+//!
+//! Times of one run on a shared machine say little: compare within a run.
+
+mod sets;
+
+use sets::{Answers, build, field, load, room, sets, trace};
+use std::path::Path;
+use std::time::Instant;
+use tracer_core::bvh::{Acceleration, Coherence, Level};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut words = std::env::args().skip(1);
+    let what = words.next().unwrap_or_else(|| "room".to_string());
+    let triangles: usize = words.next().map_or(Ok(70_000), |word| word.parse())?;
+    let size: usize = words.next().map_or(Ok(512), |word| word.parse())?;
+    let scene = match what.as_str() {
+        "room" => room(triangles),
+        "field" => field(triangles),
+        path => load(Path::new(path))?,
+    };
+    let accel = build(&scene, Acceleration::Bvh);
+    let stats = accel.stats();
+    println!(
+        "{what}: {} triangles; built in {:.3} s ({:.2} M triangles/s), {:.1} bytes a triangle, {} nodes, {} leaves ({:.2} full), depth {}",
+        stats.triangles,
+        stats.seconds,
+        stats.triangles as f64 / stats.seconds / 1e6,
+        stats.bytes as f64 / stats.triangles as f64,
+        stats.nodes,
+        stats.leaves,
+        stats.triangles as f64 / stats.leaves as f64,
+        stats.depth,
+    );
+    let mut sets = sets(&scene, &accel, size);
+    println!("{:18} {:>9} {:>10} {:>13} {:>9}", "set", "rays", "level", "coherence", "Mrays/s");
+    let mut accel = accel;
+    for set in &mut sets {
+        let mut answers = Answers::new(set);
+        for coherence in [Coherence::Incoherent, Coherence::Coherent] {
+            set.coherence = coherence;
+            for level in Level::supported() {
+                accel = accel.with_level(level);
+                let mut best = f64::INFINITY;
+                for _ in 0..5 {
+                    let start = Instant::now();
+                    trace(&accel, set, &mut answers);
+                    best = best.min(start.elapsed().as_secs_f64());
+                }
+                let speed = set.len() as f64 / best / 1e6;
+                println!(
+                    "{:18} {:>9} {:>10} {:>13} {speed:>9.2}",
+                    set.name,
+                    set.len(),
+                    level.name(),
+                    format!("{coherence:?}")
+                );
+            }
+        }
+    }
+    if triangles <= 10_000 {
+        for mode in [Acceleration::None, Acceleration::BoundingBox] {
+            let accel = build(&scene, mode);
+            for set in &sets {
+                let mut answers = Answers::new(set);
+                let start = Instant::now();
+                trace(&accel, set, &mut answers);
+                let speed = set.len() as f64 / start.elapsed().as_secs_f64() / 1e6;
+                println!("{:18} {:>9} {mode:?} {speed:.4}", set.name, set.len());
+            }
+        }
+    }
+    Ok(())
+}

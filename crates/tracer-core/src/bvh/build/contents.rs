@@ -1,0 +1,195 @@
+//! What the leaves hold: triangles gathered from meshes, spheres, and the boxes of instances.
+
+use super::super::bounds::Bounds;
+use super::super::geometry::{Geometry, MeshGeometry, NONE, SphereGeometry};
+use super::super::layout::{Ref, Spheres4, Triangles4, Unit};
+use super::super::ray_space::{PAD, RANGE};
+use super::BuildError;
+use super::binary::Item;
+use super::wide::WriteLeaves;
+use glam::{Affine3A, DMat3, DVec3, Vec4};
+use rayon::prelude::*;
+
+/// The lists that a tree's leaves refer into, in the order of the leaves.
+#[derive(Default)]
+pub(crate) struct Contents<'a> {
+    pub triangles: Triangles<'a>,
+    pub spheres: Spheres<'a>,
+    pub instances: Instances,
+    /// The box of everything.
+    pub bounds: Bounds,
+}
+
+#[derive(Default)]
+pub(crate) struct Triangles<'a> {
+    pub list: TriangleList<'a>,
+    pub order: Vec<u32>,
+}
+
+#[derive(Default)]
+pub(crate) struct Spheres<'a> {
+    pub list: &'a [SphereGeometry],
+    pub order: Vec<u32>,
+}
+
+#[derive(Default)]
+pub(crate) struct Instances {
+    pub order: Vec<u32>,
+}
+
+impl WriteLeaves for Contents<'_> {
+    fn triangles(&self, first: u32, count: u32, units: &mut [Unit]) {
+        let order = &self.triangles.order[first as usize..(first + count) as usize];
+        let mut leaf = Triangles4 { vertices: [[[0.0; 4]; 3]; 3], ids: [NONE; 4] };
+        for place in 0..4 {
+            // What is left over is one point of the first triangle three times: without area, never hit.
+            let (vertices, id) = match order.get(place) {
+                Some(&index) => self.triangles.list.triangle(index),
+                None => ([self.triangles.list.triangle(order[0]).0[0]; 3], NONE),
+            };
+            for (vertex, position) in vertices.into_iter().enumerate() {
+                for (axis, coordinate) in position.into_iter().enumerate() {
+                    leaf.vertices[vertex][axis][place] = coordinate;
+                }
+            }
+            leaf.ids[place] = id;
+        }
+        units.copy_from_slice(bytemuck::cast_slice(&[leaf]));
+    }
+
+    fn spheres(&self, first: u32, count: u32, units: &mut [Unit]) {
+        let order = &self.spheres.order[first as usize..(first + count) as usize];
+        let nan = [f32::NAN; 4];
+        let mut leaf = Spheres4 { anchor: [nan; 3], normal: [nan; 3], curvature: nan, ids: [NONE; 4] };
+        for (place, &index) in order.iter().enumerate() {
+            let sphere = &self.spheres.list[index as usize];
+            for axis in 0..3 {
+                leaf.anchor[axis][place] = sphere.anchor[axis];
+                leaf.normal[axis][place] = sphere.normal[axis];
+            }
+            leaf.curvature[place] = sphere.curvature;
+            leaf.ids[place] = index;
+        }
+        units.copy_from_slice(bytemuck::cast_slice(&[leaf]));
+    }
+
+    fn instance(&self, first: u32) -> Ref {
+        Ref(Ref::INSTANCE | self.instances.order[first as usize])
+    }
+}
+
+/// The triangles of several meshes, numbered through.
+#[derive(Default)]
+pub(crate) struct TriangleList<'a> {
+    meshes: Vec<MeshGeometry<'a>>,
+    /// The indices of `meshes` in the geometry.
+    indices: Vec<u32>,
+    /// The number of each mesh's first triangle.
+    starts: Vec<u32>,
+    count: u32,
+}
+
+impl<'a> TriangleList<'a> {
+    /// Meshes have fewer than 2^32 triangles in all: their primitive ids have been checked.
+    pub(crate) fn new(geometry: &Geometry<'a>, indices: &[u32]) -> Self {
+        let meshes: Vec<_> = indices.iter().map(|&index| geometry.meshes[index as usize]).collect();
+        let mut count = 0;
+        let starts = meshes
+            .iter()
+            .map(|mesh| {
+                count += mesh.triangles.len() as u32;
+                count - mesh.triangles.len() as u32
+            })
+            .collect();
+        Self { meshes, indices: indices.to_vec(), starts, count }
+    }
+
+    pub(crate) fn start_of(&self, part: usize) -> u32 {
+        self.starts[part]
+    }
+
+    fn place(&self, index: u32) -> (usize, usize) {
+        let part = self.starts.partition_point(|&start| start <= index) - 1;
+        (part, (index - self.starts[part]) as usize)
+    }
+
+    /// The corners and the primitive id of a triangle whose indices have been checked.
+    fn triangle(&self, index: u32) -> ([[f32; 3]; 3], u32) {
+        let (part, triangle) = self.place(index);
+        let mesh = &self.meshes[part];
+        let vertices = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize]);
+        (vertices, mesh.first_primitive + triangle as u32)
+    }
+
+    /// The triangles to build a tree from, and the box of them all. Triangles with a corner that is not finite, or
+    /// beyond the range of the arithmetic, are left out: nothing can hit them.
+    pub(crate) fn items(&self) -> Result<(Vec<Item>, Bounds), BuildError> {
+        let one = |index: u32| {
+            let (part, triangle) = self.place(index);
+            let mesh = &self.meshes[part];
+            let mut bounds = Bounds::EMPTY;
+            for vertex in mesh.triangles[triangle] {
+                let Some(&[x, y, z]) = mesh.positions.get(vertex as usize) else {
+                    let vertices = mesh.positions.len();
+                    return Err(BuildError::Vertex {
+                        mesh: self.indices[part],
+                        triangle: triangle as u32,
+                        vertex,
+                        vertices,
+                    });
+                };
+                let position = Vec4::new(x, y, z, 0.0);
+                if !position.abs().cmple(Vec4::splat(RANGE)).all() {
+                    return Ok(None);
+                }
+                bounds.include_point(position);
+            }
+            // The same widening as in the triangle test (`padded_box`), so that this is the very box of that test.
+            let pad = PAD * bounds.upper.max(-bounds.lower).max_element();
+            bounds = Bounds { lower: bounds.lower - Vec4::splat(pad), upper: bounds.upper + Vec4::splat(pad) };
+            Ok(Some(Item::new(&bounds, index)))
+        };
+        let items: Vec<Option<Item>> = (0..self.count).into_par_iter().map(one).collect::<Result<_, _>>()?;
+        let items: Vec<Item> = items.into_iter().flatten().collect();
+        let bounds = items.par_iter().map(Item::bounds).reduce(
+            || Bounds::EMPTY,
+            |mut a, b| {
+                a.include(&b);
+                a
+            },
+        );
+        Ok((items, bounds))
+    }
+}
+
+/// The world box of a placed mesh, wide enough for the rounding of everything that happens in its object space; `None`
+/// where the placement is of no use.
+///
+/// The corners go through the inverse, in f64, of the very matrix that rays go through, so that the two do not
+/// disagree. A ray's point there is off by 2^-21 of the terms of its transformation and by 2^-18 of the mesh's reach
+/// in its box and triangle tests (see [`RaySpace`](super::super::ray_space)); taken to the world, that is the padding.
+pub(crate) fn instance_bounds(object_from_world: &Affine3A, mesh: &Bounds) -> Option<Bounds> {
+    let rows = object_from_world.matrix3.to_cols_array().map(f64::from);
+    let inverse = DMat3::from_cols_array(&rows);
+    let translation = object_from_world.translation.as_dvec3();
+    let matrix = inverse.inverse();
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { mesh.lower[axis] } else { mesh.upper[axis] };
+        let point = matrix * (DVec3::new(f64::from(pick(0)), f64::from(pick(1)), f64::from(pick(2))) - translation);
+        lower = lower.min(point);
+        upper = upper.max(point);
+    }
+    let farthest = lower.abs().max(upper.abs()) + (upper - lower);
+    let reach = mesh.lower.abs().max(mesh.upper.abs()).truncate().max_element();
+    let terms = abs(&inverse) * farthest + translation.abs();
+    let error = terms / 2_097_152.0 + DVec3::splat(f64::from(reach) / 262_144.0);
+    let pad = abs(&matrix) * error + farthest / 2_097_152.0;
+    let (lower, upper) = ((lower - pad).as_vec3(), (upper + pad).as_vec3());
+    let useful = lower.abs().max(upper.abs()).cmple(glam::Vec3::splat(RANGE)).all();
+    useful.then(|| Bounds::new(lower.to_array(), upper.to_array()))
+}
+
+fn abs(m: &DMat3) -> DMat3 {
+    DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
+}

@@ -1,0 +1,308 @@
+//! Building an [`Accel`]: one binary tree for each mesh that is placed somewhere, one for everything in the world.
+//!
+//! Triangles of meshes whose positions are in render space already are in the world's tree together, however many
+//! meshes there are, so that overlapping meshes do not overlap as trees.
+
+mod binary;
+mod contents;
+mod wide;
+
+use super::arena::Arena;
+use super::bounds::Bounds;
+use super::geometry::{Geometry, InstanceGeometry, NONE, Placement};
+use super::kernels::{DEEPEST, Level, MeshRecord};
+use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref};
+use super::{Accel, AccelStats, Acceleration};
+use binary::{BinaryNode, BinaryTree, Item, Kind, join};
+use contents::{Contents, TriangleList, instance_bounds};
+use glam::Affine3A;
+use rayon::prelude::*;
+use std::time::Instant;
+use wide::Plan;
+
+/// Why an [`Accel`] cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// A triangle refers to a vertex that is not there.
+    #[error("mesh {mesh}, triangle {triangle}: it refers to vertex {vertex}, but there are {vertices} vertices")]
+    Vertex {
+        /// Index of the mesh.
+        mesh: u32,
+        /// Index of the triangle.
+        triangle: u32,
+        /// The vertex referred to.
+        vertex: u32,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// An instance refers to a mesh that is not there.
+    #[error("instance {instance}: it refers to mesh {mesh}, but there are {meshes} meshes")]
+    Mesh {
+        /// Index of the instance.
+        instance: u32,
+        /// The mesh referred to.
+        mesh: u32,
+        /// How many there are.
+        meshes: usize,
+    },
+    /// The primitive ids of meshes and spheres overlap or do not rise.
+    #[error("mesh {mesh}: its primitive ids start at {first}, but those before it reach to {taken}")]
+    Ids {
+        /// Index of the mesh.
+        mesh: u32,
+        /// Its first id.
+        first: u32,
+        /// One past the last id before it.
+        taken: u64,
+    },
+    /// An instance is flattened, not finite, or out of range.
+    #[error("instance {instance}: its placement has no inverse, or is beyond the range of single precision")]
+    Placement {
+        /// Index of the instance.
+        instance: u32,
+    },
+    /// More than the references of the tree can count.
+    #[error("the scene needs {bytes} bytes of acceleration structure; {most} is the most that there can be")]
+    TooLarge {
+        /// Bytes needed.
+        bytes: u64,
+        /// Bytes possible.
+        most: u64,
+    },
+    /// The system has no memory left.
+    #[error("no memory for {bytes} bytes of acceleration structure: {reason}")]
+    Memory {
+        /// Bytes asked for.
+        bytes: u64,
+        /// What the system said.
+        reason: String,
+    },
+}
+
+/// A tree to be laid out: its binary nodes, and what its leaves hold.
+struct Tree<'a> {
+    nodes: Vec<BinaryNode>,
+    contents: Contents<'a>,
+}
+
+pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<Accel, BuildError> {
+    let start = Instant::now();
+    check(geometry)?;
+    let mut direct = vec![NONE; geometry.meshes.len()];
+    let mut placed = vec![false; geometry.meshes.len()];
+    let mut placements = vec![None; geometry.instances.len()];
+    for (index, instance) in geometry.instances.iter().enumerate() {
+        let mesh = instance.mesh as usize;
+        match instance.placement {
+            // A mesh can be in the world's tree once; a second one in the same place is an instance like any other.
+            None if direct[mesh] == NONE => direct[mesh] = index as u32,
+            _ => {
+                placed[mesh] = true;
+                placements[index] = Some(placement_of(instance));
+            }
+        }
+    }
+
+    let mesh_trees: Vec<Option<Tree>> = (0..geometry.meshes.len())
+        .into_par_iter()
+        .map(|mesh| {
+            placed[mesh].then(|| triangle_tree(TriangleList::new(geometry, &[mesh as u32]), acceleration)).transpose()
+        })
+        .collect::<Result<_, _>>()?;
+    let mut meshes: Vec<MeshRecord> = Vec::with_capacity(geometry.meshes.len());
+    for (mesh, data) in geometry.meshes.iter().enumerate() {
+        let first_primitive = data.first_primitive;
+        meshes.push(MeshRecord { first_primitive, direct_instance: direct[mesh], root: Ref::END.0 });
+    }
+
+    let (records, boxes) = instance_records(geometry, &placements, &mesh_trees)?;
+    let world = world_tree(geometry, &direct, &boxes, acceleration)?;
+
+    let trees: Vec<&Tree> = mesh_trees.iter().flatten().chain([&world]).collect();
+    let plans: Vec<Plan> = trees.par_iter().map(|tree| Plan::new(&tree.nodes, &tree.contents)).collect();
+    let record_units = records.len() as u64 * u64::from(INSTANCE_UNITS);
+    let units = plans.iter().fold(record_units, |sum, plan| sum + u64::from(plan.units));
+    let most = u64::from(Ref::LIMIT);
+    if units > most || records.len() as u64 > most {
+        return Err(BuildError::TooLarge { bytes: units * 32, most: most * 32 });
+    }
+    let mut arena = Arena::new(units as usize)
+        .map_err(|error| BuildError::Memory { bytes: units * 32, reason: error.to_string() })?;
+    let (record_part, mut rest) = arena.units_mut().split_at_mut(record_units as usize);
+    record_part.copy_from_slice(bytemuck::cast_slice(&records));
+    let mut at = record_units as u32;
+    let mut parts = Vec::with_capacity(trees.len());
+    let mut roots = Vec::with_capacity(trees.len());
+    for (tree, plan) in trees.iter().zip(&plans) {
+        let (part, after) = rest.split_at_mut(plan.units as usize);
+        roots.push(plan.root(&tree.nodes, at));
+        parts.push((tree, plan, at, part));
+        at += plan.units;
+        rest = after;
+    }
+    parts.into_par_iter().for_each(|(tree, plan, at, part)| plan.write(&tree.nodes, &tree.contents, at, part));
+
+    let mut placed_meshes = mesh_trees.iter().enumerate().filter(|(_, tree)| tree.is_some()).map(|(mesh, _)| mesh);
+    let mut root = Ref::END;
+    for reference in roots {
+        match placed_meshes.next() {
+            Some(mesh) => meshes[mesh].root = reference.0,
+            None => root = reference,
+        }
+    }
+    let world_plan = plans.last();
+    let below = plans[..plans.len() - 1].iter().map(|plan| plan.depth).max().unwrap_or(0);
+    let depth = world_plan.map_or(0, |plan| plan.depth) + below;
+    // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
+    assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
+    let table_bytes = meshes.len() * size_of::<MeshRecord>();
+    let stats = AccelStats {
+        triangles: trees.iter().map(|tree| tree.contents.triangles.order.len() as u64).sum(),
+        spheres: world.contents.spheres.order.len() as u64,
+        instances: world.contents.instances.order.len() as u64,
+        nodes: plans.iter().map(|plan| plan.nodes).sum(),
+        leaves: plans.iter().map(|plan| plan.leaves).sum(),
+        depth,
+        bytes: (arena.bytes() + table_bytes) as u64,
+        seconds: start.elapsed().as_secs_f64(),
+    };
+    Ok(Accel {
+        arena,
+        root,
+        meshes,
+        spheres: geometry.spheres.len() as u32,
+        instances: records.len() as u32,
+        level: Level::best(),
+        stats,
+    })
+}
+
+fn check(geometry: &Geometry) -> Result<(), BuildError> {
+    let mut taken = geometry.spheres.len() as u64;
+    for (mesh, data) in geometry.meshes.iter().enumerate() {
+        // The two largest words are no ids.
+        let end = u64::from(data.first_primitive) + data.triangles.len() as u64;
+        if u64::from(data.first_primitive) < taken || end > u64::from(u32::MAX) - 1 {
+            return Err(BuildError::Ids { mesh: mesh as u32, first: data.first_primitive, taken });
+        }
+        taken = end;
+    }
+    let meshes = geometry.meshes.len();
+    match geometry.instances.iter().position(|instance| instance.mesh as usize >= meshes) {
+        Some(at) => Err(BuildError::Mesh { instance: at as u32, mesh: geometry.instances[at].mesh, meshes }),
+        None => Ok(()),
+    }
+}
+
+fn placement_of(instance: &InstanceGeometry) -> Placement {
+    let identity = Placement { world_from_object: Affine3A::IDENTITY, object_from_world: Affine3A::IDENTITY };
+    instance.placement.unwrap_or(identity)
+}
+
+/// The tree over the triangles of some meshes.
+fn triangle_tree(triangles: TriangleList, acceleration: Acceleration) -> Result<Tree, BuildError> {
+    let (items, bounds) = triangles.items()?;
+    let tree = match acceleration {
+        Acceleration::Bvh => BinaryTree::build(items, Kind::Triangles, 4),
+        Acceleration::None | Acceleration::BoundingBox => BinaryTree::in_given_order(&items, Kind::Triangles, 4),
+    };
+    let mut contents = Contents { bounds, ..Contents::default() };
+    contents.triangles.list = triangles;
+    contents.triangles.order = tree.order;
+    Ok(Tree { nodes: tree.nodes, contents })
+}
+
+type Instances = (Vec<InstanceRecord>, Vec<Option<Bounds>>);
+
+/// The records of all instances, and the world boxes of those that are placed and not empty.
+fn instance_records(
+    geometry: &Geometry,
+    placements: &[Option<Placement>],
+    trees: &[Option<Tree>],
+) -> Result<Instances, BuildError> {
+    let one = |(index, instance): (usize, &InstanceGeometry)| {
+        let mut record = InstanceRecord { object_from_world: [[0.0; 4]; 3], center: [0.0; 3], mesh: instance.mesh };
+        let Some(placement) = placements[index] else {
+            record.mesh |= InstanceRecord::DIRECT;
+            return Ok((record, None));
+        };
+        let mesh = instance.mesh as usize;
+        let Some(tree) = trees[mesh].as_ref().filter(|tree| !tree.nodes.is_empty()) else { return Ok((record, None)) };
+        let bounds = instance_bounds(&placement.object_from_world, &tree.contents.bounds)
+            .ok_or(BuildError::Placement { instance: index as u32 })?;
+        let m = placement.object_from_world;
+        let (columns, t) = (m.matrix3, m.translation);
+        record.object_from_world =
+            std::array::from_fn(|row| [columns.x_axis[row], columns.y_axis[row], columns.z_axis[row], t[row]]);
+        record.center = ((bounds.lower + bounds.upper) * 0.5).truncate().to_array();
+        Ok((record, Some(bounds)))
+    };
+    let both: Result<Vec<_>, BuildError> = geometry.instances.par_iter().enumerate().map(one).collect();
+    Ok(both?.into_iter().unzip())
+}
+
+/// The tree over spheres, the triangles that are in the world already, and placed instances.
+fn world_tree<'a>(
+    geometry: &Geometry<'a>,
+    direct: &[u32],
+    boxes: &[Option<Bounds>],
+    acceleration: Acceleration,
+) -> Result<Tree<'a>, BuildError> {
+    let direct: Vec<u32> = (0..direct.len()).filter(|&mesh| direct[mesh] != NONE).map(|mesh| mesh as u32).collect();
+    let triangles = TriangleList::new(geometry, &direct);
+    let mut world = match acceleration {
+        Acceleration::BoundingBox => boxed_meshes(geometry, triangles, &direct)?,
+        _ => triangle_tree(triangles, acceleration)?,
+    };
+    let sphere_items: Vec<Item> = (0u32..)
+        .zip(geometry.spheres)
+        .filter(|(_, sphere)| sphere.lower.iter().chain(&sphere.upper).all(|x| x.is_finite()))
+        .map(|(index, sphere)| Item::new(&Bounds::new(sphere.lower, sphere.upper), index))
+        .collect();
+    let instance_items: Vec<Item> =
+        (0u32..).zip(boxes).filter_map(|(index, bounds)| Some(Item::new(bounds.as_ref()?, index))).collect();
+    for item in sphere_items.iter().chain(&instance_items) {
+        world.contents.bounds.include(&item.bounds());
+    }
+    let (spheres, instances) = match acceleration {
+        Acceleration::Bvh => {
+            (BinaryTree::build(sphere_items, Kind::Spheres, 4), BinaryTree::build(instance_items, Kind::Instance, 1))
+        }
+        _ => {
+            let mut instances = BinaryTree::in_given_order(&instance_items, Kind::Instance, 1);
+            if acceleration == Acceleration::BoundingBox {
+                instances.restore_leaf_bounds(&instance_items);
+            }
+            (BinaryTree::in_given_order(&sphere_items, Kind::Spheres, 4), instances)
+        }
+    };
+    world.contents.spheres.list = geometry.spheres;
+    world.contents.spheres.order = spheres.order;
+    world.contents.instances.order = instances.order;
+    world.nodes = join(vec![world.nodes, spheres.nodes, instances.nodes]);
+    Ok(world)
+}
+
+/// A tree of one box for each mesh, with all its triangles in boxes that leave nothing out.
+fn boxed_meshes<'a>(
+    geometry: &Geometry<'a>,
+    triangles: TriangleList<'a>,
+    meshes: &[u32],
+) -> Result<Tree<'a>, BuildError> {
+    let mut trees = Vec::with_capacity(meshes.len());
+    let mut order = Vec::new();
+    let mut all = Bounds::EMPTY;
+    for (part, &mesh) in meshes.iter().enumerate() {
+        let (items, bounds) = TriangleList::new(geometry, &[mesh]).items()?;
+        let mut tree = BinaryTree::in_given_order(&items, Kind::Triangles, 4);
+        tree.start_at(order.len() as u32);
+        tree.seal(bounds);
+        all.include(&bounds);
+        order.extend(tree.order.iter().map(|index| index + triangles.start_of(part)));
+        trees.push(tree.nodes);
+    }
+    let mut contents = Contents { bounds: all, ..Contents::default() };
+    contents.triangles.list = triangles;
+    contents.triangles.order = order;
+    Ok(Tree { nodes: join(trees), contents })
+}

@@ -1,0 +1,84 @@
+//! What the tree needs to know of a scene: positions, placements and spheres, all in render space.
+//!
+//! Render space is the world moved and scaled so that the scene is about 1 in size; every length here is an f32 in it.
+
+use glam::{Affine3A, DVec3};
+
+/// No primitive, or no instance: rays that leave no surface, spheres (which belong to no instance), and misses.
+pub const NONE: u32 = u32::MAX;
+
+/// The whole geometry, borrowed while an [`Accel`](super::Accel) is built from it.
+#[derive(Clone, Copy, Default)]
+pub struct Geometry<'a> {
+    /// Sphere `i` is primitive `i`.
+    pub spheres: &'a [SphereGeometry],
+    /// Every mesh once, however often it is placed.
+    pub meshes: &'a [MeshGeometry<'a>],
+    /// Where the meshes stand. A mesh without an instance is not in the scene.
+    pub instances: &'a [InstanceGeometry],
+}
+
+/// A triangle mesh. Triangle `k` is primitive `first_primitive + k` in every instance of the mesh.
+#[derive(Clone, Copy)]
+pub struct MeshGeometry<'a> {
+    /// Vertex positions, in object space (render space where the mesh is placed directly).
+    pub positions: &'a [[f32; 3]],
+    /// Three indices into `positions` for each triangle.
+    pub triangles: &'a [[u32; 3]],
+    /// The id of triangle 0. The id ranges of meshes and spheres must not overlap, and meshes come in rising order.
+    pub first_primitive: u32,
+}
+
+/// One mesh in the scene.
+#[derive(Clone, Copy)]
+pub struct InstanceGeometry {
+    /// Index into [`Geometry::meshes`].
+    pub mesh: u32,
+    /// How the mesh is placed; `None` where its positions are in render space already.
+    pub placement: Option<Placement>,
+}
+
+/// An affine placement and its inverse.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    /// Object space to render space.
+    pub world_from_object: Affine3A,
+    /// Render space to object space: the one that rays are taken through.
+    pub object_from_world: Affine3A,
+}
+
+/// A sphere, described at one point of its surface so that nothing of the size of its radius enters the arithmetic.
+///
+/// With g = p − `anchor`, the surface is `curvature`·g·g + 2 `normal`·g = 0 (see [`sphere_hit`](super::sphere_hit)).
+#[derive(Clone, Copy, Debug)]
+pub struct SphereGeometry {
+    /// The point of the surface nearest to the origin of render space, the scene's middle.
+    pub anchor: [f32; 3],
+    /// The outward unit normal at the anchor.
+    pub normal: [f32; 3],
+    /// 1 / radius.
+    pub curvature: f32,
+    /// A box that holds the sphere, rounding included: lower corner.
+    pub lower: [f32; 3],
+    /// A box that holds the sphere, rounding included: upper corner.
+    pub upper: [f32; 3],
+}
+
+impl SphereGeometry {
+    /// The sphere about `center`, in render space. The anchor is found in f64 and then rounded.
+    pub fn new(center: DVec3, radius: f64) -> Self {
+        let distance = center.length();
+        let normal = if distance > 0.0 { -center / distance } else { DVec3::X };
+        let anchor = center + normal * radius;
+        // The stored anchor and normal are rounded, which moves the sphere by about radius * 2^-24, and the roots
+        // are good to some 2^-20 of the radius across the ray; 2^-17 leaves room.
+        let reach = radius * (1.0 + 1.0 / 131_072.0) + (center.abs().max_element() + radius) / 1_048_576.0;
+        Self {
+            anchor: anchor.as_vec3().to_array(),
+            normal: normal.as_vec3().to_array(),
+            curvature: (1.0 / radius) as f32,
+            lower: (center - reach).as_vec3().to_array(),
+            upper: (center + reach).as_vec3().to_array(),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Leaf tests: one ray against four triangles or four spheres. The formulas are those of [`triangle`](super::super::triangle)
+//! and [`sphere`](super::super::sphere), operation by operation.
+
+use super::super::layout::{Spheres4, Triangles4};
+use super::super::ray_space::{PAD, RaySpace};
+use super::isa::Isa;
+
+/// Candidates of a leaf: bit i of `mask` set where `t[i]` is a hit in (0, limit].
+pub(crate) struct LeafHits {
+    pub mask: u32,
+    pub t: [f32; 4],
+}
+
+/// The triangles of `leaf` that the ray meets at 0 < t <= `limit`, but for those whose bits are set in `skip`.
+#[inline(always)]
+pub(crate) fn triangles4<I: Isa>(
+    isa: I,
+    leaf: &Triangles4,
+    ray: &RaySpace,
+    tmin: f32,
+    limit: f32,
+    skip: u32,
+) -> Option<LeafHits> {
+    let [x, y, z] = ray.axes;
+    let (sx, sy) = (isa.splat4(ray.shear[0]), isa.splat4(ray.shear[1]));
+    let (ox, oy, oz) =
+        (isa.splat4(ray.shear_origin[0]), isa.splat4(ray.shear_origin[1]), isa.splat4(ray.shear_origin[2]));
+    let (az, bz, cz) =
+        (isa.sub4(row(isa, leaf, 0, z), oz), isa.sub4(row(isa, leaf, 1, z), oz), isa.sub4(row(isa, leaf, 2, z), oz));
+    let ax = isa.fnmadd4(sx, az, isa.sub4(row(isa, leaf, 0, x), ox));
+    let ay = isa.fnmadd4(sy, az, isa.sub4(row(isa, leaf, 0, y), oy));
+    let bx = isa.fnmadd4(sx, bz, isa.sub4(row(isa, leaf, 1, x), ox));
+    let by = isa.fnmadd4(sy, bz, isa.sub4(row(isa, leaf, 1, y), oy));
+    let cx = isa.fnmadd4(sx, cz, isa.sub4(row(isa, leaf, 2, x), ox));
+    let cy = isa.fnmadd4(sy, cz, isa.sub4(row(isa, leaf, 2, y), oy));
+    let u = isa.sub4(isa.mul4(cx, by), isa.mul4(cy, bx));
+    let v = isa.sub4(isa.mul4(ax, cy), isa.mul4(ay, cx));
+    let w = isa.sub4(isa.mul4(bx, ay), isa.mul4(by, ax));
+    let zero = isa.splat4(0.0);
+    // Vertices and rays are finite and within range, so no product overflows and nothing here is NaN.
+    let least = isa.min4(isa.min4(u, v), w);
+    let most = isa.max4(isa.max4(u, v), w);
+    let det = isa.add4(isa.add4(u, v), w);
+    let inside = isa.le4(zero, least) | isa.le4(most, zero);
+    let solid = isa.lt4(zero, det) | isa.lt4(det, zero);
+    let mask = inside & solid & !skip;
+    if mask == 0 {
+        return None;
+    }
+    let distance = isa.fmadd4(u, az, isa.fmadd4(v, bz, isa.mul4(w, cz)));
+    let t = isa.mul4(isa.div4(distance, det), isa.splat4(ray.shear[2]));
+    let (mut lower, mut upper) = ([zero; 3], [zero; 3]);
+    for axis in 0..3 {
+        let (a, b, c) = (row(isa, leaf, 0, axis), row(isa, leaf, 1, axis), row(isa, leaf, 2, axis));
+        lower[axis as usize] = isa.min4(isa.min4(a, b), c);
+        upper[axis as usize] = isa.max4(isa.max4(a, b), c);
+    }
+    let largest_x = isa.max4(upper[0], isa.neg4(lower[0]));
+    let largest_y = isa.max4(upper[1], isa.neg4(lower[1]));
+    let largest_z = isa.max4(upper[2], isa.neg4(lower[2]));
+    let pad = isa.mul4(isa.splat4(PAD), isa.max4(isa.max4(largest_x, largest_y), largest_z));
+    let (mut near, mut far) = (isa.splat4(f32::NEG_INFINITY), isa.splat4(f32::INFINITY));
+    for axis in 0..3 {
+        let (lower, upper) = (isa.sub4(lower[axis], pad), isa.add4(upper[axis], pad));
+        let rd = isa.splat4(ray.rd[axis]);
+        let (enter, leave) = (isa.splat4(ray.near_offset[axis]), isa.splat4(ray.far_offset[axis]));
+        near = isa.max4(near, isa.min4(isa.fmsub4(lower, rd, enter), isa.fmsub4(upper, rd, enter)));
+        far = isa.min4(far, isa.max4(isa.fmsub4(lower, rd, leave), isa.fmsub4(upper, rd, leave)));
+    }
+    let t = isa.sub4(isa.min4(isa.max4(t, near), far), isa.splat4(tmin));
+    let mask = mask & isa.le4(near, far) & isa.lt4(zero, t) & isa.le4(t, isa.splat4(limit));
+    if mask == 0 {
+        return None;
+    }
+    Some(LeafHits { mask, t: isa.array4(t) })
+}
+
+/// The spheres of `leaf` that the ray meets at 0 < t <= `limit`. `from` is the primitive that the ray leaves.
+#[inline(always)]
+pub(crate) fn spheres4<I: Isa>(
+    isa: I,
+    leaf: &Spheres4,
+    origin: [f32; 3],
+    direction: [f32; 3],
+    from: u32,
+    limit: f32,
+) -> Option<LeafHits> {
+    // SAFETY: the rows of a leaf are aligned to 16 bytes.
+    let ids = unsafe { isa.load_words4(leaf.ids.as_ptr()) };
+    let from = isa.splat_words4(from);
+    let (dx, dy, dz) = (isa.splat4(direction[0]), isa.splat4(direction[1]), isa.splat4(direction[2]));
+    let (nx, ny, nz) = (load(isa, &leaf.normal[0]), load(isa, &leaf.normal[1]), load(isa, &leaf.normal[2]));
+    let k = load(isa, &leaf.curvature);
+    let dd = dot(isa, dx, dy, dz, dx, dy, dz);
+    let idd = isa.div4(isa.splat4(1.0), dd);
+    let gx = isa.sub4(isa.splat4(origin[0]), load(isa, &leaf.anchor[0]));
+    let gy = isa.sub4(isa.splat4(origin[1]), load(isa, &leaf.anchor[1]));
+    let gz = isa.sub4(isa.splat4(origin[2]), load(isa, &leaf.anchor[2]));
+    let s = isa.zero_where_eq4(ids, from, isa.neg4(isa.mul4(dot(isa, gx, gy, gz, dx, dy, dz), idd)));
+    let (gx, gy, gz) = (isa.fmadd4(s, dx, gx), isa.fmadd4(s, dy, gy), isa.fmadd4(s, dz, gz));
+    let beta = isa.fmadd4(k, dot(isa, gx, gy, gz, dx, dy, dz), dot(isa, nx, ny, nz, dx, dy, dz));
+    let twice = isa.mul4(isa.splat4(2.0), dot(isa, nx, ny, nz, gx, gy, gz));
+    let gamma = isa.zero_where_eq4(ids, from, isa.fmadd4(k, dot(isa, gx, gy, gz, gx, gy, gz), twice));
+    let a = isa.mul4(k, dd);
+    let disc = isa.fmadd4(beta, beta, isa.neg4(isa.mul4(a, gamma)));
+    let zero = isa.splat4(0.0);
+    let met = isa.le4(zero, disc);
+    if met == 0 {
+        return None;
+    }
+    let q = isa.neg4(isa.add4(beta, isa.copysign4(isa.sqrt4(disc), beta)));
+    let (u0, u1) = (isa.div4(gamma, q), isa.div4(q, a));
+    let (near, far) = (isa.add4(s, isa.min4(u0, u1)), isa.add4(s, isa.max4(u1, u0)));
+    let t = isa.where_gt4(near, zero, near, far);
+    let mask = met & isa.lt4(zero, t) & isa.le4(t, isa.splat4(limit)) & isa.lt4(t, isa.splat4(f32::INFINITY));
+    if mask == 0 {
+        return None;
+    }
+    Some(LeafHits { mask, t: isa.array4(t) })
+}
+
+/// One coordinate of one vertex of the four triangles.
+#[inline(always)]
+fn row<I: Isa>(isa: I, leaf: &Triangles4, vertex: usize, axis: u32) -> I::F4 {
+    debug_assert!(vertex < 3 && axis < 3);
+    // SAFETY: the rows of a leaf are aligned to 16 bytes, and there are three of three: callers pass literals or
+    // `RaySpace::axes`, which are below 3.
+    unsafe { isa.load4(leaf.vertices.as_ptr().cast::<[f32; 4]>().add(3 * vertex + axis as usize).cast()) }
+}
+
+#[inline(always)]
+fn load<I: Isa>(isa: I, row: &[f32; 4]) -> I::F4 {
+    // SAFETY: the rows of a leaf are aligned to 16 bytes.
+    unsafe { isa.load4(row.as_ptr()) }
+}
+
+#[inline(always)]
+fn dot<I: Isa>(isa: I, ax: I::F4, ay: I::F4, az: I::F4, bx: I::F4, by: I::F4, bz: I::F4) -> I::F4 {
+    isa.fmadd4(ax, bx, isa.fmadd4(ay, by, isa.mul4(az, bz)))
+}
+
+/// The bits of the four ids that equal `id` (`NONE` finds the unused places, which nothing hits anyway).
+#[inline(always)]
+pub(crate) fn places_of<I: Isa>(isa: I, ids: &[u32; 4], id: u32) -> u32 {
+    // SAFETY: the rows of a leaf are aligned to 16 bytes.
+    let ids = unsafe { isa.load_words4(ids.as_ptr()) };
+    isa.eq_words4(ids, isa.splat_words4(id))
+}

@@ -1,0 +1,188 @@
+//! The scalar twin of the vector instruction sets, and what processors without them run.
+
+use super::isa::Isa;
+use std::array::from_fn;
+
+/// Arrays and loops. Any processor has these.
+#[derive(Clone, Copy)]
+pub(crate) struct Portable;
+
+impl Isa for Portable {
+    type F8 = [f32; 8];
+    type U8 = [u32; 8];
+    type F4 = [f32; 4];
+    type U4 = [u32; 4];
+
+    #[inline(always)]
+    fn splat8(self, x: f32) -> [f32; 8] {
+        [x; 8]
+    }
+    #[inline(always)]
+    unsafe fn load8(self, p: *const f32) -> [f32; 8] {
+        // SAFETY: the caller's promise.
+        unsafe { p.cast::<[f32; 8]>().read() }
+    }
+    #[inline(always)]
+    unsafe fn load_any8(self, p: *const f32) -> [f32; 8] {
+        // SAFETY: the caller's promise.
+        unsafe { p.cast::<[f32; 8]>().read() }
+    }
+    #[inline(always)]
+    unsafe fn load_words8(self, p: *const u32) -> [u32; 8] {
+        // SAFETY: the caller's promise.
+        unsafe { p.cast::<[u32; 8]>().read() }
+    }
+    #[inline(always)]
+    fn fmsub8(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| a[i].mul_add(b[i], -c[i]))
+    }
+    #[inline(always)]
+    fn sub8(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| a[i] - b[i])
+    }
+    #[inline(always)]
+    fn min8(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| if a[i] < b[i] { a[i] } else { b[i] })
+    }
+    #[inline(always)]
+    fn max8(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| if a[i] > b[i] { a[i] } else { b[i] })
+    }
+    #[inline(always)]
+    fn le8(self, a: [f32; 8], b: [f32; 8]) -> u32 {
+        (0..8).fold(0, |mask, i| mask | (u32::from(a[i] <= b[i]) << i))
+    }
+    #[inline(always)]
+    fn where_le8(self, a: [f32; 8], b: [f32; 8], x: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| if a[i] <= b[i] { x[i] } else { f32::NAN })
+    }
+    #[inline(always)]
+    fn shift_right8(self, a: [u32; 8], bits: u32) -> [u32; 8] {
+        a.map(|x| x >> bits)
+    }
+    #[inline(always)]
+    fn permute8(self, a: [f32; 8], index: [u32; 8]) -> [f32; 8] {
+        index.map(|i| a[(i & 7) as usize])
+    }
+    #[inline(always)]
+    fn permute_words8(self, a: [u32; 8], index: [u32; 8]) -> [u32; 8] {
+        index.map(|i| a[(i & 7) as usize])
+    }
+    #[inline(always)]
+    unsafe fn compress_store8(self, mask: u32, a: [f32; 8], p: *mut f32) {
+        let mut to = p;
+        for (i, x) in a.into_iter().enumerate() {
+            if mask >> i & 1 == 1 {
+                // SAFETY: at most 8 floats are written from `p` on, which the caller promises to be writable.
+                unsafe {
+                    to.write(x);
+                    to = to.add(1);
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn compress_store_words8(self, mask: u32, a: [u32; 8], p: *mut u32) {
+        let mut to = p;
+        for (i, x) in a.into_iter().enumerate() {
+            if mask >> i & 1 == 1 {
+                // SAFETY: at most 8 words are written from `p` on, which the caller promises to be writable.
+                unsafe {
+                    to.write(x);
+                    to = to.add(1);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn splat4(self, x: f32) -> [f32; 4] {
+        [x; 4]
+    }
+    #[inline(always)]
+    fn splat_words4(self, x: u32) -> [u32; 4] {
+        [x; 4]
+    }
+    #[inline(always)]
+    unsafe fn load4(self, p: *const f32) -> [f32; 4] {
+        // SAFETY: the caller's promise.
+        unsafe { p.cast::<[f32; 4]>().read() }
+    }
+    #[inline(always)]
+    unsafe fn load_words4(self, p: *const u32) -> [u32; 4] {
+        // SAFETY: the caller's promise.
+        unsafe { p.cast::<[u32; 4]>().read() }
+    }
+    #[inline(always)]
+    fn array4(self, a: [f32; 4]) -> [f32; 4] {
+        a
+    }
+    #[inline(always)]
+    fn add4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i] + b[i])
+    }
+    #[inline(always)]
+    fn sub4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i] - b[i])
+    }
+    #[inline(always)]
+    fn mul4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i] * b[i])
+    }
+    #[inline(always)]
+    fn div4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i] / b[i])
+    }
+    #[inline(always)]
+    fn sqrt4(self, a: [f32; 4]) -> [f32; 4] {
+        a.map(f32::sqrt)
+    }
+    #[inline(always)]
+    fn fmadd4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i].mul_add(b[i], c[i]))
+    }
+    #[inline(always)]
+    fn fmsub4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i].mul_add(b[i], -c[i]))
+    }
+    #[inline(always)]
+    fn fnmadd4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| (-a[i]).mul_add(b[i], c[i]))
+    }
+    #[inline(always)]
+    fn min4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| if a[i] < b[i] { a[i] } else { b[i] })
+    }
+    #[inline(always)]
+    fn max4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| if a[i] > b[i] { a[i] } else { b[i] })
+    }
+    #[inline(always)]
+    fn neg4(self, a: [f32; 4]) -> [f32; 4] {
+        a.map(|x| -x)
+    }
+    #[inline(always)]
+    fn copysign4(self, a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| a[i].copysign(b[i]))
+    }
+    #[inline(always)]
+    fn le4(self, a: [f32; 4], b: [f32; 4]) -> u32 {
+        (0..4).fold(0, |mask, i| mask | (u32::from(a[i] <= b[i]) << i))
+    }
+    #[inline(always)]
+    fn lt4(self, a: [f32; 4], b: [f32; 4]) -> u32 {
+        (0..4).fold(0, |mask, i| mask | (u32::from(a[i] < b[i]) << i))
+    }
+    #[inline(always)]
+    fn eq_words4(self, a: [u32; 4], b: [u32; 4]) -> u32 {
+        (0..4).fold(0, |mask, i| mask | (u32::from(a[i] == b[i]) << i))
+    }
+    #[inline(always)]
+    fn where_gt4(self, a: [f32; 4], b: [f32; 4], x: [f32; 4], y: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| if a[i] > b[i] { x[i] } else { y[i] })
+    }
+    #[inline(always)]
+    fn zero_where_eq4(self, a: [u32; 4], b: [u32; 4], x: [f32; 4]) -> [f32; 4] {
+        from_fn(|i| if a[i] == b[i] { 0.0 } else { x[i] })
+    }
+}

@@ -1,0 +1,137 @@
+//! The bytes of the tree: nodes of eight boxes, leaves of four triangles or four spheres, instance records.
+//!
+//! Everything lies in one arena of 32-byte units (see [`arena`](super::arena)) and is referred to by [`Ref`], a word
+//! that says what it points to and where. Kernels read the arena through raw pointers, so the layout is `repr(C)`.
+
+use bytemuck::{Pod, Zeroable};
+
+/// The arena's grain: every item starts at a unit.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub(crate) struct Unit(pub [u32; 8]);
+
+/// Eight children, 256 bytes.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Node {
+    /// Lower and upper planes of the boxes: x lower, x upper, y lower, y upper, z lower, z upper; so that the near and
+    /// the far plane of an axis differ in one bit of the byte offset. A child that is not there has lower = +inf and
+    /// upper = −inf, which no ray is inside.
+    pub planes: [[f32; 8]; 6],
+    /// What is in the boxes.
+    pub children: [Ref; 8],
+    /// Word j, bits 3k to 3k + 2: the child that comes j-th, farthest first, for a ray of octant k.
+    pub order: [u32; 8],
+}
+
+/// Four triangles, 160 bytes. Places that are not used hold one point three times, which nothing hits, and
+/// the id `NONE`.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Triangles4 {
+    /// Vertex, axis, triangle.
+    pub vertices: [[[f32; 4]; 3]; 3],
+    /// Primitive ids.
+    pub ids: [u32; 4],
+}
+
+/// Four spheres, 128 bytes. Places that are not used have the id `NONE` and NaNs, which nothing hits.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Spheres4 {
+    /// Anchors: axis, sphere.
+    pub anchor: [[f32; 4]; 3],
+    /// Normals at the anchors: axis, sphere.
+    pub normal: [[f32; 4]; 3],
+    /// 1 / radius.
+    pub curvature: [f32; 4],
+    /// Primitive ids.
+    pub ids: [u32; 4],
+}
+
+/// How a ray enters an instance, 64 bytes.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct InstanceRecord {
+    /// Rows of the object-from-world matrix, the translation last. Unused where the mesh is placed directly.
+    pub object_from_world: [[f32; 4]; 3],
+    /// The middle of the instance's world box.
+    pub center: [f32; 3],
+    /// Index of the mesh; [`DIRECT`](Self::DIRECT) set where its triangles are part of the top tree.
+    pub mesh: u32,
+}
+
+impl InstanceRecord {
+    /// Flag in `mesh`.
+    pub(crate) const DIRECT: u32 = 1 << 31;
+
+    /// The ray in object space. Its origin is first moved along the ray to the point nearest to the instance's middle,
+    /// so that rays from far away lose no digits: a function of ray and instance alone.
+    #[inline(always)]
+    pub(crate) fn object_ray(&self, o: [f32; 3], d: [f32; 3]) -> ObjectRay {
+        let dot = |a: [f32; 3], b: [f32; 3]| a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]));
+        let c = self.center;
+        let t0 = dot([c[0] - o[0], c[1] - o[1], c[2] - o[2]], d) / dot(d, d);
+        let p = [t0.mul_add(d[0], o[0]), t0.mul_add(d[1], o[1]), t0.mul_add(d[2], o[2])];
+        let [x, y, z] = self.object_from_world;
+        let row = |m: [f32; 4], v: [f32; 3], w: f32| m[0].mul_add(v[0], m[1].mul_add(v[1], m[2].mul_add(v[2], w)));
+        ObjectRay {
+            origin: [row(x, p, x[3]), row(y, p, y[3]), row(z, p, z[3])],
+            direction: [row(x, d, 0.0), row(y, d, 0.0), row(z, d, 0.0)],
+            t0,
+        }
+    }
+}
+
+/// A ray in an instance's object space; its t counts from `t0` of the world's.
+pub(crate) struct ObjectRay {
+    pub origin: [f32; 3],
+    pub direction: [f32; 3],
+    pub t0: f32,
+}
+
+/// A typed reference: nodes `0…`, triangle leaves `10…`, sphere leaves `110…`, instances `111…` (in bits), the rest of
+/// the word being the unit (for instances, their index).
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub(crate) struct Ref(pub u32);
+
+impl Ref {
+    pub(crate) const TRIANGLES: u32 = 0x8000_0000;
+    pub(crate) const SPHERES: u32 = 0xC000_0000;
+    pub(crate) const INSTANCE: u32 = 0xE000_0000;
+    /// Units that every kind of reference can reach, and instances that can be told apart from the two marks below.
+    pub(crate) const LIMIT: u32 = 0x1FFF_FFFE;
+    /// Nothing: the bottom of a stack, the root of an empty tree, a missing child.
+    pub(crate) const END: Self = Self(u32::MAX);
+    /// On a stack: the ray leaves the instance it is in.
+    pub(crate) const LEAVE: Self = Self(u32::MAX - 1);
+
+    /// What is referred to. Marks have no kind of their own.
+    pub(crate) fn kind(self) -> Kind {
+        match self {
+            Self::END | Self::LEAVE => Kind::Nothing,
+            Self(word) if word < Self::TRIANGLES => Kind::Node(word as usize),
+            Self(word) if word < Self::SPHERES => Kind::Triangles((word & 0x3FFF_FFFF) as usize),
+            Self(word) if word < Self::INSTANCE => Kind::Spheres((word & 0x1FFF_FFFF) as usize),
+            Self(word) => Kind::Instance(word & 0x1FFF_FFFF),
+        }
+    }
+}
+
+/// A [`Ref`] taken apart: units, or the instance's index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Node(usize),
+    Triangles(usize),
+    Spheres(usize),
+    Instance(u32),
+    Nothing,
+}
+
+pub(crate) const NODE_UNITS: u32 = 8;
+pub(crate) const TRIANGLES_UNITS: u32 = 5;
+pub(crate) const SPHERES_UNITS: u32 = 4;
+pub(crate) const INSTANCE_UNITS: u32 = 2;
+/// Nodes start on cache lines.
+pub(crate) const LINE_UNITS: u32 = 2;

@@ -1,0 +1,291 @@
+//! The tree against brute force, on geometry and rays that are known to be trouble.
+
+mod bvh_support;
+
+use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build};
+use tracer_core::bvh::{Accel, Geometry, Level, NONE, triangle_hit};
+
+/// Closest of all triangles by the scalar formula; ties go to the smaller id.
+fn brute_force(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
+    let one = |ray: usize| {
+        let (origin, direction) = batch.ray(ray);
+        let mut best = MISS;
+        for triangle in 0..mesh.triangles.len() {
+            if batch.from_primitive[ray] == triangle as u32 {
+                continue;
+            }
+            if let Some(t) = triangle_hit(mesh.corners(triangle), origin, direction)
+                && t < best.t
+            {
+                best = Hit { t, primitive: triangle as u32, instance: 0 };
+            }
+        }
+        best
+    };
+    (0..batch.len()).map(one).collect()
+}
+
+/// Every mode, level and packing gives what brute force gives, to the bit; and what is hit is what blocks.
+fn check(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
+    let meshes = [mesh.geometry(0)];
+    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
+    let expected = brute_force(mesh, batch);
+    for mode in MODES {
+        let mut accel = build(&geometry, mode);
+        for level in Level::supported() {
+            accel = accel.with_level(level);
+            for coherence in COHERENCES {
+                let case = format!("{mode:?}, {}, {coherence:?}", level.name());
+                let found = batch.closest(&accel, coherence);
+                for ray in 0..batch.len() {
+                    assert_eq!(found[ray], expected[ray], "{case}, ray {ray}: {:?}", batch.ray(ray));
+                }
+                check_occlusion(&accel, batch, &expected, &case);
+            }
+        }
+    }
+    expected
+}
+
+/// Nothing blocks as far as the closest hit; something does just beyond it, unless it is the target.
+fn check_occlusion(accel: &Accel, batch: &Batch, closest: &[Hit], case: &str) {
+    for coherence in COHERENCES {
+        let nothing = vec![MISS; batch.len()];
+        let to: Vec<f32> = closest.iter().map(|hit| hit.t).collect();
+        assert!(batch.occluded(accel, &to, &nothing, coherence).iter().all(|&o| o == 0), "{case}");
+        let beyond: Vec<f32> = closest.iter().map(|hit| hit.t.next_up()).collect();
+        let blocked = batch.occluded(accel, &beyond, &nothing, coherence);
+        for ray in 0..batch.len() {
+            assert_eq!(blocked[ray] == 1, closest[ray].primitive != NONE, "{case}, ray {ray}");
+        }
+        // Where only one triangle is that near, and it is the light, the way is free.
+        let free = batch.occluded(accel, &beyond, closest, coherence);
+        let again: Vec<usize> = (0..batch.len()).filter(|&ray| free[ray] == 1).collect();
+        for ray in again {
+            let mut alone = Batch::default();
+            let (origin, direction) = batch.ray(ray);
+            alone.push_from(origin, direction, closest[ray].primitive, closest[ray].instance);
+            let next = alone.closest(accel, coherence)[0];
+            let left = batch.from_primitive[ray];
+            assert!(next.t == closest[ray].t || next.primitive == left, "{case}, ray {ray}: {next:?}");
+        }
+    }
+}
+
+#[test]
+fn nothing_at_all() {
+    let mut random = Random::new(1);
+    let batch = Batch::random(40, 1.0, &mut random);
+    assert!(check(&Mesh::default(), &batch).iter().all(|hit| *hit == MISS));
+}
+
+#[test]
+fn few_triangles() {
+    let mut random = Random::new(2);
+    for count in 1..=20 {
+        let mesh = Mesh::soup(count, 1.0, &mut random);
+        check(&mesh, &Batch::random(200, 2.0, &mut random));
+    }
+}
+
+#[test]
+fn soup() {
+    let mut random = Random::new(3);
+    let mesh = Mesh::soup(1000, 0.2, &mut random);
+    let hits = check(&mesh, &Batch::random(600, 1.5, &mut random));
+    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 300);
+}
+
+#[test]
+fn coincident_triangles_resolve_to_the_smallest_id() {
+    let mut random = Random::new(4);
+    let mut mesh = Mesh::soup(40, 0.7, &mut random);
+    for _ in 0..5 {
+        // The corners in the same order; turning them round would change the last bits of t.
+        mesh.triangles.extend_from_within(..40);
+    }
+    let hits = check(&mesh, &Batch::random(400, 1.0, &mut random));
+    assert!(hits.iter().all(|hit| hit.primitive == NONE || hit.primitive < 40));
+}
+
+#[test]
+fn coplanar_grid() {
+    let mut mesh = Mesh::default();
+    for y in 0..=20 {
+        for x in 0..=20 {
+            mesh.positions.push([x as f32 / 10.0 - 1.0, 0.25, y as f32 / 10.0 - 1.0]);
+        }
+    }
+    for y in 0..20 {
+        for x in 0..20 {
+            let a = y * 21 + x;
+            mesh.triangles.extend([[a, a + 1, a + 21], [a + 1, a + 22, a + 21]]);
+        }
+    }
+    let mut random = Random::new(5);
+    let mut batch = Batch::random(500, 1.0, &mut random);
+    // Straight down onto vertices, edges and middles; along the plane; from within the plane.
+    for i in 0..=40 {
+        for j in 0..=40 {
+            batch.push([i as f32 / 20.0 - 1.0, 1.0, j as f32 / 20.0 - 1.0], [0.0, -1.0, 0.0]);
+        }
+        batch.push([-2.0, 0.25, i as f32 / 20.0 - 1.0], [1.0, 0.0, 0.0]);
+        batch.push([i as f32 / 20.0 - 1.0, 0.25, 0.1], [0.0, 1.0, 0.0]);
+    }
+    let hits = check(&mesh, &batch);
+    let down = &hits[500..];
+    for (ray, hit) in down.iter().enumerate() {
+        let straight = batch.direction[1][500 + ray] == -1.0;
+        assert_eq!(hit.primitive != NONE, straight, "{:?}", batch.ray(500 + ray));
+        assert!(!straight || (hit.t - 0.75).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn degenerate_triangles_are_not_hit() {
+    let mut mesh = Mesh::soup(10, 0.5, &mut Random::new(6));
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend([
+        [0.1, 0.2, 0.3],
+        [0.4, 0.5, 0.6],
+        [0.7, 0.8, 0.9],
+        [f32::NAN, 0.0, 0.0],
+        [f32::INFINITY; 3],
+    ]);
+    mesh.triangles.extend([
+        [first, first, first],
+        [first, first, first + 1],
+        [first, first + 1, first + 2],
+        [first, first + 1, first + 3],
+        [first, first + 1, first + 4],
+    ]);
+    let mut random = Random::new(7);
+    let mut batch = Batch::random(500, 1.0, &mut random);
+    for _ in 0..200 {
+        let s = random.unit();
+        let o = random.cube();
+        let p = [0.1 + 0.6 * s, 0.2 + 0.6 * s, 0.3 + 0.6 * s];
+        batch.push(o, [0, 1, 2].map(|i: usize| p[i] - o[i]));
+    }
+    let hits = check(&mesh, &batch);
+    assert!(hits.iter().all(|hit| hit.primitive == NONE || (hit.primitive != 10 && hit.primitive < 13)));
+}
+
+#[test]
+fn needles() {
+    // Triangles a million times longer than wide, seen from all sides, also edge-on.
+    let mut random = Random::new(8);
+    let mut mesh = Mesh::default();
+    for i in 0..300 {
+        let (a, b) = (random.cube(), random.cube());
+        let c = [0, 1, 2].map(|k: usize| a[k] + 1e-6 * random.cube()[k]);
+        mesh.positions.extend([a, b, c]);
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    let mut batch = Batch::random(300, 1.0, &mut random);
+    for _ in 0..600 {
+        let [a, b, c] = mesh.corners(random.below(300));
+        let (s, o) = (random.unit(), random.cube());
+        let p = [0, 1, 2].map(|k: usize| 0.5 * (a[k] + c[k]) * s + b[k] * (1.0 - s));
+        batch.push(o, [0, 1, 2].map(|k: usize| p[k] - o[k]));
+        // Along the needle, in its plane.
+        batch.push([0, 1, 2].map(|k: usize| 2.0 * a[k] - b[k]), [0, 1, 2].map(|k: usize| b[k] - a[k]));
+    }
+    check(&mesh, &batch);
+}
+
+#[test]
+fn huge_and_tiny() {
+    for scale in [1e6, 1e-6] {
+        let mut random = Random::new(9);
+        let mesh = Mesh::soup(500, 0.2, &mut random).scaled(scale);
+        let hits = check(&mesh, &Batch::random(600, 1.5 * scale, &mut random));
+        assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 100);
+    }
+}
+
+#[test]
+fn huge_and_tiny_together() {
+    let mut random = Random::new(10);
+    let mut mesh = Mesh::soup(300, 1e-4, &mut random);
+    let ground = mesh.positions.len() as u32;
+    mesh.positions.extend([[-1e4, -1.0, -1e4], [1e4, -1.0, -1e4], [0.0, -1.0, 2e4]]);
+    mesh.triangles.push([ground, ground + 1, ground + 2]);
+    let mut batch = Batch::random(300, 1.0, &mut random);
+    for triangle in 0..300 {
+        let [a, b, c] = mesh.corners(triangle);
+        let o = random.cube();
+        batch.push(o, [0, 1, 2].map(|k: usize| (a[k] + b[k] + c[k]) / 3.0 - o[k]));
+    }
+    let hits = check(&mesh, &batch);
+    assert!(hits[300..].iter().filter(|hit| hit.primitive < 300).count() >= 295);
+}
+
+#[test]
+fn axis_parallel_rays() {
+    let mut random = Random::new(11);
+    let mesh = Mesh::ball(30, 15);
+    let mut batch = Batch::default();
+    for _ in 0..400 {
+        let axis = random.below(3);
+        let mut d = [0.0, -0.0, 0.0];
+        d[axis] = if random.bits() & 1 == 0 { 1.0 } else { -1.0 };
+        let mut o = random.cube().map(|x| x * 0.9);
+        if random.bits() & 1 == 0 {
+            // Exactly through a vertex.
+            o = mesh.positions[random.below(mesh.positions.len())];
+        }
+        o[axis] = -2.0 * d[axis];
+        batch.push(o, d);
+        // Two zero components exchanged for tiny ones.
+        batch.push(o, d.map(|x| if x == 0.0 { 1e-30 } else { x }));
+    }
+    check(&mesh, &batch);
+}
+
+#[test]
+fn rays_that_are_none() {
+    let mesh = Mesh::ball(20, 10);
+    let mut batch = Batch::default();
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, f32::MAX] {
+        for axis in 0..3 {
+            let (mut o, mut d) = ([0.0, 0.0, -3.0], [0.0, 0.0, 1.0]);
+            o[axis] = bad;
+            batch.push(o, [0.0, 0.0, 1.0]);
+            d[axis] = bad;
+            batch.push([0.0, 0.0, -3.0], d);
+        }
+    }
+    batch.push([0.0, 0.0, -3.0], [0.0; 3]);
+    batch.push([0.0, 0.0, -3.0], [1e-40, 0.0, 1e-40]);
+    assert!(check(&mesh, &batch).iter().all(|hit| *hit == MISS));
+}
+
+#[test]
+fn limits_that_are_none() {
+    let mesh = Mesh::ball(20, 10);
+    let meshes = [mesh.geometry(0)];
+    let accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }, MODES[2]);
+    let mut batch = Batch::default();
+    for _ in 0..4 {
+        batch.push([0.0, 0.0, -3.0], [0.1, 0.0, 1.0]);
+    }
+    let tmax = [f32::NAN, 0.0, -1.0, f32::NEG_INFINITY];
+    for coherence in COHERENCES {
+        assert_eq!(batch.occluded(&accel, &tmax, &[MISS; 4], coherence), [0; 4]);
+    }
+}
+
+#[test]
+fn rays_from_a_surface_do_not_hit_it() {
+    let mut random = Random::new(12);
+    let mesh = Mesh::ball(40, 20);
+    let seen = brute_force(&mesh, &Batch::random(500, 2.0, &mut Random::new(13)));
+    let first = Batch::random(500, 2.0, &mut Random::new(13));
+    let mut batch = Batch::default();
+    for (ray, hit) in seen.iter().enumerate().filter(|(_, hit)| hit.primitive != NONE) {
+        let (o, d) = first.ray(ray);
+        batch.push_from([0, 1, 2].map(|k: usize| o[k] + hit.t * d[k]), random.cube(), hit.primitive, 0);
+    }
+    check(&mesh, &batch);
+}
