@@ -4,6 +4,7 @@
 //! meshes there are, so that overlapping meshes do not overlap as trees.
 
 mod binary;
+mod collapse;
 mod contents;
 mod wide;
 
