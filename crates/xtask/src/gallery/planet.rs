@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Radius of the planet.
-const RADIUS: f64 = 100.0;
+const RADIUS: f64 = 80.0;
 /// Cats on it.
 const CATS: usize = 12_000;
 /// One cat in so many is golden.

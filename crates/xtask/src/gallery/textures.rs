@@ -12,18 +12,20 @@ fn direction(u: f64, v: f64) -> DVec3 {
     DVec3::new(ring * libm::cos(longitude), libm::sin(latitude), ring * libm::sin(longitude))
 }
 
-/// White marble with dark veins.
+/// White marble with grey veins: the creases of folded noise.
 pub fn marble() -> Picture {
     Picture::from_fn(1024, 512, |u, v| {
         let p = direction(u, v);
-        let bend = 1.3 * fractal_noise(p * 1.5, 3);
-        let vein = libm::sin(2.2 * p.x + 3.1 * p.y + 1.4 * p.z + 4.0 * bend).abs();
-        let fine = fractal_noise(p * 2.2 + 4.0, 3).abs();
-        let width = 0.5 + 0.5 * fractal_noise(p * 1.9 + 13.0, 2);
-        let dark = smooth_step(0.08 + 0.5 * width, 0.0, vein) * 0.6 + smooth_step(0.06, 0.0, fine) * 0.25;
+        let fold = DVec3::new(noise(p * 1.9 + 3.0), noise(p * 1.9 + 41.0), noise(p * 1.9 + 83.0));
+        let q = p + 0.55 * fold + 0.12 * fractal_noise(p * 5.0, 3);
+        let broad = libm::sin(5.0 * (0.8 * q.x + 1.0 * q.y + 0.5 * q.z)).abs();
+        let thin = libm::sin(9.0 * (q.x - 0.6 * q.y + 0.9 * q.z) + 1.0).abs();
+        let strength = smooth_step(-0.5, 0.6, noise(p * 2.3 + 19.0));
+        let dark = strength * (0.55 * smooth_step(0.35, 0.0, broad) + 0.25 * smooth_step(0.06, 0.0, broad))
+            + (1.0 - strength) * 0.35 * smooth_step(0.10, 0.0, thin);
         let cloud = 0.5 + 0.5 * fractal_noise(p * 2.0 + 9.0, 4);
-        let stone = DVec3::new(0.95, 0.94, 0.92).lerp(DVec3::new(0.80, 0.82, 0.84), cloud);
-        stone.lerp(DVec3::new(0.25, 0.28, 0.33), dark.min(0.9))
+        let stone = DVec3::new(0.96, 0.95, 0.93).lerp(DVec3::new(0.84, 0.85, 0.86), cloud);
+        stone.lerp(DVec3::new(0.30, 0.32, 0.36), dark.min(0.9))
     })
 }
 
