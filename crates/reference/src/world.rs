@@ -90,10 +90,14 @@ fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
     let translation = DVec3::new(x[3], y[3], z[3]);
     let normal_matrix = matrix.inverse().transpose();
     let triangles = &scene.triangles;
+    // A mirrored copy winds the other way: two corners change places, and outside stays outside.
+    let [a, b, c] = if matrix.determinant() < 0.0 { [0, 2, 1] } else { [0, 1, 2] };
+    let corners = triangles.corners(k).expect("a triangle of a mesh").map(|p| matrix * p + translation);
+    let normals = triangles.corner_normals(k).map(|n| n.map(|n| (normal_matrix * n).normalize_or_zero()));
     Triangle {
-        corners: triangles.corners(k).expect("a triangle of a mesh").map(|p| matrix * p + translation),
-        normals: triangles.corner_normals(k).map(|normals| normals.map(|n| (normal_matrix * n).normalize_or_zero())),
-        uvs: triangles.corner_uvs(k),
+        corners: [corners[a], corners[b], corners[c]],
+        normals: normals.map(|n| [n[a], n[b], n[c]]),
+        uvs: triangles.corner_uvs(k).map(|t| [t[a], t[b], t[c]]),
         material: if instance.material == NONE { triangles.material[k as usize] } else { instance.material },
     }
 }
