@@ -2,28 +2,27 @@
 
 use anyhow::Context as _;
 use clap::Parser;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Makes files that the repository holds.
 #[derive(Parser)]
 enum Command {
-    /// The cat: assets/cat.obj, cat_60k.obj, cat.off, cat.mtl, cat.png.
+    /// The cat: its meshes and texture in assets/.
     Cat,
+    /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the scenes.
+    Gallery,
 }
 
 fn main() -> anyhow::Result<()> {
+    let files = match Command::parse() {
+        Command::Cat => xtask::cat::files()?,
+        Command::Gallery => xtask::gallery::files()?,
+    };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    match Command::parse() {
-        Command::Cat => write_all(&root.join("assets"), xtask::cat::files()?),
-    }
-}
-
-fn write_all(folder: &Path, files: Vec<xtask::cat::File>) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     for file in files {
-        let path: PathBuf = folder.join(file.name);
+        let path = root.join(file.path);
         std::fs::write(&path, &file.bytes).with_context(|| format!("cannot write {}", path.display()))?;
-        println!("{:>9} bytes  {}", file.bytes.len(), file.name);
+        println!("{:>9} bytes  {}", file.bytes.len(), file.path);
     }
     Ok(())
 }

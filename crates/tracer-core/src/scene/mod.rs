@@ -21,6 +21,7 @@ pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LinearSphere, SphereTable};
+pub use texture::{Texel, TextureView};
 pub(crate) use texture::{TextureTable, TextureUse};
 
 use scene_format::Diagnostic;
@@ -69,6 +70,13 @@ pub struct Scene {
     pub(crate) tables: Tables,
     /// The tree over meshes and many spheres; `None` when there are neither.
     pub(crate) accel: Option<crate::bvh::Accel>,
+}
+
+impl Scene {
+    /// A texture, by the index in [`Albedo::Texture`].
+    pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
+        self.tables.textures.view(index)
+    }
 }
 
 /// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
