@@ -13,6 +13,8 @@ use super::super::{Hits, Occlusion, Rays};
 pub(crate) struct TreeView<'a> {
     pub base: *const u8,
     pub root: u32,
+    /// The longest side of what is in the tree.
+    pub size: f32,
     pub spheres: u32,
     pub instances: &'a [InstanceRecord],
     pub meshes: &'a [MeshRecord],
