@@ -4,4 +4,5 @@
 
 mod figures;
 mod random_scenes;
+mod seams;
 mod support;
