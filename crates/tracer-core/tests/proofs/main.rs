@@ -2,6 +2,8 @@
 //!
 //! `TRACER_PROOFS=long` gives the statistical ones 16 times the samples.
 
+mod analytic;
 mod figures;
 mod random_scenes;
+mod seams;
 mod support;
