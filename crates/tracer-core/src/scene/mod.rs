@@ -23,8 +23,6 @@ pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LinearSphere, SphereTable};
 pub use texture::{Texel, TextureView};
-    }
-
 pub use statistics::{Statistics, WorldBounds};
 pub(crate) use texture::{TextureTable, TextureUse};
 
