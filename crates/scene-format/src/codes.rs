@@ -310,7 +310,8 @@ codes! {
     FILE_UNREADABLE "E0502" "a file cannot be read";
     /// A mesh file breaks the rules of its format (OBJ or OFF). The message says where in the file and what was expected.
     BROKEN_MESH "E0510" "a mesh file is broken";
-    /// A mesh file holds no triangle.
+    /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
+    /// exported with faces.
     EMPTY_MESH "E0511" "a mesh has no triangles";
     /// A picture file cannot be decoded as PNG or JPEG.
     BROKEN_TEXTURE "E0520" "a texture cannot be read";

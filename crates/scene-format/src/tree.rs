@@ -212,6 +212,11 @@ impl<'t, 's> Item<'t, 's> {
         Children { tree: self.tree, index, end: self.index + self.node().size as usize }
     }
 
+    /// Children that could be read.
+    pub fn solid_children(&self) -> impl Iterator<Item = Item<'t, 's>> + use<'t, 's> {
+        self.children().filter(|child| child.kind() != Kind::Broken)
+    }
+
     /// Keys with their values. A value without a key is a broken one and left out.
     pub fn fields(&self) -> Fields<'t, 's> {
         Fields { children: self.children() }

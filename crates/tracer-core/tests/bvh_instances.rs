@@ -93,6 +93,7 @@ fn everything_together() {
     ];
     assert!(kinds.iter().all(|&count| count > 20), "{kinds:?}");
     assert!(hits.iter().all(|hit| (hit.primitive < 50 || hit.primitive == NONE) == (hit.instance == NONE)));
+    check(&geometry, &Batch::beams(60, 2.0, &mut random));
     let next = onward(&batch, &hits, &mut random);
     let again = check(&geometry, &next);
     for (ray, hit) in again.iter().enumerate() {
@@ -154,6 +155,7 @@ fn many_spheres_as_one_by_one() {
     let spheres = spheres(300, &mut random);
     let geometry = Geometry { spheres: &spheres, meshes: &[], instances: &[] };
     let batch = Batch::random(1000, 1.4, &mut random);
+    check(&geometry, &Batch::beams(50, 1.4, &mut random));
     let mut hits = check(&geometry, &batch);
     let next = onward(&batch, &hits, &mut random);
     hits.extend(check(&geometry, &next));

@@ -31,7 +31,10 @@ fn answers_are_the_same_in_any_batch_and_order() {
     let mesh = Mesh::soup(4000, 0.1, &mut random);
     let meshes = [mesh.geometry(0)];
     let mut accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }, Acceleration::Bvh);
-    let batch = Batch::random(1000, 1.2, &mut random);
+    let mut batch = Batch::beams(30, 1.2, &mut random);
+    while batch.len() < 1000 {
+        batch.push(random.cube(), random.cube());
+    }
     let all = batch.closest(&accel, COHERENCES[0]);
     for level in Level::supported() {
         accel = accel.with_level(level);

@@ -1,7 +1,9 @@
-//! Programs that make what the repository holds. Each is a pure function from nothing to files: no randomness, no network.
+//! Programs that make what the repository holds; but for [`golden`], each is a pure function from nothing to files: no randomness,
+//! no network.
 
 pub mod cat;
 pub mod gallery;
+pub mod golden;
 pub mod noise;
 pub mod picture;
 

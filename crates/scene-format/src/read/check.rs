@@ -17,6 +17,9 @@ static ROOT: FieldDef =
 pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let syntax_errors = sink.errors;
     let Some(root) = tree.root() else {
+        if syntax_errors > 0 {
+            return None;
+        }
         sink.push(no_objects(Span { source: 0, start: 0, end: 0 }, "the file is empty", Syntax::Ron));
         return None;
     };

@@ -116,8 +116,9 @@ impl<'r> Reader<'r> {
         match item.kind() {
             Kind::Broken => return None,
             Kind::Struct | Kind::Map => {}
+            Kind::Tuple if item.is_damaged() && def.bare.is_none() => return None,
             Kind::Tuple => {
-                let mut children = item.children();
+                let mut children = item.solid_children();
                 match (children.next(), children.next(), def.bare) {
                     (None, ..) => {}
                     (Some(only), None, Some(bare)) => {
@@ -125,17 +126,15 @@ impl<'r> Reader<'r> {
                         fields.slots[slot] = Some(only);
                     }
                     (Some(first), ..) => {
-                        if first.kind() != Kind::Broken {
-                            self.report(
-                                Diagnostic::error(
-                                    codes::MISSING_NAME,
-                                    first.head(),
-                                    format!("the values of {} are written with their names", def.noun),
-                                )
-                                .expected(field_list(def))
-                                .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
-                            );
-                        }
+                        self.report(
+                            Diagnostic::error(
+                                codes::MISSING_NAME,
+                                first.head(),
+                                format!("the values of {} are written with their names", def.noun),
+                            )
+                            .expected(field_list(def))
+                            .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
+                        );
                         return None;
                     }
                 }
@@ -158,7 +157,7 @@ impl<'r> Reader<'r> {
             match slot {
                 // Where the schema is, for editors.
                 None if name == "$schema" && def.name == "Scene" => {}
-                None => self.unknown_field(key, &name, def),
+                None => self.unknown_field(key, &name, item, def),
                 Some(slot) => {
                     guess = slot + 1;
                     if let Some(first) = fields.slots[slot] {
@@ -237,11 +236,11 @@ impl<'r> Reader<'r> {
     fn mistyped(&self, item: Item<'_, '_>, def: &'static StructDef, name: &str) -> bool {
         item.fields().any(|(key, _)| {
             let key = key.text();
-            def.field(&key).is_none() && suggest::nearest(&key, names(def)) == Some(name)
+            def.field(&key).is_none() && meant(&key, item, def) == Some(name)
         })
     }
 
-    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, def: &'static StructDef) {
+    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, item: Item<'_, '_>, def: &'static StructDef) {
         if RESERVED.contains(&name) {
             self.report(
                 Diagnostic::error(
@@ -257,9 +256,7 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
         let quoted = key.lexeme().starts_with(['"', '\'']);
-        fault.did_you_mean(suggest::nearest(name, names(def)), |word| {
-            if quoted { format!("\"{word}\"") } else { word.to_owned() }
-        });
+        fault.did_you_mean(meant(name, item, def), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
             && let Some(other) = synonym(name, def)
         {
@@ -409,6 +406,12 @@ fn article_free(noun: &str) -> String {
 
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
+}
+
+/// The field that an unknown name stands for: one that is not written yet, if one of those is near.
+fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'static str> {
+    let written = |field: &&str| item.fields().any(|(key, _)| key.text() == *field);
+    suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
 }
 
 fn field_list(def: &'static StructDef) -> String {

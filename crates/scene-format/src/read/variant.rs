@@ -177,10 +177,10 @@ impl Reader<'_> {
             Body::None => self.needs_brackets(chosen),
             Body::Value(value) => T::read(self, value, at),
             Body::Brackets(item) => {
-                let mut children = item.children();
+                let mut children = item.solid_children();
                 match (children.next(), children.next()) {
+                    (None, None) if item.is_damaged() => None,
                     (Some(only), None) if item.kind() == Kind::Tuple => T::read(self, only, at),
-                    (Some(only), None) if only.kind() == Kind::Broken => None,
                     (Some(_), Some(_)) if item.kind() == Kind::Tuple => {
                         // Translate(1, 2, 3): the vector's own brackets are missing.
                         let lexeme = item.lexeme();

@@ -3,7 +3,9 @@
 mod brackets;
 pub(crate) mod decode;
 pub(crate) mod ron;
+mod ron_extensions;
 mod ron_literal;
+mod ron_scan;
 pub(crate) mod toml;
 mod toml_literal;
 mod toml_tables;

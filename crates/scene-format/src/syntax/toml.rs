@@ -55,6 +55,16 @@ pub(super) struct Parser<'p> {
     colon: Option<usize>,
 }
 
+/// What stands in a bracket at the current token.
+enum Next {
+    /// Its end, for whatever reason.
+    End,
+    /// Something that was seen to.
+    Again,
+    /// An entry or a comma.
+    Entry,
+}
+
 impl Parser<'_> {
     fn document(&mut self) {
         loop {
@@ -308,8 +318,10 @@ impl Parser<'_> {
         let node = self.values.open(start);
         loop {
             self.trivia_in_bracket();
-            if self.bracket_ends(b']') {
-                break;
+            match self.bracket_ends(b']') {
+                Next::End => break,
+                Next::Again => continue,
+                Next::Entry => {}
             }
             if self.kind == TokenKind::Comma {
                 self.extra_comma();
@@ -341,8 +353,10 @@ impl Parser<'_> {
         let mut dotted = false;
         loop {
             self.trivia_in_bracket();
-            if self.bracket_ends(b'}') {
-                break;
+            match self.bracket_ends(b'}') {
+                Next::End => break,
+                Next::Again => continue,
+                Next::Entry => {}
             }
             if self.kind == TokenKind::Comma {
                 self.extra_comma();
@@ -375,46 +389,50 @@ impl Parser<'_> {
         self.values.close(node, Kind::Map, self.previous_end);
     }
 
-    /// Whether the bracket ends here, for whatever reason.
-    fn bracket_ends(&mut self, right: u8) -> bool {
+    /// What comes next in a bracket that `right` closes.
+    fn bracket_ends(&mut self, right: u8) -> Next {
         if self.unwinding {
             self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
-            return true;
+            return Next::End;
         }
         let close = match self.kind {
             TokenKind::RightSquareBracket => b']',
             TokenKind::RightCurlyBracket => b'}',
             TokenKind::Eof => {
                 self.unwind(None);
-                return true;
+                return Next::End;
             }
-            _ => return false,
+            _ => return Next::Entry,
         };
         let fate =
             if close == right { Fate::Closes } else { brackets::fate(self.text, &self.open, self.span.start(), close) };
         match fate {
             Fate::Closes => {
                 self.bump();
-                true
+                Next::End
             }
             Fate::Typo => {
                 if let Some(&open) = self.open.last() {
                     self.sink.push(brackets::wrong_closer(self.values.source, open, self.span.start(), close));
                 }
                 self.bump();
-                true
+                Next::End
             }
             Fate::ClosesOuter => {
                 if let Some(&open) = self.open.last() {
                     self.sink.push(brackets::unclosed(self.values.source, open, Some(self.span.start())));
                 }
                 self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
-                true
+                Next::End
             }
             Fate::Stray => {
                 self.sink.push(brackets::stray(self.values.source, self.span.start()));
                 self.bump();
-                false
+                self.trivia_in_bracket();
+                if self.kind == TokenKind::Comma {
+                    self.bump();
+                }
+                Next::Again
             }
         }
     }

@@ -132,9 +132,12 @@ impl<'s> Tables<'s> {
 
     /// `[path]` or, with `many`, `[[path]]`, at `span`.
     pub fn header(&mut self, path: &[Key], many: bool, header: Range<usize>, source: u16, sink: &mut Sink) {
-        let Some((last, parents)) = path.split_last() else { return };
         // What follows a header in conflict is read, and goes nowhere.
         self.current = self.table(header.clone(), Origin::Header);
+        let Some((last, parents)) = path.split_last() else {
+            self.tables[ROOT].children.push((0..0, Child::Broken));
+            return;
+        };
         let detached = self.current;
         let mut table = ROOT;
         for key in parents {

@@ -9,13 +9,13 @@
 
 use super::super::geometry::NONE;
 use super::super::layout::{Node, Ref, Spheres4, Triangles4};
-use super::super::triangle::padded_box;
 use super::interleaved::{self, item, prefetch};
 use super::isa::{Isa16, Lanes, WordLanes};
-use super::leaves::{LeafHits, places_of, spheres4, triangles4};
+use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, places_of, spheres4, triangles4};
 use super::packet_space::PacketSpace;
 use super::query::{Batch, Goal, TreeView, WORLD};
 use super::{Counters, STACK};
+use std::ops::Range;
 
 /// Leaves are tested ray by ray for at most this many rays.
 const FEW: u32 = 3;
@@ -43,7 +43,9 @@ struct Packet<'a, 'b, I> {
     in_object: bool,
     inside: u32,
     t: Lanes,
+    /// The greatest of them among the rays alive, and whether they have changed since it was found.
     greatest_t: f32,
+    moved: bool,
     primitive: WordLanes,
     instance: WordLanes,
     from: WordLanes,
@@ -75,6 +77,7 @@ pub(crate) fn trace<I: Isa16, G: Goal, const IN_FLIGHT: usize, const COUNT: bool
         inside: WORLD,
         t: Lanes([0.0; 16]),
         greatest_t: 0.0,
+        moved: false,
         primitive: nothing,
         instance: nothing,
         from: nothing,
@@ -108,12 +111,12 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
     #[inline(always)]
     fn load<G: Goal>(&mut self, rays: &'a [u32], goal: &G) -> bool {
         let world = &mut self.spaces[0];
-        for (lane, &ray) in rays.iter().enumerate() {
-            let (o, d) = (self.batch.origin(ray as usize), self.batch.direction(ray as usize));
-            for axis in 0..3 {
-                world.origin[axis].0[lane] = o[axis];
-                world.direction[axis].0[lane] = d[axis];
-            }
+        let run = run_of(rays);
+        let source = self.batch.rays;
+        let (origin, direction) = ([source.ox, source.oy, source.oz], [source.dx, source.dy, source.dz]);
+        for axis in 0..3 {
+            gather(&mut world.origin[axis].0, origin[axis], rays, &run);
+            gather(&mut world.direction[axis].0, direction[axis], rays, &run);
         }
         let lanes = (1u32 << rays.len()) - 1;
         let valid = world.prepare(self.isa, lanes);
@@ -121,13 +124,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             return false;
         }
         self.rays = rays;
-        self.t = Lanes([f32::NEG_INFINITY; 16]);
-        for (lane, &ray) in rays.iter().enumerate().filter(|(lane, _)| valid >> lane & 1 == 1) {
-            let start = goal.start(ray as usize);
-            self.t.0[lane] = start.t;
-            self.primitive.0[lane] = start.primitive;
-            self.instance.0[lane] = start.instance;
-        }
+        goal.start_packet(rays, &run, &mut self.t.0, &mut self.primitive.0, &mut self.instance.0);
         // A limit that is NaN is a limit that nothing is below.
         self.alive = valid & self.isa.lt16(self.isa.splat16(0.0), self.isa.load16(&self.t));
         self.found = 0;
@@ -141,13 +138,26 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
     fn enter_world<G: Goal>(&mut self, goal: &G) {
         self.in_object = false;
         self.inside = WORLD;
-        for (lane, &ray) in self.rays.iter().enumerate() {
-            let rays = self.batch.rays;
-            self.from.0[lane] = self.tree.in_world(rays.from_primitive[ray as usize], rays.from_instance[ray as usize]);
-            if G::ANY_HIT {
-                let (primitive, instance) = goal.target(ray as usize);
-                self.target.0[lane] = self.tree.in_world(primitive, instance);
-            }
+        let run = run_of(self.rays);
+        let mut instance = [NONE; 16];
+        gather(&mut self.from.0, self.batch.rays.from_primitive, self.rays, &run);
+        gather(&mut instance, self.batch.rays.from_instance, self.rays, &run);
+        self.drop_placed(&instance, |packet| &mut packet.from);
+        if G::ANY_HIT {
+            goal.target_packet(self.rays, &run, &mut self.target.0, &mut instance);
+            self.drop_placed(&instance, |packet| &mut packet.target);
+        }
+    }
+
+    /// Surfaces of placed instances are not in the world.
+    #[inline(always)]
+    fn drop_placed(&mut self, instance: &[u32; 16], primitives: impl Fn(&mut Self) -> &mut WordLanes) {
+        if self.tree.instances.is_empty() {
+            return;
+        }
+        let tree = self.tree;
+        for (primitive, &instance) in primitives(self).0.iter_mut().zip(instance) {
+            *primitive = tree.in_world(*primitive, instance);
         }
     }
 
@@ -192,6 +202,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
     /// The greatest distance that still matters to a ray.
     #[inline(always)]
     fn limit(&mut self) {
+        self.moved = false;
         let t = self.isa.load16(&self.t);
         let out = self.isa.splat16(f32::NEG_INFINITY);
         self.greatest_t = self.isa.greatest16(self.isa.select16(self.alive, t, out));
@@ -272,7 +283,10 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         let mut height = self.height;
         for place in 0..count {
             let child = (places[place & 7] & 7) as usize;
-            let inside = space.in_child(isa, node, child, t) & lanes;
+            let p = &node.planes;
+            let lower = [p[0][child], p[2][child], p[4][child]];
+            let upper = [p[1][child], p[3][child], p[5][child]];
+            let inside = space.in_box(isa, lower, upper, t) & lanes;
             let entry = Entry { reference: node.children[child].0, lanes: inside, distance: distances[place & 7] };
             // SAFETY: the tree's depth bounds the height (see `TreeView`).
             unsafe { *self.stack.get_unchecked_mut(height) = entry };
@@ -292,11 +306,12 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         let axes = self.spaces[usize::from(self.in_object)].axes;
         match axes {
             Some(axes) if lanes.count_ones() > FEW => {
+                let boxes = padded_boxes(self.isa, leaf);
                 for place in 0..4 {
                     if leaf.ids[place] == NONE {
                         break;
                     }
-                    self.triangle::<G>(leaf, place, axes, lanes);
+                    self.triangle::<G>(leaf, place, &boxes, axes, lanes);
                 }
             }
             _ => {
@@ -314,7 +329,9 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
                 }
             }
         }
-        self.limit();
+        if self.moved {
+            self.limit();
+        }
     }
 
     #[inline(always)]
@@ -335,7 +352,9 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             }
             self.take_one::<G>(lane, hits, &leaf.ids);
         }
-        self.limit();
+        if self.moved {
+            self.limit();
+        }
     }
 
     /// Takes the best of a leaf's candidates for one ray.
@@ -352,12 +371,14 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
                 if nearer {
                     self.found |= 1 << lane;
                     self.alive &= !(1 << lane);
+                    self.moved = true;
                 }
             } else if nearer || (t == held && self.wins_tie(lane, ids[place])) {
                 self.t.0[lane] = t;
                 self.primitive.0[lane] = ids[place];
                 self.instance.0[lane] = self.inside;
                 self.found |= 1 << lane;
+                self.moved = true;
             }
         }
     }
@@ -369,10 +390,10 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
 
     /// One triangle against the rays of `lanes`, by the formula of [`triangle`](super::super::triangle).
     #[inline(always)]
-    fn triangle<G: Goal>(&mut self, leaf: &Triangles4, place: usize, axes: [u32; 3], lanes: u32) {
+    fn triangle<G: Goal>(&mut self, leaf: &Triangles4, place: usize, boxes: &PaddedBoxes, axes: [u32; 3], lanes: u32) {
         let isa = self.isa;
         let space = &self.spaces[usize::from(self.in_object)];
-        let [x, y, z] = axes.map(|axis| axis as usize);
+        let (x, y, z) = (axes[0] as usize, axes[1] as usize, axes[2] as usize);
         let (ox, oy, oz) = (
             isa.load16(&space.shear_origin[0]),
             isa.load16(&space.shear_origin[1]),
@@ -408,15 +429,12 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         }
         let distance = isa.fmadd16(u, az, isa.fmadd16(v, bz, isa.mul16(w, cz)));
         let t = isa.mul16(isa.div16(distance, det), isa.load16(&space.shear[2]));
-        let planes = padded_box([0, 1, 2].map(|v: usize| [0, 1, 2].map(|axis: usize| leaf.vertices[v][axis][place])));
-        let (mut near, mut far) = (isa.splat16(f32::NEG_INFINITY), isa.splat16(f32::INFINITY));
-        for axis in 0..3 {
-            let (lower, upper) = (isa.splat16(planes[0][axis]), isa.splat16(planes[1][axis]));
-            let rd = isa.load16(&space.rd[axis]);
-            let (enter, leave) = (isa.load16(&space.near_offset[axis]), isa.load16(&space.far_offset[axis]));
-            near = isa.max16(near, isa.min16(isa.fmsub16(lower, rd, enter), isa.fmsub16(upper, rd, enter)));
-            far = isa.min16(far, isa.max16(isa.fmsub16(lower, rd, leave), isa.fmsub16(upper, rd, leave)));
-        }
+        let (lower, upper) = (&boxes.lower, &boxes.upper);
+        let (near, far) = space.interval(
+            isa,
+            [lower[0][place], lower[1][place], lower[2][place]],
+            [upper[0][place], upper[1][place], upper[2][place]],
+        );
         let t = isa.sub16(isa.min16(isa.max16(t, near), far), isa.load16(&space.tmin));
         let held = isa.load16(&self.t);
         mask &= isa.le16(near, far) & isa.lt16(zero, t) & isa.le16(t, held);
@@ -424,6 +442,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         if G::ANY_HIT {
             self.found |= mask & nearer;
             self.alive &= !(mask & nearer);
+            self.moved |= mask & nearer != 0;
             return;
         }
         let mut taken = mask & nearer;
@@ -437,5 +456,31 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         isa.put_words16(taken, id, &mut self.primitive);
         isa.put_words16(taken, self.inside, &mut self.instance);
         self.found |= taken;
+        self.moved |= taken != 0;
+    }
+}
+
+/// The range of indices that `rays` are, if they are 16 that follow one another.
+#[inline(always)]
+fn run_of(rays: &[u32]) -> Option<Range<usize>> {
+    let rays: &[u32; 16] = rays.try_into().ok()?;
+    let first = rays[0];
+    let mut apart = 0;
+    for (lane, &ray) in (0u32..).zip(rays) {
+        apart |= ray.wrapping_sub(first) ^ lane;
+    }
+    (apart == 0).then(|| first as usize..first as usize + 16)
+}
+
+/// The values of some rays, in lanes.
+#[inline(always)]
+pub(crate) fn gather<T: Copy>(lanes: &mut [T; 16], values: &[T], rays: &[u32], run: &Option<Range<usize>>) {
+    match run {
+        Some(run) => lanes.copy_from_slice(&values[run.clone()]),
+        None => {
+            for (lane, &ray) in lanes.iter_mut().zip(rays) {
+                *lane = values[ray as usize];
+            }
+        }
     }
 }

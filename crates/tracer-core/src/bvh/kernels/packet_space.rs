@@ -207,28 +207,38 @@ impl PacketSpace {
         (self.negative[0] & 1) | (self.negative[1] & 1) << 1 | (self.negative[2] & 1) << 2
     }
 
-    /// The lanes that are in a child's box no later than `limit`.
+    /// The lanes that are in a box (lower and upper planes) no later than `limit`.
     #[inline(always)]
-    pub(crate) fn in_child<I: Isa16>(&self, isa: I, node: &Node, child: usize, limit: I::F16) -> u32 {
+    pub(crate) fn in_box<I: Isa16>(&self, isa: I, lower: [f32; 3], upper: [f32; 3], limit: I::F16) -> u32 {
+        let (near, far) = self.interval(isa, lower, upper);
         let tmin = isa.load16(&self.tmin);
-        let (mut near, mut far) = (tmin, isa.splat16(f32::INFINITY));
-        for axis in 0..3 {
-            let lower = isa.splat16(node.planes[2 * axis][child]);
-            let upper = isa.splat16(node.planes[2 * axis + 1][child]);
-            let rd = isa.load16(&self.rd[axis]);
-            let (enter, leave) = (isa.load16(&self.near_offset[axis]), isa.load16(&self.far_offset[axis]));
-            let (first, last) = match self.negative[axis] {
-                0 => (isa.fmsub16(lower, rd, enter), isa.fmsub16(upper, rd, leave)),
-                0xFFFF => (isa.fmsub16(upper, rd, enter), isa.fmsub16(lower, rd, leave)),
-                _ => (
-                    isa.min16(isa.fmsub16(lower, rd, enter), isa.fmsub16(upper, rd, enter)),
-                    isa.max16(isa.fmsub16(lower, rd, leave), isa.fmsub16(upper, rd, leave)),
-                ),
-            };
-            near = isa.max16(near, first);
-            far = isa.min16(far, last);
-        }
+        let near = isa.max16(near, tmin);
         isa.le16(near, far) & isa.le16(isa.sub16(near, tmin), limit)
+    }
+
+    /// When the rays enter and leave a box.
+    #[inline(always)]
+    pub(crate) fn interval<I: Isa16>(&self, isa: I, lower: [f32; 3], upper: [f32; 3]) -> (I::F16, I::F16) {
+        let x = self.slab(isa, 0, lower[0], upper[0]);
+        let y = self.slab(isa, 1, lower[1], upper[1]);
+        let z = self.slab(isa, 2, lower[2], upper[2]);
+        (isa.max16(isa.max16(x.0, y.0), z.0), isa.min16(isa.min16(x.1, y.1), z.1))
+    }
+
+    #[inline(always)]
+    fn slab<I: Isa16>(&self, isa: I, axis: usize, lower: f32, upper: f32) -> (I::F16, I::F16) {
+        let rd = isa.load16(&self.rd[axis]);
+        let (enter, leave) = (isa.load16(&self.near_offset[axis]), isa.load16(&self.far_offset[axis]));
+        if self.beam.is_some() {
+            let negative = self.negative[axis] != 0;
+            let (first, last) = if negative { (upper, lower) } else { (lower, upper) };
+            return (isa.fmsub16(isa.splat16(first), rd, enter), isa.fmsub16(isa.splat16(last), rd, leave));
+        }
+        let (lower, upper) = (isa.splat16(lower), isa.splat16(upper));
+        (
+            isa.min16(isa.fmsub16(lower, rd, enter), isa.fmsub16(upper, rd, enter)),
+            isa.max16(isa.fmsub16(lower, rd, leave), isa.fmsub16(upper, rd, leave)),
+        )
     }
 }
 

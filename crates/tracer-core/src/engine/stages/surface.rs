@@ -205,7 +205,9 @@ fn on_triangles<F: Lanes>(
     let n = V3::select(mirrored, edge_normal.neg(), edge_normal).normalise();
     let outside = n.dot(direction).lt(zero);
     let ng = V3::select(outside, n, n.neg());
-    let offset = ng.abs().dot(error);
+    // All of it along the normal, whatever its direction: a ray that starts on the edge of two coplanar triangles must not meet the
+    // other one, whose distance is wrong by its vertices' coordinates, not by those across the plane (which may be zero).
+    let offset = error.0 + error.1 + error.2;
 
     let mut ns = ng;
     let mut start = p;

@@ -92,7 +92,22 @@ impl<'a> Piece<'a> {
             fault.at += range.start;
             piece.fault = Some(fault);
         }
+        // What grew by doubling is kept until all pieces are joined.
+        piece.positions.shrink_to_fit();
+        piece.uvs.shrink_to_fit();
+        piece.normals.shrink_to_fit();
+        piece.corners.shrink_to_fit();
+        piece.uv_corners.shrink_to_fit();
+        piece.normal_corners.shrink_to_fit();
         piece
+    }
+
+    /// Gives back the memory of faces that have become triangles.
+    pub(super) fn forget_faces(&mut self) {
+        self.corners = Vec::new();
+        self.uv_corners = Vec::new();
+        self.normal_corners = Vec::new();
+        self.face_ends = Vec::new();
     }
 
     fn parse_statements(&mut self, cursor: &mut Cursor<'a>) -> Result<(), Box<Fault>> {
@@ -110,7 +125,7 @@ impl<'a> Piece<'a> {
                 b"g" | b"o" | b"s" => {}
                 b"l" => self.oddities.add(Oddity::LineElement),
                 b"p" => self.oddities.add(Oddity::PointElement),
-                word => self.oddities.add_statement(shown(word)),
+                word => self.oddities.add_statement(word),
             }
             cursor.skip_statement();
         }
