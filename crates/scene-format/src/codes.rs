@@ -151,7 +151,7 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), 1)])
     /// ```
     MISSING_NAME "E0119" "a name is missing";
-    /// After ten thousand faults the rest is not listed.
+    /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
     TOO_MANY "E0120" "too many faults";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a

@@ -222,6 +222,12 @@ impl<'t, 's> Item<'t, 's> {
         Fields { children: self.children() }
     }
 
+    /// Whether a syntax error stands anywhere inside.
+    pub fn holds_damage(&self) -> bool {
+        let end = self.index + self.node().size as usize;
+        self.tree.nodes[self.index..end].iter().any(|node| node.kind == Kind::Broken)
+    }
+
     /// Whether a syntax error stands directly inside: what is missing may have been there.
     pub fn is_damaged(&self) -> bool {
         self.kind() == Kind::Broken || self.children().any(|child| child.kind() == Kind::Broken)

@@ -160,7 +160,7 @@ fn one_fault_in_toml_is_one_error() {
             ("\"Filmic\"", "Filmic", "E0118"),
             ("\"Filmic\"", "{ Filmic = {} }", "E0203"),
             ("{ Diffuse = { albedo = 1 } }", "{ Difuse = { albedo = 1 } }", "E0204"),
-            ("{ Diffuse = { albedo = 1 } }", "{ albedo = 1 }", "E0204"),
+            ("{ Diffuse = { albedo = 1 } }", "{ albedo = 1 }", "E0203"),
             ("radius = 10,", "radius = 10, radius = 10,", "E0205"),
             ("fov = 60", "fov = 60\nfov = 70", "E0205"),
             ("[20, 30, -20]", "[20, 30]", "E0206"),

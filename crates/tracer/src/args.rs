@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use crate::commands::Template;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_format::{Override, Syntax};
@@ -59,8 +60,8 @@ pub enum Command {
     Schema,
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
-    /// Print the manual page (roff)
-    Man,
+    /// Print a manual page (roff)
+    Man(ManArgs),
 }
 
 /// Automatic, or as the person says.
@@ -221,8 +222,8 @@ pub struct NewArgs {
     /// Scene file to make (.ron, .toml)
     pub scene: PathBuf,
     /// What to start from
-    #[arg(long, value_name = "NAME", default_value = "ball")]
-    pub template: String,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball)]
+    pub template: Template,
     /// Replace a file that is there
     #[arg(long)]
     pub force: bool,
@@ -287,6 +288,13 @@ pub struct CompletionsArgs {
     pub shell: clap_complete::Shell,
 }
 
+/// `tracer man`
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// Command [default: the page of the program]
+    pub command: Option<String>,
+}
+
 /// A size in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
@@ -311,7 +319,7 @@ fn crop(text: &str) -> Result<Crop, String> {
     let numbers: Vec<u32> =
         text.split(',').map(|n| n.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected.to_owned())?;
     match numbers[..] {
-        [x, y, width @ 1.., height @ 1..] => Ok(Crop { x, y, width, height }),
+        [x, y, width, height] if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
         _ => Err(expected.to_owned()),
     }
 }

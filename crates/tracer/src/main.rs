@@ -1,2 +1,7 @@
 //! The program `tracer`.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    tracer::main()
+}

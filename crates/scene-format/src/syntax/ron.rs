@@ -60,6 +60,9 @@ pub(super) struct Parser<'p> {
     /// The comma after the entry was read already, inside a bracket that was never closed.
     separated: bool,
     trust: Trust,
+    /// Where the current line begins, and how far its first word is indented.
+    pub line: usize,
+    pub indent: usize,
 }
 
 /// What the entries of a bracket have been so far.
@@ -68,6 +71,8 @@ enum Shape {
     Unknown,
     Named,
     Positional,
+    /// Both, which has been reported.
+    Mixed,
 }
 
 impl<'p> Parser<'p> {
@@ -82,6 +87,8 @@ impl<'p> Parser<'p> {
             at_end_reported: false,
             separated: false,
             trust,
+            line: 0,
+            indent: 0,
         }
     }
 
@@ -194,6 +201,14 @@ impl<'p> Parser<'p> {
         .expected("a number, a \"text\", a word, or one of ( [ {");
         if matches!(character, '“' | '”' | '„' | '‘' | '’' | '«') {
             fault = fault.hint("write texts between straight quotes: \"text\"");
+            let inner = &self.rest()[character.len_utf8()..];
+            if let Some(length) = inner.find(['“', '”', '’', '»', ',', '\n', '"'])
+                && let Some(close) = inner[length..].chars().next().filter(|c| !matches!(c, ',' | '\n' | '"'))
+            {
+                let end = start + character.len_utf8() + length + close.len_utf8();
+                fault.span = self.span(start, end);
+                fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &inner[..length]) });
+            }
         } else if character == '#' {
             fault = fault.hint("comments begin with `//`; colours are texts: \"#rrggbb\"");
         } else if matches!(character, '=' | ':' | ';') {
@@ -219,9 +234,12 @@ impl<'p> Parser<'p> {
             return;
         }
         self.at += 1;
-        self.open.push(Open { bracket, at: opened });
+        self.open.push(Open { bracket, at: opened, line: self.line, indent: self.indent });
         let mut shape = if bracket == b'{' { Shape::Named } else { Shape::Unknown };
         loop {
+            if self.sink.is_full() {
+                self.at = self.text.len();
+            }
             self.trivia();
             match self.peek() {
                 Some(close @ (b')' | b']' | b'}')) => match self.fate(close) {
@@ -282,7 +300,7 @@ impl<'p> Parser<'p> {
         let kind = match (bracket, shape) {
             (b'[', _) => Kind::List,
             (b'{', _) => Kind::Map,
-            (_, Shape::Named) => Kind::Struct,
+            (_, Shape::Named | Shape::Mixed) => Kind::Struct,
             _ => Kind::Tuple,
         };
         self.builder.close(node, kind, self.at);
@@ -290,28 +308,19 @@ impl<'p> Parser<'p> {
 
     fn fate(&self, close: u8) -> Fate {
         let fate = brackets::fate(self.text, &self.open, self.at, close);
-        let line = self.text[..self.at].rfind('\n').map_or(0, |newline| newline + 1);
         // A bracket in the middle of a line whose own brackets are all closed is one too many.
         let stray = self.trust == Trust::Indentation
             && fate == Fate::ClosesOuter
-            && self.open.iter().all(|open| open.at < line)
-            && !self.text[line..self.at].trim().is_empty();
+            && self.open.last().is_some_and(|open| open.line < self.line)
+            && self.at > self.line + self.indent;
         if stray { Fate::Stray } else { fate }
     }
 
     /// Whether a new line begins here that is indented no deeper than the one that opened the innermost bracket.
     fn line_ends_bracket(&self) -> bool {
-        if self.trust == Trust::Brackets {
-            return false;
-        }
-        let Some(open) = self.open.last() else { return false };
-        let indentation = |at: usize| {
-            let line = self.text[..at].rfind('\n').map_or(0, |newline| newline + 1);
-            let depth = self.text[line..].bytes().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
-            (line, depth)
-        };
-        let ((line, depth), (opened, outer)) = (indentation(self.at), indentation(open.at));
-        line > opened && line + depth == self.at && depth <= outer
+        self.trust == Trust::Indentation
+            && self.at == self.line + self.indent
+            && self.open.last().is_some_and(|open| open.line < self.line && self.indent <= open.indent)
     }
 
     /// One entry of a bracket. `false`: the bracket was found to be unclosed, and what comes belongs to an outer one.
@@ -336,8 +345,13 @@ impl<'p> Parser<'p> {
                 *shape = Shape::Positional;
                 self.value();
             }
-            (_, Shape::Positional, Some(length)) | (_, Shape::Unknown | Shape::Named, Some(length)) => {
+            (_, Shape::Mixed, _) => {
+                self.builder.leaf(Kind::Broken, self.at, self.at);
+                self.skip_broken();
+            }
+            (_, _, Some(length)) => {
                 if *shape == Shape::Positional {
+                    *shape = Shape::Mixed;
                     let found = self.span(self.at, self.at + length);
                     self.sink.push(
                         Diagnostic::error(

@@ -3,7 +3,7 @@
 use super::ron::Parser;
 use super::span;
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 
 impl Parser<'_> {
     /// Goes to the next comma or closing bracket of this level.
@@ -76,10 +76,24 @@ impl Parser<'_> {
 
     /// White space and comments.
     pub(super) fn trivia(&mut self) {
+        self.white_space();
+        if self.indent == usize::MAX {
+            self.indent = self.at - self.line;
+        }
+    }
+
+    fn white_space(&mut self) {
         let bytes = self.text.as_bytes();
         loop {
             match bytes.get(self.at) {
-                Some(b' ' | b'\t' | b'\r' | b'\n') => self.at += 1,
+                Some(b'\n') => {
+                    self.at += 1;
+                    self.line = self.at;
+                    // Until the line's first word is met.
+                    self.indent = usize::MAX;
+                }
+                Some(b' ' | b'\t' | b'\r') => self.at += 1,
+                Some(b'#') if !self.is_hex_color() && !self.rest().starts_with("#!") => self.foreign_comment(),
                 Some(b'/') if bytes.get(self.at + 1) == Some(&b'/') => {
                     let length = self.rest().find('\n').unwrap_or(self.rest().len());
                     let length = self.rest()[..length].trim_end().len();
@@ -94,6 +108,8 @@ impl Parser<'_> {
                                 .expected("*/ at its end"),
                         );
                         self.at = self.text.len();
+                        // What is open now cannot be closed any more.
+                        self.at_end_reported = true;
                     }
                 },
                 Some(byte) if !byte.is_ascii() => match self.rest().chars().next() {
@@ -105,7 +121,28 @@ impl Parser<'_> {
         }
     }
 
+    /// `#ff8800` without quotes.
+    fn is_hex_color(&self) -> bool {
+        let digits = self.rest().bytes().skip(1).take_while(u8::is_ascii_hexdigit).count();
+        digits == 6
+    }
+
+    /// `# ..`, as comments are written elsewhere.
+    fn foreign_comment(&mut self) {
+        let found = self.span(self.at, self.at + 1);
+        let mut fault =
+            Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "comments begin with `//` in RON, not `#`")
+                .hint("write `//`");
+        fault.edit = Some(Edit { span: found, replacement: "//".to_owned() });
+        self.sink.push(fault);
+        self.at += self.rest().find('\n').unwrap_or(self.rest().len());
+    }
+
     fn comment(&mut self, length: usize) {
+        if let Some(newline) = self.text[self.at..self.at + length].rfind('\n') {
+            self.line = self.at + newline + 1;
+            self.indent = usize::MAX;
+        }
         let found = self.span(self.at, self.at + length);
         self.comments.push(found);
         self.at += length;

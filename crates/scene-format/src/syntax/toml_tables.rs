@@ -245,8 +245,11 @@ pub(super) fn regroup(text: &str, builder: &mut Builder, opened: usize) {
     emit_group(text, builder, &entries);
 }
 
-fn emit_group(text: &str, builder: &mut Builder, entries: &[(&[Node], &[Node])]) {
-    let mut groups: Vec<(&[Node], Vec<(&[Node], &[Node])>)> = Vec::new();
+/// The keys before a value, and the value's nodes.
+type Dotted<'n> = (&'n [Node], &'n [Node]);
+
+fn emit_group(text: &str, builder: &mut Builder, entries: &[Dotted<'_>]) {
+    let mut groups: Vec<(&[Node], Vec<Dotted<'_>>)> = Vec::new();
     let mut index: HashMap<Cow<'_, str>, usize> = HashMap::new();
     for &(path, value) in entries {
         let Some((first, tail)) = path.split_first().filter(|(_, tail)| !tail.is_empty()) else {

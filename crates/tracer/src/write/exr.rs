@@ -1,13 +1,13 @@
 //! OpenEXR: one layer of R, G, B in 32-bit floats, ZIP, with attributes that say what the picture was made from.
 
 use super::{Encoding, Provenance, WriteError};
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Image as ExrImage, Layer,
-    LayerAttributes, LineOrder, SmallVec, Text, Vec2, WritableImage,
-};
-use exr::image::Encoding as ExrEncoding;
 use exr::image::Blocks;
+use exr::image::Encoding as ExrEncoding;
 use exr::meta::attribute::Chromaticities;
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Compression, FlatSamples, Image as ExrImage, Layer, LayerAttributes,
+    LineOrder, SmallVec, Text, Vec2, WritableImage,
+};
 use std::io::Cursor;
 use tracer_core::Image;
 
@@ -25,11 +25,8 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
         // The only one of its map: the order of several would change from run to run, and the bytes with it.
         attributes.other.insert(text("scene"), AttributeValue::Text(text(scene)));
     }
-    let encoding = ExrEncoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
+    let encoding =
+        ExrEncoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let size = Vec2(image.width as usize, image.height as usize);
     let mut picture = ExrImage::from_layer(Layer::new(size, attributes, encoding, channels));
     picture.attributes.chromaticities = Some(Chromaticities {

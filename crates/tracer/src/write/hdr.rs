@@ -88,7 +88,6 @@ mod tests {
         [r, g, b].map(|m| f64::from(m) / 256.0 * power_of_two(i32::from(e) - 128))
     }
 
-
     #[test]
     fn rgbe_is_the_nearest() {
         assert_eq!(rgbe([1.0, 0.5, 0.0]), [128, 64, 0, 129]);

@@ -44,12 +44,7 @@ pub struct Written {
 ///
 /// # Errors
 /// When the place cannot be written: no such folder, no permission, read-only, disk full, the reader of standard output gone.
-pub fn write(
-    image: &Image,
-    encoding: Encoding,
-    place: &Place,
-    provenance: &Provenance,
-) -> Result<Written, WriteError> {
+pub fn write(image: &Image, encoding: Encoding, place: &Place, provenance: &Provenance) -> Result<Written, WriteError> {
     let bytes = encode(image, encoding, provenance)?;
     match place {
         Place::File(path) => save(path, &bytes)?,

@@ -15,12 +15,7 @@ pub(super) fn encode(image: &Image, bits: Bits, provenance: &Provenance) -> Resu
         .map_err(|error| WriteError::Encode { encoding: Encoding::Png(bits).name(), message: error.to_string() })
 }
 
-fn encode_pixels(
-    image: &Image,
-    bits: Bits,
-    provenance: &Provenance,
-    pixels: &[u8],
-) -> Result<Vec<u8>, EncodingError> {
+fn encode_pixels(image: &Image, bits: Bits, provenance: &Provenance, pixels: &[u8]) -> Result<Vec<u8>, EncodingError> {
     let mut info = Info::with_size(image.width, image.height);
     info.color_type = ColorType::Rgb;
     info.bit_depth = match bits {

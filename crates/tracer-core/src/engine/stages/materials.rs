@@ -227,3 +227,6 @@ pub fn fresnel<F: Lanes>(cos_i: F, cos_t: F, eta: F) -> F {
 
 /// 2 pi, for densities of cones.
 pub const TWO_PI: f32 = 2.0 * PI;
+
+#[cfg(test)]
+mod tests;
