@@ -177,12 +177,22 @@ pub struct DielectricSample<F: Lanes> {
 pub fn sample_dielectric<F: Lanes>(s: &Surface<F>, wo: V3<F>, ior: F, lobe: F) -> DielectricSample<F> {
     let c = F::splat;
     let one = c(1.0);
-    let (reflected, normal) = reflect_bent(s, wo);
+    let (mut reflected, mut normal) = reflect_bent(s, wo);
     // n_incident / n_transmitted.
     let eta = F::select(s.outside, one / ior, ior);
+    let sin2_transmitted = |cos_i: F| eta * eta * (one - cos_i * cos_i).max(c(0.0));
+    if s.smooth.any() {
+        // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides: else
+        // rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
+        let cos_g = wo.dot(s.ng);
+        let caught = one.le(sin2_transmitted(wo.dot(normal))) & sin2_transmitted(cos_g).lt(one);
+        let caught = s.smooth & !s.outside & caught;
+        reflected = V3::select(caught, s.ng.scale(cos_g + cos_g).sub(wo), reflected);
+        normal = V3::select(caught, s.ng, normal);
+    }
     let refract = |n: V3<F>| {
         let cos_i = wo.dot(n);
-        let sin2_t = eta * eta * (one - cos_i * cos_i).max(c(0.0));
+        let sin2_t = sin2_transmitted(cos_i);
         let cos_t = (one - sin2_t).max(c(0.0)).sqrt();
         let direction = n.mad(eta * cos_i - cos_t, wo.scale(-eta));
         (direction, cos_i, cos_t, sin2_t)
