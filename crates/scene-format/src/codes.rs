@@ -151,7 +151,7 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), 1)])
     /// ```
     MISSING_NAME "E0119" "a name is missing";
-    /// After ten thousand faults the rest is not listed.
+    /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
     TOO_MANY "E0120" "too many faults";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
@@ -310,7 +310,8 @@ codes! {
     FILE_UNREADABLE "E0502" "a file cannot be read";
     /// A mesh file breaks the rules of its format (OBJ or OFF). The message says where in the file and what was expected.
     BROKEN_MESH "E0510" "a mesh file is broken";
-    /// A mesh file holds no triangle.
+    /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
+    /// exported with faces.
     EMPTY_MESH "E0511" "a mesh has no triangles";
     /// A picture file cannot be decoded as PNG or JPEG.
     BROKEN_TEXTURE "E0520" "a texture cannot be read";

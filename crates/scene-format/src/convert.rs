@@ -201,12 +201,17 @@ impl Converter<'_, '_> {
 fn comment_lines(comment: &str) -> Vec<String> {
     if let Some(block) = comment.strip_prefix("/*") {
         let block = block.strip_suffix("*/").unwrap_or(block);
-        let lines = block.lines().map(|line| line.trim().trim_start_matches('*').trim().to_owned());
+        let lines = block.lines().map(|line| printable(line.trim().trim_start_matches('*').trim()));
         let lines: Vec<String> = lines.collect();
         let first = lines.iter().position(|line| !line.is_empty()).unwrap_or(0);
         let last = lines.iter().rposition(|line| !line.is_empty()).map_or(first, |last| last + 1);
         return lines[first..last].to_vec();
     }
     let text = comment.strip_prefix("//").or_else(|| comment.strip_prefix('#')).unwrap_or(comment);
-    vec![text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()]
+    vec![printable(text.strip_prefix(' ').unwrap_or(text).trim_end())]
+}
+
+/// A comment without the control characters that TOML does not allow in one.
+fn printable(comment: &str) -> String {
+    comment.chars().map(|c| if c.is_control() && c != '\t' { ' ' } else { c }).collect()
 }

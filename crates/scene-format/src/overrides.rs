@@ -1,5 +1,6 @@
 //! `--set path=value`: edits of the tree before it is checked, so that the same checks apply and the carets point into the
 //! argument.
+#![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
 
 use crate::codes;
 use crate::desc::Scene;

@@ -122,9 +122,9 @@ struct Excerpt {
 }
 
 /// Source lines longer than this are cut around what they are shown for.
-const LONG_LINE: usize = 2000;
+const LONG_LINE: usize = 20_000;
 /// Two places this many lines apart are shown in one excerpt.
-const NEAR_LINES: usize = 4;
+const NEAR_LINES: usize = 200;
 /// A place over more lines than this is shown by its first line.
 const TALL: usize = 3;
 
@@ -368,4 +368,80 @@ pub fn apply_edits(text: &str, edits: &[Edit]) -> String {
     }
     out.push_str(&text[at..]);
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{LoadError, Syntax, load_str};
+    use std::path::Path;
+
+    fn faults(source: &str) -> (Vec<Diagnostic>, Vec<Source>) {
+        match load_str("s.ron", source, Syntax::Ron, Path::new(""), &[]) {
+            Err(LoadError::Invalid { diagnostics, sources }) => (diagnostics, sources),
+            other => panic!("the scene is wrong: {other:?}"),
+        }
+    }
+
+    const BROKEN: &str = "Scene(\r\n\tobjects: [/* é🐈 */ Sphere(center: (0, 0, 0), radus: 1)],\r\n)";
+
+    #[test]
+    fn columns_count_characters_after_tabs_line_ends_and_marks() {
+        let text = "\u{feff}a\r\n\té🐈x";
+        assert_eq!(position(text, 3), Position { line: 1, column: 1 });
+        let x = text.find('x').expect("x");
+        assert_eq!(position(text, x), Position { line: 2, column: 4 });
+        assert_eq!(position(text, 1000), Position { line: 2, column: 5 });
+    }
+
+    #[test]
+    fn json_says_where_in_bytes_lines_and_columns_and_how_to_mend() {
+        let (diagnostics, sources) = faults(BROKEN);
+        let lines = json_lines(&diagnostics, &sources);
+        let object: serde_json::Value = serde_json::from_str(lines.trim()).expect("one object");
+        let at = BROKEN.find("radus").expect("the word");
+        assert_eq!(object["severity"], "error");
+        assert_eq!(object["code"], "E0201");
+        assert_eq!(object["file"], "s.ron");
+        assert_eq!(object["path"], "objects[0]");
+        assert_eq!(object["bytes"], serde_json::json!([at, at + 5]));
+        assert_eq!(object["start"], serde_json::json!({ "line": 2, "column": 47 }));
+        assert_eq!(object["end"], serde_json::json!({ "line": 2, "column": 52 }));
+        assert_eq!(object["edit"]["replacement"], "radius");
+        assert_eq!(object["edit"]["bytes"], object["bytes"]);
+    }
+
+    #[test]
+    fn text_carries_colours_only_when_asked() {
+        let (diagnostics, sources) = faults(BROKEN);
+        assert!(!text(&diagnostics, &sources, Style::default()).contains('\u{1b}'));
+        assert!(text(&diagnostics, &sources, Style { color: true, width: 80 }).contains("\u{1b}["));
+    }
+
+    #[test]
+    fn narrow_terminals_get_the_caret_and_its_word() {
+        let spheres = "Sphere(center: (0, 0, 0), radius: 1), ".repeat(20);
+        let (diagnostics, sources) =
+            faults(&format!("Scene(objects: [{spheres}Sphere(center: (0, 0, 0), radius: -7)])"));
+        let shown = text(&diagnostics, &sources, Style { color: false, width: 50 });
+        let lines: Vec<&str> = shown.lines().collect();
+        let source = lines.iter().position(|line| line.contains("radius: -7")).expect("the value is shown");
+        assert!(lines[source].chars().count() <= 70, "{shown}");
+        let column = lines[source + 1].find("^^").expect("a caret");
+        assert_eq!(lines[source].get(column..column + 2), Some("-7"), "{shown}");
+    }
+
+    #[test]
+    fn a_diagnostic_of_another_file_names_it() {
+        let fault =
+            Diagnostic::error(crate::codes::BROKEN_MESH, Span::NONE, "the mesh is broken").at_line("cat.obj", 7);
+        let shown = text(&[fault], &[], Style::default());
+        assert!(shown.contains("error[E0510]: the mesh is broken") && shown.contains("in: cat.obj:7"), "{shown}");
+    }
+
+    #[test]
+    fn edits_are_made_from_front_to_back_and_overlaps_left_out() {
+        let edit = |start, end, text: &str| Edit { span: Span { source: 0, start, end }, replacement: text.to_owned() };
+        assert_eq!(apply_edits("abcdef", &[edit(4, 5, "X"), edit(0, 2, ""), edit(1, 3, "Y")]), "cdXf");
+    }
 }

@@ -212,12 +212,14 @@ impl Range {
             format!(">= {}", self.low)
         } else if huge {
             String::new()
+        } else if self.low == self.high {
+            format!("{}", self.low)
         } else if self.above_low && self.below_high {
             format!("between {} and {}, both excluded", self.low, self.high)
         } else if self.above_low {
             format!("> {}, at most {}", self.low, self.high)
         } else {
-            format!("from {} to {}", self.low, self.high)
+            format!("from {} to {}", grouped(self.low), grouped(self.high))
         }
     }
 }
@@ -229,8 +231,28 @@ pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
         Type::Text | Type::File => item.kind() == Kind::Text,
         Type::Enum(_) | Type::Struct(_) => compound,
         Type::List(_) => item.kind() == Kind::List,
+        Type::Color => !compound,
+        Type::Number | Type::Integer => matches!(item.kind(), Kind::Integer | Kind::Float),
+        Type::Vector => matches!(item.kind(), Kind::List | Kind::Tuple) && !compound,
         _ => !compound && item.kind() != Kind::Text,
     }
+}
+
+/// A number, with its digits in groups of three when there are many.
+fn grouped(value: f64) -> String {
+    let digits = format!("{value}");
+    if value.fract() != 0.0 || value.abs() < 1e5 {
+        return digits;
+    }
+    let (sign, digits) = digits.split_at(usize::from(value < 0.0));
+    let mut out = sign.to_owned();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            out.push('_');
+        }
+        out.push(digit);
+    }
+    out
 }
 
 /// Doc comments as one paragraph.

@@ -212,9 +212,20 @@ impl<'t, 's> Item<'t, 's> {
         Children { tree: self.tree, index, end: self.index + self.node().size as usize }
     }
 
+    /// Children that could be read.
+    pub fn solid_children(&self) -> impl Iterator<Item = Item<'t, 's>> + use<'t, 's> {
+        self.children().filter(|child| child.kind() != Kind::Broken)
+    }
+
     /// Keys with their values. A value without a key is a broken one and left out.
     pub fn fields(&self) -> Fields<'t, 's> {
         Fields { children: self.children() }
+    }
+
+    /// Whether a syntax error stands anywhere inside.
+    pub fn holds_damage(&self) -> bool {
+        let end = self.index + self.node().size as usize;
+        self.tree.nodes[self.index..end].iter().any(|node| node.kind == Kind::Broken)
     }
 
     /// Whether a syntax error stands directly inside: what is missing may have been there.

@@ -69,9 +69,10 @@ macro_rules! is_default {
     ($value:expr, $ty:ty) => {
         false
     };
-    ($value:expr, $ty:ty, $default:expr) => {
-        *$value == <$ty>::from($default)
-    };
+    ($value:expr, $ty:ty, $default:expr) => {{
+        let default = <$ty>::from($default);
+        *$value == default
+    }};
 }
 
 /// A struct of named fields.

@@ -68,7 +68,7 @@ scene_struct! {
     /// A whole scene: one file.
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
-        version: u32 = VERSION => Rule::within("a whole number", 1.0, 4_294_967_295.0);
+        version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
         /// The camera.
         camera: Camera = Camera::default();
         /// The picture's size.

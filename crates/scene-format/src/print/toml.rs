@@ -73,6 +73,7 @@ fn body(out: &mut String, path: &str, form: &Form) {
                     continue;
                 };
                 let path = format!("{path}.{}.{name}", key(&entry.name));
+                blank(out);
                 sub_table(out, &path, entry, content);
             }
         }
@@ -89,7 +90,6 @@ fn body(out: &mut String, path: &str, form: &Form) {
 
 fn sub_table(out: &mut String, path: &str, entry: &Entry, content: &Form) {
     let Form::Struct { .. } = content else { return line(out, entry) };
-    blank(out);
     comments(out, &entry.before);
     out.push_str(&format!("[{path}]"));
     end_line(out, entry.after.as_deref());

@@ -10,6 +10,9 @@ use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
 
+/// Comparisons of unknown names with known ones.
+const MAX_COMPARISONS: usize = 200_000;
+
 static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
 
@@ -17,6 +20,9 @@ static ROOT: FieldDef =
 pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let syntax_errors = sink.errors;
     let Some(root) = tree.root() else {
+        if syntax_errors > 0 {
+            return None;
+        }
         sink.push(no_objects(Span { source: 0, start: 0, end: 0 }, "the file is empty", Syntax::Ron));
         return None;
     };
@@ -44,13 +50,16 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.path.pop();
     }
     let scene = scene?;
-    reader.camera(&scene.camera);
+    reader.camera(&scene.camera, root.syntax());
     // Warnings about what is absent mean something only when the structure could be read.
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.starts_with("E03");
     if !reader.sink.diagnostics.iter().any(structure) {
         reader.unused_materials();
-        if scene.lights.is_empty() && scene.background == [0.0; 3] {
-            let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value.span());
+        let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
+        let dark = lights.is_none_or(|lights| lights.children().next().is_none());
+        let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background == [0.0; 3];
+        if dark && black {
+            let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(
                 Diagnostic::warning(
@@ -118,6 +127,9 @@ impl Reader<'_> {
         self.materials.damaged |= item.is_damaged();
         let mut list = Vec::new();
         for (key, value) in item.fields() {
+            if self.sink.is_full() {
+                break;
+            }
             let name = key.text().into_owned();
             self.path.push(Step::Key(name.clone()));
             if name.trim().is_empty() {
@@ -151,7 +163,7 @@ impl Reader<'_> {
     }
 
     /// An object names a material.
-    pub(crate) fn use_name(&mut self, name: &Spanned<String>) {
+    pub(crate) fn use_name(&mut self, name: &Spanned<String>, syntax: Syntax) {
         if let Some(&index) = self.materials.index.get(&name.value) {
             if let Some(used) = self.materials.used.get_mut(index) {
                 *used = true;
@@ -173,12 +185,21 @@ impl Reader<'_> {
             1..=8 => format!("a name from `materials`: {}", suggest::list(&known)),
             count => format!("one of the {count} names in `materials`"),
         };
-        let nearest = suggest::nearest(&name.value, known.iter().copied());
+        // Many names times many mistakes would take long: the first mistakes are the ones that are read.
+        self.materials.unknown += 1;
+        let few = known.len() * self.materials.unknown <= MAX_COMPARISONS;
+        let nearest = few.then(|| suggest::nearest(&name.value, known.iter().copied())).flatten();
         fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
         if nearest.is_none() {
-            fault.hint = match kind {
-                Some(_) => format!("for a material written here, remove the quotes: {}(..)", name.value),
-                None => "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned(),
+            fault.hint = match (kind, syntax) {
+                (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {}(..)", name.value),
+                (Some(_), Syntax::Toml) => format!("for a material written here: {{ {} = {{ .. }} }}", name.value),
+                (None, Syntax::Ron) => {
+                    "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()
+                }
+                (None, Syntax::Toml) => {
+                    "add it to [materials], or write the material here: { Diffuse = { albedo = 0.5 } }".to_owned()
+                }
             };
         }
         self.report(fault);
@@ -201,7 +222,7 @@ impl Reader<'_> {
     }
 
     /// The view must have a direction, and `up` must not lie along it.
-    fn camera(&mut self, camera: &Camera) {
+    fn camera(&mut self, camera: &Camera, syntax: Syntax) {
         if self.sink.diagnostics.iter().any(|fault| fault.path.starts_with("camera")) {
             return;
         }
@@ -226,8 +247,12 @@ impl Reader<'_> {
                 let fault =
                     Diagnostic::error(codes::UP_ALONG_VIEW, span, "the camera looks along its own `up` direction")
                         .expected("`up` in another direction than from `position` to `look_at`");
-                let other = if view[0] == 0.0 && view[1] == 0.0 { "(0, 1, 0)" } else { "(0, 0, -1)" };
-                self.report(fault.hint(format!("for a view straight up or down, write `up: {other}`")));
+                let other = if view[0] == 0.0 && view[1] == 0.0 { "0, 1, 0" } else { "0, 0, -1" };
+                let other = match syntax {
+                    Syntax::Ron => format!("up: ({other})"),
+                    Syntax::Toml => format!("up = [{other}]"),
+                };
+                self.report(fault.hint(format!("write `{other}`")));
             }
         }
         self.path.clear();

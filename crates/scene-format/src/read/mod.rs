@@ -49,6 +49,8 @@ struct Materials {
     index: HashMap<String, usize>,
     /// Part of `materials` could not be read: names may be missing.
     damaged: bool,
+    /// Uses of names that are not there.
+    unknown: usize,
 }
 
 /// Fields of one struct, by their number in the schema.
@@ -58,6 +60,8 @@ pub(crate) struct Fields<'t, 's> {
     next: usize,
 }
 
+/// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
+const LOOK_AT: usize = 64;
 /// No struct of the language has more fields.
 const MAX_FIELDS: usize = 12;
 
@@ -116,8 +120,9 @@ impl<'r> Reader<'r> {
         match item.kind() {
             Kind::Broken => return None,
             Kind::Struct | Kind::Map => {}
+            Kind::Tuple if item.is_damaged() && def.bare.is_none() => return None,
             Kind::Tuple => {
-                let mut children = item.children();
+                let mut children = item.solid_children();
                 match (children.next(), children.next(), def.bare) {
                     (None, ..) => {}
                     (Some(only), None, Some(bare)) => {
@@ -125,31 +130,35 @@ impl<'r> Reader<'r> {
                         fields.slots[slot] = Some(only);
                     }
                     (Some(first), ..) => {
-                        if first.kind() != Kind::Broken {
-                            self.report(
-                                Diagnostic::error(
-                                    codes::MISSING_NAME,
-                                    first.head(),
-                                    format!("the values of {} are written with their names", def.noun),
-                                )
-                                .expected(field_list(def))
-                                .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
-                            );
-                        }
+                        self.report(
+                            Diagnostic::error(
+                                codes::MISSING_NAME,
+                                first.head(),
+                                format!("the values of {} are written with their names", def.noun),
+                            )
+                            .expected(field_list(def))
+                            .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
+                        );
                         return None;
                     }
                 }
             }
             _ => {
+                let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
+                let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
                 let expected = match item.syntax() {
+                    _ if header => "a table".to_owned(),
                     Syntax::Ron => format!("{}({})", def.name, field_words(def)),
                     Syntax::Toml => format!("{{ {} }}", field_words(def).replace(": ..", " = ..")),
                 };
-                return self.wrong_kind(item, def.noun, &expected, None);
+                return self.wrong_kind(item, def.noun, &expected, edit);
             }
         }
         let mut guess = 0;
         for (key, value) in item.fields() {
+            if self.sink.is_full() {
+                break;
+            }
             let name = key.text();
             let slot = match def.fields.get(guess) {
                 Some(field) if field.name == name => Some(guess),
@@ -158,7 +167,7 @@ impl<'r> Reader<'r> {
             match slot {
                 // Where the schema is, for editors.
                 None if name == "$schema" && def.name == "Scene" => {}
-                None => self.unknown_field(key, &name, def),
+                None => self.unknown_field(key, &name, item, def),
                 Some(slot) => {
                     guess = slot + 1;
                     if let Some(first) = fields.slots[slot] {
@@ -217,8 +226,10 @@ impl<'r> Reader<'r> {
                 }
             }
             _ => {
-                let mut slots = written().filter_map(|(field, slot)| slot.map(|item| (field.name, item.head())));
-                let (Some((first, at)), Some((second, span))) = (slots.next(), slots.next()) else { return };
+                let mut slots: Vec<_> =
+                    written().filter_map(|(field, slot)| slot.map(|item| (item.head(), field.name))).collect();
+                slots.sort();
+                let [(at, first), (span, second), ..] = slots[..] else { return };
                 self.report(
                     Diagnostic::error(
                         codes::EXACTLY_ONE,
@@ -235,13 +246,13 @@ impl<'r> Reader<'r> {
 
     /// Whether an unknown field of the item looks like `name`: then it is not missing, it is mistyped.
     fn mistyped(&self, item: Item<'_, '_>, def: &'static StructDef, name: &str) -> bool {
-        item.fields().any(|(key, _)| {
+        item.fields().take(LOOK_AT).any(|(key, _)| {
             let key = key.text();
-            def.field(&key).is_none() && suggest::nearest(&key, names(def)) == Some(name)
+            def.field(&key).is_none() && meant(&key, item, def) == Some(name)
         })
     }
 
-    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, def: &'static StructDef) {
+    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, item: Item<'_, '_>, def: &'static StructDef) {
         if RESERVED.contains(&name) {
             self.report(
                 Diagnostic::error(
@@ -257,9 +268,7 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
         let quoted = key.lexeme().starts_with(['"', '\'']);
-        fault.did_you_mean(suggest::nearest(name, names(def)), |word| {
-            if quoted { format!("\"{word}\"") } else { word.to_owned() }
-        });
+        fault.did_you_mean(meant(name, item, def), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
             && let Some(other) = synonym(name, def)
         {
@@ -301,6 +310,9 @@ impl<'r> Reader<'r> {
         }
         let mut list = Vec::new();
         for (index, child) in item.children().enumerate() {
+            if self.sink.is_full() {
+                break;
+            }
             if child.kind() == Kind::Broken {
                 continue;
             }
@@ -313,7 +325,9 @@ impl<'r> Reader<'r> {
 
     fn not_a_list<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
         let lexeme = item.lexeme();
+        let header = item.syntax() == Syntax::Toml && item.kind() == Kind::Map && lexeme.starts_with('[');
         let edit = match item.kind() {
+            _ if header => Some(format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
                 Some(format!("[{lexeme}]"))
             }
@@ -321,7 +335,7 @@ impl<'r> Reader<'r> {
             _ => None,
         };
         // A table under a TOML header is not between brackets that could be edited.
-        let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with('{'));
+        let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[']));
         self.wrong_kind(item, at.noun, "a list: [a, b, c]", edit)
     }
 
@@ -344,7 +358,11 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("{} cannot be {}", plain(noun), describe(item)))
                 .expected(expected);
         if let Some(replacement) = edit {
-            fault.hint = format!("write {}", shortened(&replacement));
+            fault.hint = if replacement.chars().count() > SHOWN && replacement.starts_with('[') {
+                "put square brackets around it".to_owned()
+            } else {
+                format!("write {}", shortened(&replacement))
+            };
             fault.edit = Some(Edit { span: item.span(), replacement });
         }
         self.report(fault);
@@ -381,9 +399,11 @@ pub(crate) fn describe(item: Item<'_, '_>) -> String {
     }
 }
 
+/// So many characters of something long are shown.
+const SHOWN: usize = 40;
+
 /// The first characters of something that may be long.
 pub(crate) fn shortened(text: &str) -> String {
-    const SHOWN: usize = 40;
     let line = text.lines().next().unwrap_or("");
     if line.len() == text.len() && line.chars().count() <= SHOWN {
         return line.to_owned();
@@ -411,6 +431,12 @@ pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static st
     def.fields.iter().map(|field| field.name)
 }
 
+/// The field that an unknown name stands for: one that is not written yet, if one of those is near.
+fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'static str> {
+    let written = |field: &&str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == *field);
+    suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
+}
+
 fn field_list(def: &'static StructDef) -> String {
     let names: Vec<&str> = names(def).collect();
     match names.as_slice() {
@@ -421,6 +447,9 @@ fn field_list(def: &'static StructDef) -> String {
 
 /// `center: .., radius: ..`: the fields that must be written, or the first one.
 fn field_words(def: &'static StructDef) -> String {
+    if def.name == "Scene" {
+        return "objects: [..]".to_owned();
+    }
     let mut words: Vec<String> =
         def.fields.iter().filter(|field| field.default.is_none()).map(|field| format!("{}: ..", field.name)).collect();
     if words.is_empty() {

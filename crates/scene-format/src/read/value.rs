@@ -117,7 +117,7 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(code, item.span(), message).expected(expected_for(at, item));
         if code == codes::OUT_OF_RANGE && (value.abs() > range.high.abs() && range.high >= crate::schema::MAX_LENGTH) {
             fault.hint = "numbers so large leave the range of the arithmetic; choose a larger unit".to_owned();
-        } else if range.is_length() && value > 0.0 {
+        } else if range.is_length() && value > 0.0 && value < range.low {
             fault.hint = "numbers so small leave the range of the arithmetic; choose a smaller unit".to_owned();
         } else if range.high == 1.0 && value > 1.0 && value <= 255.0 && at.rule.color {
             fault.hint = if value > 2.0 && value.fract() == 0.0 {
@@ -278,7 +278,7 @@ impl Reader<'_> {
     /// The name of a material; whether it is known is looked up when all are read.
     pub(crate) fn material_name(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Spanned<String>> {
         let name = <Spanned<String>>::read(self, item, at)?;
-        self.use_name(&name);
+        self.use_name(&name, item.syntax());
         Some(name)
     }
 }
@@ -322,7 +322,10 @@ impl Reader<'_> {
             fault.hint = "write the number without quotes".to_owned();
             fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
         } else {
-            fault.hint = "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned();
+            fault.hint = match item.syntax() {
+                Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),
+                Syntax::Toml => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
+            };
         }
         self.report(fault);
         None

@@ -63,6 +63,12 @@ impl Reader<'_> {
             }
             _ => return self.no_variant(item, def),
         };
+        // { albedo = 1 }: the fields of a kind without its name.
+        let is_field =
+            |variant: &VariantDef| matches!(variant.content, Content::Struct(def) if def.field(&name).is_some());
+        if matches!(body, Body::Value(_)) && def.variant(&name).is_none() && def.variants.iter().any(is_field) {
+            return self.no_variant(item, def);
+        }
         match def.variant(&name) {
             Some(variant) => Some(Chosen { variant, body, item }),
             None => {
@@ -73,7 +79,7 @@ impl Reader<'_> {
     }
 
     fn no_variant<T>(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Option<T> {
-        if item.is_damaged() && item.children().count() <= 1 {
+        if item.is_damaged() && item.children().count() <= 1 || item.kind() == Kind::List && item.holds_damage() {
             return None;
         }
         let mut fault = Diagnostic::error(
@@ -89,7 +95,9 @@ impl Reader<'_> {
             let fits = def.variants.iter().filter(|variant| {
                 matches!(variant.content, Content::Struct(fields)
                     if item.fields().next().is_some()
-                    && item.fields().all(|(key, _)| fields.field(&key.text()).is_some()))
+                    && item.fields().all(|(key, _)| fields.field(&key.text()).is_some())
+                    && fields.fields.iter().all(|field| field.default.is_some()
+                        || item.fields().any(|(key, _)| key.text() == field.name)))
             });
             let fits: Vec<&str> = fits.map(|variant| variant.name).collect();
             if let [only] = fits.as_slice() {
@@ -177,10 +185,10 @@ impl Reader<'_> {
             Body::None => self.needs_brackets(chosen),
             Body::Value(value) => T::read(self, value, at),
             Body::Brackets(item) => {
-                let mut children = item.children();
+                let mut children = item.solid_children();
                 match (children.next(), children.next()) {
+                    (None, None) if item.is_damaged() => None,
                     (Some(only), None) if item.kind() == Kind::Tuple => T::read(self, only, at),
-                    (Some(only), None) if only.kind() == Kind::Broken => None,
                     (Some(_), Some(_)) if item.kind() == Kind::Tuple => {
                         // Translate(1, 2, 3): the vector's own brackets are missing.
                         let lexeme = item.lexeme();
@@ -216,9 +224,11 @@ impl Reader<'_> {
             (_, Syntax::Ron) => (format!("{name}(..)"), false),
             (_, Syntax::Toml) => (format!("{{ {name} = .. }}"), false),
         };
-        let mut fault =
-            Diagnostic::error(codes::WRONG_TYPE, chosen.item.span(), format!("`{name}` needs brackets after it"))
-                .expected(expected);
+        let needs = match chosen.item.syntax() {
+            Syntax::Ron => format!("`{name}` needs brackets after it"),
+            Syntax::Toml => format!("`{name}` needs a table of its fields"),
+        };
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, chosen.item.span(), needs).expected(expected);
         if complete {
             let replacement = match chosen.item.syntax() {
                 Syntax::Ron => format!("{name}()"),

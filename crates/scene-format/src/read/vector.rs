@@ -11,7 +11,7 @@ use crate::tree::{Item, Kind};
 use crate::words::Words;
 
 /// Names of the three numbers of a vector.
-const AXES: [&str; 3] = ["x", "y", "z"];
+const AXES: [&str; 3] = ["the x coordinate", "the y coordinate", "the z coordinate"];
 /// Names of the three numbers of a colour.
 const CHANNELS: [&str; 3] = ["the red channel", "the green channel", "the blue channel"];
 

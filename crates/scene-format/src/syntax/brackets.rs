@@ -9,6 +9,9 @@ use crate::diagnostic::{Diagnostic, Edit};
 pub(super) struct Open {
     pub bracket: u8,
     pub at: usize,
+    /// Where its line begins, and how far that is indented.
+    pub line: usize,
+    pub indent: usize,
 }
 
 /// What to do with a closing bracket.
@@ -44,13 +47,14 @@ fn misfit(rest: &str, open: &[Open], line: usize) -> usize {
         match byte {
             b'(' | b'[' | b'{' => stack.push(byte),
             b')' | b']' | b'}' => match stack.pop() {
-                Some(bracket) if closer_of(bracket) == byte => {}
-                _ => faults += 1,
+                // Closing what an earlier line opened is possible, but not likely in the middle of a line.
+                Some(bracket) if closer_of(bracket) == byte => faults += usize::from(stack.len() < base),
+                _ => faults += 2,
             },
             _ => {}
         }
     }
-    faults + stack.len().saturating_sub(base)
+    faults + 2 * stack.len().saturating_sub(base)
 }
 
 /// Decides about the closing bracket `close` at `at`, while `open` are open.
@@ -66,13 +70,20 @@ pub(super) fn fate(text: &str, open: &[Open], at: usize, close: u8) -> Fate {
     if !same_line {
         return Fate::ClosesOuter;
     }
-    // Both are possible: take what lets the rest of the line fit best.
-    let line = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+    // All are possible: take what lets the rest of the line fit best.
+    let line = innermost.line;
     let rest = &text[at + 1..];
     let implied = outer_ones.len() - outer;
     let typo = misfit(rest, outer_ones, line);
-    let closes_outer = misfit(rest, &open[..outer], line) + implied.saturating_sub(1);
-    if typo <= closes_outer { Fate::Typo } else { Fate::ClosesOuter }
+    let closes_outer = misfit(rest, &open[..outer], line) + 2 * implied.saturating_sub(1);
+    let stray = misfit(rest, open, line);
+    if stray < typo.min(closes_outer) {
+        Fate::Stray
+    } else if typo <= closes_outer {
+        Fate::Typo
+    } else {
+        Fate::ClosesOuter
+    }
 }
 
 /// `close` at `at` stands where the innermost bracket should be closed.

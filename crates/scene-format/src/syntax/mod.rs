@@ -3,7 +3,9 @@
 mod brackets;
 pub(crate) mod decode;
 pub(crate) mod ron;
+mod ron_extensions;
 mod ron_literal;
+mod ron_scan;
 pub(crate) mod toml;
 mod toml_literal;
 mod toml_tables;
@@ -68,9 +70,14 @@ pub(crate) struct Sink {
 }
 
 /// More faults than this are not listed: nobody reads them, and a file of rubbish must not fill the memory.
-const MAX_DIAGNOSTICS: usize = 10_000;
+const MAX_DIAGNOSTICS: usize = 1000;
 
 impl Sink {
+    /// Whether no more is taken: readers stop then.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
     pub fn push(&mut self, diagnostic: Diagnostic) {
         if diagnostic.severity == crate::Severity::Error {
             self.errors += 1;
@@ -90,6 +97,17 @@ impl Sink {
             );
         }
     }
+}
+
+/// What stands on the line from a byte on, as far as a look ahead goes: a file in one line must not take quadratic time.
+fn line_ahead(text: &str, at: usize) -> &str {
+    const LOOK_AHEAD: usize = 300;
+    let mut end = text.len().min(at + LOOK_AHEAD);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let ahead = text.get(at..end).unwrap_or("");
+    ahead.split('\n').next().unwrap_or("")
 }
 
 /// Whether TOML reads this lexeme as a number.

@@ -1,46 +1,50 @@
 //! RON into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or bracket.
 
 use super::brackets::{self, Fate, Open};
-use super::{MAX_DEPTH, Sink, span};
+use super::{MAX_DEPTH, Sink};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
-use crate::suggest;
-use crate::tree::{Builder, Kind};
-
-/// The RON extensions that may be named in `#![enable(..)]`; the scene language has what they are for.
-const EXTENSIONS: [&str; 4] = ["implicit_some", "unwrap_newtypes", "unwrap_variant_newtypes", "explicit_struct_names"];
+use crate::tree::{Builder, Kind, Node};
 
 /// Reads one text into `builder`; returns the comments.
 pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<Span> {
-    let mut parser = Parser {
-        text,
-        at: 0,
-        builder,
-        sink,
-        comments: Vec::new(),
-        open: Vec::new(),
-        at_end_reported: false,
-        separated: false,
-    };
+    let (comments, nodes, faults) = attempt(text, builder.source, Trust::Brackets);
+    let (mut comments, mut nodes, mut faults) = (comments, nodes, faults);
+    if faults.diagnostics.iter().any(|fault| matches!(fault.code, codes::UNCLOSED_BRACKET | codes::STRAY_BRACKET)) {
+        // Brackets do not match: where the lines are indented, that may say better what was meant.
+        let second = attempt(text, builder.source, Trust::Indentation);
+        if second.2.errors <= faults.errors {
+            (comments, nodes, faults) = second;
+        }
+    }
+    builder.nodes = nodes;
+    faults.diagnostics.into_iter().for_each(|fault| sink.push(fault));
+    comments
+}
+
+fn attempt(text: &str, source: u16, trust: Trust) -> (Vec<Span>, Vec<Node>, Sink) {
+    let mut builder = Builder::new(source, text.len());
+    let mut sink = Sink::default();
+    let mut parser = Parser::new(text, 0, trust, &mut builder, &mut sink);
     parser.document();
-    parser.comments
+    (parser.comments, builder.nodes, sink)
 }
 
 /// Reads a value that stands at `start..` of `text` (an argument of `--set`).
 pub(crate) fn parse_from(text: &str, start: usize, builder: &mut Builder, sink: &mut Sink) {
-    let mut parser = Parser {
-        text,
-        at: start,
-        builder,
-        sink,
-        comments: Vec::new(),
-        open: Vec::new(),
-        at_end_reported: false,
-        separated: false,
-    };
+    let mut parser = Parser::new(text, start, Trust::Brackets, builder, sink);
     parser.trivia();
     parser.value();
     parser.end_of_text();
+}
+
+/// What tells where a bracket that is never closed should have ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Trust {
+    /// Closing brackets alone.
+    Brackets,
+    /// Also lines that are indented no deeper than the line where the bracket was opened.
+    Indentation,
 }
 
 pub(super) struct Parser<'p> {
@@ -48,13 +52,17 @@ pub(super) struct Parser<'p> {
     pub at: usize,
     pub builder: &'p mut Builder,
     pub sink: &'p mut Sink,
-    comments: Vec<Span>,
+    pub comments: Vec<Span>,
     /// Brackets that are open, outermost first.
     pub open: Vec<Open>,
     /// Whether an open bracket was reported at the end of the file.
     pub at_end_reported: bool,
     /// The comma after the entry was read already, inside a bracket that was never closed.
     separated: bool,
+    trust: Trust,
+    /// Where the current line begins, and how far its first word is indented.
+    pub line: usize,
+    pub indent: usize,
 }
 
 /// What the entries of a bracket have been so far.
@@ -63,9 +71,27 @@ enum Shape {
     Unknown,
     Named,
     Positional,
+    /// Both, which has been reported.
+    Mixed,
 }
 
-impl Parser<'_> {
+impl<'p> Parser<'p> {
+    fn new(text: &'p str, at: usize, trust: Trust, builder: &'p mut Builder, sink: &'p mut Sink) -> Parser<'p> {
+        Parser {
+            text,
+            at,
+            builder,
+            sink,
+            comments: Vec::new(),
+            open: Vec::new(),
+            at_end_reported: false,
+            separated: false,
+            trust,
+            line: 0,
+            indent: 0,
+        }
+    }
+
     fn document(&mut self) {
         if self.text.starts_with('\u{feff}') {
             self.at = 3;
@@ -98,52 +124,6 @@ impl Parser<'_> {
                     .hint("remove what follows, or the bracket that ended the scene too early"),
             );
         }
-    }
-
-    /// `#![enable(a, b)]`
-    fn extensions(&mut self) {
-        let start = self.at;
-        let end = self.rest().find(']').map_or(self.text.len(), |close| start + close + 1);
-        let line = &self.text[start..end];
-        let inner = line
-            .strip_prefix("#!")
-            .map(str::trim_start)
-            .and_then(|l| l.strip_prefix('['))
-            .map(str::trim_start)
-            .and_then(|l| l.strip_prefix("enable"))
-            .map(str::trim_start)
-            .and_then(|l| l.strip_prefix('('))
-            .and_then(|l| l.split_once(')'));
-        match inner {
-            Some((names, _)) => {
-                for name in names.split(',') {
-                    let trimmed = name.trim();
-                    if trimmed.is_empty() || EXTENSIONS.contains(&trimmed) {
-                        continue;
-                    }
-                    let offset = trimmed.as_ptr() as usize - self.text.as_ptr() as usize;
-                    let found = self.span(offset, offset + trimmed.len());
-                    let mut fault = Diagnostic::error(
-                        codes::UNKNOWN_EXTENSION,
-                        found,
-                        format!("RON has no extension `{trimmed}` that a scene could use"),
-                    )
-                    .expected(format!("one of {}", suggest::list(&EXTENSIONS)))
-                    .hint("a scene needs none: remove it");
-                    fault.did_you_mean(suggest::nearest(trimmed, EXTENSIONS), |word| word.to_owned());
-                    self.sink.push(fault);
-                }
-            }
-            None => {
-                let found = self.span(start, end);
-                self.sink.push(
-                    Diagnostic::error(codes::UNKNOWN_EXTENSION, found, "this line is no RON attribute")
-                        .expected("#![enable(implicit_some)], or nothing")
-                        .hint("a scene needs none: remove it"),
-                );
-            }
-        }
-        self.at = end;
     }
 
     /// One value; always exactly one node (with its children), `Broken` where nothing could be read.
@@ -182,12 +162,31 @@ impl Parser<'_> {
                             self.bracket(start, b'(');
                         } else {
                             self.at = resume;
-                            self.builder.leaf(Kind::Word, start, resume);
+                            self.word(start);
                         }
                     }
                 }
             }
         }
+    }
+
+    /// A bare word, or a text that has no quotes: `cat.obj`.
+    fn word(&mut self, start: usize) {
+        let end = self.at;
+        if !matches!(self.peek(), Some(b'.' | b'"' | b'/' | b'\\' | b'-')) || self.rest().starts_with("//") {
+            return self.builder.leaf(Kind::Word, start, end);
+        }
+        let rest = &self.text[start..];
+        let length = rest.find([',', ')', ']', '}', ' ', '\t', '\r', '\n']).unwrap_or(rest.len());
+        self.at = start + length;
+        let text = rest[..length].trim_end_matches('"');
+        let found = self.span(start, self.at);
+        let mut fault =
+            Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
+                .hint(format!("write \"{text}\""));
+        fault.edit = Some(Edit { span: found, replacement: format!("\"{text}\"") });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
     }
 
     fn unexpected(&mut self) {
@@ -202,6 +201,14 @@ impl Parser<'_> {
         .expected("a number, a \"text\", a word, or one of ( [ {");
         if matches!(character, '“' | '”' | '„' | '‘' | '’' | '«') {
             fault = fault.hint("write texts between straight quotes: \"text\"");
+            let inner = &self.rest()[character.len_utf8()..];
+            if let Some(length) = inner.find(['“', '”', '’', '»', ',', '\n', '"'])
+                && let Some(close) = inner[length..].chars().next().filter(|c| !matches!(c, ',' | '\n' | '"'))
+            {
+                let end = start + character.len_utf8() + length + close.len_utf8();
+                fault.span = self.span(start, end);
+                fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &inner[..length]) });
+            }
         } else if character == '#' {
             fault = fault.hint("comments begin with `//`; colours are texts: \"#rrggbb\"");
         } else if matches!(character, '=' | ':' | ';') {
@@ -227,12 +234,15 @@ impl Parser<'_> {
             return;
         }
         self.at += 1;
-        self.open.push(Open { bracket, at: opened });
+        self.open.push(Open { bracket, at: opened, line: self.line, indent: self.indent });
         let mut shape = if bracket == b'{' { Shape::Named } else { Shape::Unknown };
         loop {
+            if self.sink.is_full() {
+                self.at = self.text.len();
+            }
             self.trivia();
             match self.peek() {
-                Some(close @ (b')' | b']' | b'}')) => match brackets::fate(self.text, &self.open, self.at, close) {
+                Some(close @ (b')' | b']' | b'}')) => match self.fate(close) {
                     Fate::Closes => {
                         self.at += 1;
                         break;
@@ -252,6 +262,10 @@ impl Parser<'_> {
                     Fate::Stray => {
                         self.sink.push(brackets::stray(self.builder.source, self.at));
                         self.at += 1;
+                        self.trivia();
+                        if self.peek() == Some(b',') {
+                            self.at += 1;
+                        }
                     }
                 },
                 None => {
@@ -268,6 +282,12 @@ impl Parser<'_> {
                     self.sink.push(fault);
                     self.at += 1;
                 }
+                Some(_) if self.line_ends_bracket() => {
+                    self.separated = true;
+                    self.report_unclosed(Some(self.at));
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    break;
+                }
                 Some(_) => {
                     if !self.entry(bracket, &mut shape) {
                         break;
@@ -280,10 +300,27 @@ impl Parser<'_> {
         let kind = match (bracket, shape) {
             (b'[', _) => Kind::List,
             (b'{', _) => Kind::Map,
-            (_, Shape::Named) => Kind::Struct,
+            (_, Shape::Named | Shape::Mixed) => Kind::Struct,
             _ => Kind::Tuple,
         };
         self.builder.close(node, kind, self.at);
+    }
+
+    fn fate(&self, close: u8) -> Fate {
+        let fate = brackets::fate(self.text, &self.open, self.at, close);
+        // A bracket in the middle of a line whose own brackets are all closed is one too many.
+        let stray = self.trust == Trust::Indentation
+            && fate == Fate::ClosesOuter
+            && self.open.last().is_some_and(|open| open.line < self.line)
+            && self.at > self.line + self.indent;
+        if stray { Fate::Stray } else { fate }
+    }
+
+    /// Whether a new line begins here that is indented no deeper than the one that opened the innermost bracket.
+    fn line_ends_bracket(&self) -> bool {
+        self.trust == Trust::Indentation
+            && self.at == self.line + self.indent
+            && self.open.last().is_some_and(|open| open.line < self.line && self.indent <= open.indent)
     }
 
     /// One entry of a bracket. `false`: the bracket was found to be unclosed, and what comes belongs to an outer one.
@@ -295,7 +332,8 @@ impl Parser<'_> {
         let named = self.field_ahead();
         match (bracket, *shape, named) {
             (b'[', _, Some(_)) => {
-                if self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(' {
+                let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
+                if in_fields && *shape == Shape::Positional {
                     self.separated = true;
                     self.report_unclosed(Some(self.at));
                     self.builder.leaf(Kind::Broken, self.at, self.at);
@@ -303,9 +341,17 @@ impl Parser<'_> {
                 }
                 self.named_in_list();
             }
-            (b'[', ..) => self.value(),
-            (_, Shape::Positional, Some(length)) | (_, Shape::Unknown | Shape::Named, Some(length)) => {
+            (b'[', ..) => {
+                *shape = Shape::Positional;
+                self.value();
+            }
+            (_, Shape::Mixed, _) => {
+                self.builder.leaf(Kind::Broken, self.at, self.at);
+                self.skip_broken();
+            }
+            (_, _, Some(length)) => {
                 if *shape == Shape::Positional {
+                    *shape = Shape::Mixed;
                     let found = self.span(self.at, self.at + length);
                     self.sink.push(
                         Diagnostic::error(
@@ -546,173 +592,5 @@ impl Parser<'_> {
         let length = self.word_length();
         let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
         in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
-    }
-
-    /// Goes to the next comma or closing bracket of this level.
-    pub(super) fn skip_broken(&mut self) {
-        let mut depth = 0usize;
-        let begin = self.at;
-        while let Some(byte) = self.peek() {
-            match byte {
-                b',' if depth == 0 => break,
-                b')' | b']' | b'}' if depth == 0 => break,
-                b'(' | b'[' | b'{' => depth += 1,
-                b')' | b']' | b'}' => depth -= 1,
-                b'"' => {
-                    self.skip_text();
-                    continue;
-                }
-                // A fault inside an item does not reach over the next line's item.
-                b'\n' if depth == 0 && self.at > begin => {
-                    let line = self.rest()[1..].trim_start();
-                    if line.starts_with(|c: char| c.is_alphabetic() || c == '_') {
-                        break;
-                    }
-                }
-                _ => {}
-            }
-            self.bump();
-        }
-    }
-
-    /// Goes past the bracket that opens here, however deep it is.
-    fn skip_brackets(&mut self) {
-        let mut depth = 0usize;
-        while let Some(byte) = self.peek() {
-            match byte {
-                b'(' | b'[' | b'{' => depth += 1,
-                b')' | b']' | b'}' => {
-                    depth -= 1;
-                    if depth == 0 {
-                        self.at += 1;
-                        return;
-                    }
-                }
-                b'"' => {
-                    self.skip_text();
-                    continue;
-                }
-                _ => {}
-            }
-            self.bump();
-        }
-    }
-
-    fn skip_text(&mut self) {
-        let bytes = self.text.as_bytes();
-        let mut at = self.at + 1;
-        while let Some(&byte) = bytes.get(at) {
-            match byte {
-                b'\\' if at + 1 < bytes.len() && bytes[at + 1].is_ascii() => at += 1,
-                b'"' => {
-                    self.at = at + 1;
-                    return;
-                }
-                b'\n' => break,
-                _ => {}
-            }
-            at += 1;
-        }
-        self.at = at.min(bytes.len());
-    }
-
-    /// White space and comments.
-    pub(super) fn trivia(&mut self) {
-        let bytes = self.text.as_bytes();
-        loop {
-            match bytes.get(self.at) {
-                Some(b' ' | b'\t' | b'\r' | b'\n') => self.at += 1,
-                Some(b'/') if bytes.get(self.at + 1) == Some(&b'/') => {
-                    let length = self.rest().find('\n').unwrap_or(self.rest().len());
-                    let length = self.rest()[..length].trim_end().len();
-                    self.comment(length);
-                }
-                Some(b'/') if bytes.get(self.at + 1) == Some(&b'*') => match self.block_comment() {
-                    Some(length) => self.comment(length),
-                    None => {
-                        let found = self.span(self.at, self.at + 2);
-                        self.sink.push(
-                            Diagnostic::error(codes::UNCLOSED_TEXT, found, "this comment is never closed")
-                                .expected("*/ at its end"),
-                        );
-                        self.at = self.text.len();
-                    }
-                },
-                Some(byte) if !byte.is_ascii() => match self.rest().chars().next() {
-                    Some(c) if c.is_whitespace() => self.at += c.len_utf8(),
-                    _ => return,
-                },
-                _ => return,
-            }
-        }
-    }
-
-    fn comment(&mut self, length: usize) {
-        let found = self.span(self.at, self.at + length);
-        self.comments.push(found);
-        self.at += length;
-    }
-
-    /// Length of a block comment, which may hold others; `None` when it is never closed.
-    fn block_comment(&self) -> Option<usize> {
-        let bytes = self.rest().as_bytes();
-        let (mut at, mut depth) = (2, 1usize);
-        while depth > 0 {
-            match (bytes.get(at)?, bytes.get(at + 1)) {
-                (b'*', Some(b'/')) => {
-                    depth -= 1;
-                    at += 2;
-                }
-                (b'/', Some(b'*')) => {
-                    depth += 1;
-                    at += 2;
-                }
-                _ => at += 1,
-            }
-        }
-        Some(at)
-    }
-
-    pub(super) fn peek(&self) -> Option<u8> {
-        self.text.as_bytes().get(self.at).copied()
-    }
-
-    pub(super) fn rest(&self) -> &str {
-        self.text.get(self.at..).unwrap_or("")
-    }
-
-    /// One character on.
-    pub(super) fn bump(&mut self) {
-        self.at += self.rest().chars().next().map_or(1, char::len_utf8);
-    }
-
-    /// Length of the word that begins here, 0 when none does.
-    pub(super) fn word_length(&self) -> usize {
-        let bytes = self.text.as_bytes();
-        let mut at = self.at;
-        match bytes.get(at) {
-            Some(b'a'..=b'z' | b'A'..=b'Z' | b'_') => at += 1,
-            Some(byte) if !byte.is_ascii() => {
-                let rest = self.rest();
-                return rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
-            }
-            _ => return 0,
-        }
-        while let Some(byte) = bytes.get(at) {
-            match byte {
-                b'a'..=b'z' | b'A'..=b'Z' | b'_' | b'0'..=b'9' => at += 1,
-                byte if !byte.is_ascii() => {
-                    let rest = &self.text[at..];
-                    at += rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
-                    break;
-                }
-                _ => break,
-            }
-        }
-        at - self.at
-    }
-
-    pub(super) fn span(&self, start: usize, end: usize) -> Span {
-        span(self.builder.source, start, end)
     }
 }

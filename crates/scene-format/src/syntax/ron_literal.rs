@@ -26,6 +26,17 @@ impl Parser<'_> {
                 break;
             }
         }
+        let mut mended = None;
+        if at == digits && digits > start {
+            // `- 5`: a sign with a space before its digits.
+            let rest = &self.text[at..];
+            let space = rest.len() - rest.trim_start_matches([' ', '\t']).len();
+            let digits = rest[space..].bytes().take_while(|b| b.is_ascii_digit() || *b == b'.').count();
+            if digits > 0 {
+                at += space + digits;
+                mended = Some(format!("{}{}", &self.text[start..start + 1], &rest[space..space + digits]));
+            }
+        }
         self.at = at;
         let lexeme = &self.text[start..at];
         match number_kind(lexeme) {
@@ -36,9 +47,12 @@ impl Parser<'_> {
                     .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
                 if lexeme.matches('.').count() > 1 {
                     fault = fault.hint("a number has one decimal point; values are parted by commas");
+                } else if let Some(mended) = mended {
+                    fault = fault.hint(format!("write {mended}, without a space"));
+                    fault.edit = Some(crate::diagnostic::Edit { span: found, replacement: mended });
                 } else if lexeme.len() == 1 {
                     fault = fault.hint("write the digits after the sign, without a space");
-                } else if lexeme.ends_with(|c: char| c.is_alphabetic()) {
+                } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
                     fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
                 }
                 self.sink.push(fault);
@@ -62,6 +76,9 @@ impl Parser<'_> {
         let close = format!("\"{}", "#".repeat(hashes));
         match raw.get(hashes + 1..).and_then(|inner| inner.find(&close)) {
             Some(length) => {
+                if let Some(newline) = raw[hashes + 1..hashes + 1 + length].rfind('\n') {
+                    self.line = start + 1 + hashes + 1 + newline + 1;
+                }
                 self.at = start + 1 + hashes + 1 + length + close.len();
                 self.builder.leaf(Kind::Text, start, self.at);
             }
@@ -72,6 +89,7 @@ impl Parser<'_> {
                         .expected(format!("{close} at its end")),
                 );
                 self.at = self.text.len();
+                self.at_end_reported = true;
                 self.builder.leaf(Kind::Broken, start, self.at);
             }
         }
@@ -132,7 +150,7 @@ impl Parser<'_> {
 
     pub(super) fn char_literal(&mut self) {
         let start = self.at;
-        let line = self.rest().split('\n').next().unwrap_or("");
+        let line = super::line_ahead(self.text, self.at);
         let escaped = usize::from(line[1..].starts_with('\\'));
         let first = line[1..].chars().nth(escaped).map_or(0, |c| escaped + c.len_utf8());
         match line.get(1 + first..).and_then(|rest| rest.find('\'')) {

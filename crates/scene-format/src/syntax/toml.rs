@@ -3,7 +3,7 @@
 
 use super::brackets::{self, Fate, Open};
 use super::toml_tables::{Key, Tables, key_span, regroup};
-use super::{MAX_DEPTH, Sink, span};
+use super::{MAX_DEPTH, Sink, line_ahead, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tree::{Builder, Kind};
@@ -29,6 +29,8 @@ pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<S
         open: Vec::new(),
         unwinding: false,
         colon: None,
+        line: 0,
+        offset: 0,
     };
     parser.document();
     let Parser { tables, comments, values, .. } = parser;
@@ -51,8 +53,22 @@ pub(super) struct Parser<'p> {
     open: Vec<Open>,
     /// A bracket was found to be open where a new statement begins: all brackets end here.
     unwinding: bool,
+    /// Where the current line begins.
+    line: usize,
+    /// Where the lexer began, which it does anew after a text that is never closed.
+    offset: usize,
     /// A colon at the end of the last key: `name: value`, as RON writes it.
     colon: Option<usize>,
+}
+
+/// What stands in a bracket at the current token.
+enum Next {
+    /// Its end, for whatever reason.
+    End,
+    /// Something that was seen to.
+    Again,
+    /// An entry or a comma.
+    Entry,
 }
 
 impl Parser<'_> {
@@ -61,6 +77,19 @@ impl Parser<'_> {
             self.trivia();
             match self.kind {
                 TokenKind::Eof => return,
+                _ if self.sink.is_full() => return,
+                _ if self.lexeme().starts_with("//") || self.lexeme().starts_with("/*") => {
+                    let found = self.range(self.span.start(), self.span.start() + 2);
+                    let mut fault = Diagnostic::error(
+                        codes::UNEXPECTED_CHARACTER,
+                        found,
+                        format!("comments begin with `#` in TOML, not `{}`", &self.lexeme()[..2]),
+                    )
+                    .hint("write `#`");
+                    fault.edit = Some(Edit { span: found, replacement: "#".to_owned() });
+                    self.sink.push(fault);
+                    self.skip_line();
+                }
                 TokenKind::LeftSquareBracket => self.header(),
                 TokenKind::Equals => {
                     let found = self.found();
@@ -151,7 +180,8 @@ impl Parser<'_> {
             self.space();
             while self.kind == TokenKind::Equals {
                 let found = self.found();
-                let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "there is one `=` too many");
+                let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "there is one `=` too many")
+                    .expected("name = value");
                 fault.edit = Some(Edit { span: found, replacement: String::new() });
                 self.sink.push(fault);
                 self.bump();
@@ -277,7 +307,7 @@ impl Parser<'_> {
     /// Opens a bracket, or skips one that is too deep.
     fn open_bracket(&mut self, bracket: u8) -> bool {
         if self.open.len() < MAX_DEPTH {
-            self.open.push(Open { bracket, at: self.span.start() });
+            self.open.push(Open { bracket, at: self.span.start(), line: self.line, indent: 0 });
             self.bump();
             return true;
         }
@@ -307,9 +337,14 @@ impl Parser<'_> {
         }
         let node = self.values.open(start);
         loop {
+            if self.sink.is_full() {
+                self.unwinding = true;
+            }
             self.trivia_in_bracket();
-            if self.bracket_ends(b']') {
-                break;
+            match self.bracket_ends(b']') {
+                Next::End => break,
+                Next::Again => continue,
+                Next::Entry => {}
             }
             if self.kind == TokenKind::Comma {
                 self.extra_comma();
@@ -340,9 +375,14 @@ impl Parser<'_> {
         let node = self.values.open(start);
         let mut dotted = false;
         loop {
+            if self.sink.is_full() {
+                self.unwinding = true;
+            }
             self.trivia_in_bracket();
-            if self.bracket_ends(b'}') {
-                break;
+            match self.bracket_ends(b'}') {
+                Next::End => break,
+                Next::Again => continue,
+                Next::Entry => {}
             }
             if self.kind == TokenKind::Comma {
                 self.extra_comma();
@@ -375,46 +415,50 @@ impl Parser<'_> {
         self.values.close(node, Kind::Map, self.previous_end);
     }
 
-    /// Whether the bracket ends here, for whatever reason.
-    fn bracket_ends(&mut self, right: u8) -> bool {
+    /// What comes next in a bracket that `right` closes.
+    fn bracket_ends(&mut self, right: u8) -> Next {
         if self.unwinding {
             self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
-            return true;
+            return Next::End;
         }
         let close = match self.kind {
             TokenKind::RightSquareBracket => b']',
             TokenKind::RightCurlyBracket => b'}',
             TokenKind::Eof => {
                 self.unwind(None);
-                return true;
+                return Next::End;
             }
-            _ => return false,
+            _ => return Next::Entry,
         };
         let fate =
             if close == right { Fate::Closes } else { brackets::fate(self.text, &self.open, self.span.start(), close) };
         match fate {
             Fate::Closes => {
                 self.bump();
-                true
+                Next::End
             }
             Fate::Typo => {
                 if let Some(&open) = self.open.last() {
                     self.sink.push(brackets::wrong_closer(self.values.source, open, self.span.start(), close));
                 }
                 self.bump();
-                true
+                Next::End
             }
             Fate::ClosesOuter => {
                 if let Some(&open) = self.open.last() {
                     self.sink.push(brackets::unclosed(self.values.source, open, Some(self.span.start())));
                 }
                 self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
-                true
+                Next::End
             }
             Fate::Stray => {
                 self.sink.push(brackets::stray(self.values.source, self.span.start()));
                 self.bump();
-                false
+                self.trivia_in_bracket();
+                if self.kind == TokenKind::Comma {
+                    self.bump();
+                }
+                Next::Again
             }
         }
     }
@@ -533,7 +577,7 @@ impl Parser<'_> {
 
     /// Whether `name =` stands at the current token.
     fn assignment_ahead(&self) -> bool {
-        let line = self.text[self.span.start()..].lines().next().unwrap_or("");
+        let line = line_ahead(self.text, self.span.start());
         let key = line.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '"' | '\'' | ' ')));
         key.is_some_and(|at| at > 0 && line[at..].starts_with('='))
     }
@@ -563,8 +607,7 @@ impl Parser<'_> {
     /// Whether the line that begins here must be a new statement though a bracket is open: `[name]`, `[[name]]`, or `name =`
     /// in a list.
     fn statement_ahead(&self) -> bool {
-        let rest = &self.text[self.span.start()..];
-        let line = rest.lines().next().unwrap_or("").trim();
+        let line = line_ahead(self.text, self.span.start()).trim();
         let header = line.trim_start_matches('[');
         if header.len() < line.len() {
             let name = header.trim_start().as_bytes().first();
@@ -620,8 +663,20 @@ impl Parser<'_> {
     }
 
     fn next(&mut self) {
+        if self.kind == TokenKind::Newline {
+            self.line = self.span.end();
+        }
         let token: Option<Token> = self.lexer.next();
-        (self.kind, self.span) = token.map_or((TokenKind::Eof, self.end), |token| (token.kind(), token.span()));
+        (self.kind, self.span) =
+            token.map_or((TokenKind::Eof, self.end), |token| (token.kind(), token.span() + self.offset));
+    }
+
+    /// Reads on at a byte before the end of the current token.
+    pub(super) fn resume(&mut self, at: usize) {
+        self.lexer = Source::new(&self.text[at..]).lex();
+        self.offset = at;
+        self.previous_end = at;
+        self.next();
     }
 
     pub(super) fn lexeme(&self) -> &str {

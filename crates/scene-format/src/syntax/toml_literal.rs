@@ -91,8 +91,11 @@ impl Parser<'_> {
         if !closed {
             self.unclosed_text();
             self.values.leaf(Kind::Broken, start, end);
-            // What the open text swallowed of its line is not spoken of again.
-            self.bump();
+            // The text is taken to end before the next comma or bracket, so that its line can be read on.
+            match lexeme[1..].find([',', ']', '}']).filter(|_| quotes == 1) {
+                Some(length) => self.resume(start + 1 + length),
+                None => self.bump(),
+            }
             return;
         }
         let mut faults = Vec::new();
@@ -157,7 +160,9 @@ pub(super) fn scalar_kind(lexeme: &str) -> Option<Kind> {
         unsigned.starts_with('.') || unsigned.ends_with('.') || unsigned.contains(".e") || unsigned.contains(".E");
     let underscores =
         unsigned.contains("__") || unsigned.ends_with('_') || whole.ends_with('_') || unsigned.contains("_e");
-    (!leading_zero && !bare_point && !underscores && !(radix && lexeme.len() != unsigned.len())).then_some(kind)
+    let signed_radix = radix && lexeme.len() != unsigned.len();
+    let wrong = leading_zero || bare_point || underscores || signed_radix;
+    (!wrong).then_some(kind)
 }
 
 /// A number that RON takes as TOML wants it.

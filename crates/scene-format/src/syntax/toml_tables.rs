@@ -132,9 +132,12 @@ impl<'s> Tables<'s> {
 
     /// `[path]` or, with `many`, `[[path]]`, at `span`.
     pub fn header(&mut self, path: &[Key], many: bool, header: Range<usize>, source: u16, sink: &mut Sink) {
-        let Some((last, parents)) = path.split_last() else { return };
         // What follows a header in conflict is read, and goes nowhere.
         self.current = self.table(header.clone(), Origin::Header);
+        let Some((last, parents)) = path.split_last() else {
+            self.tables[ROOT].children.push((0..0, Child::Broken));
+            return;
+        };
         let detached = self.current;
         let mut table = ROOT;
         for key in parents {
@@ -242,8 +245,11 @@ pub(super) fn regroup(text: &str, builder: &mut Builder, opened: usize) {
     emit_group(text, builder, &entries);
 }
 
-fn emit_group(text: &str, builder: &mut Builder, entries: &[(&[Node], &[Node])]) {
-    let mut groups: Vec<(&[Node], Vec<(&[Node], &[Node])>)> = Vec::new();
+/// The keys before a value, and the value's nodes.
+type Dotted<'n> = (&'n [Node], &'n [Node]);
+
+fn emit_group(text: &str, builder: &mut Builder, entries: &[Dotted<'_>]) {
+    let mut groups: Vec<(&[Node], Vec<Dotted<'_>>)> = Vec::new();
     let mut index: HashMap<Cow<'_, str>, usize> = HashMap::new();
     for &(path, value) in entries {
         let Some((first, tail)) = path.split_first().filter(|(_, tail)| !tail.is_empty()) else {

@@ -17,7 +17,7 @@
 
 /// The largest coordinate, and the largest and (inverted) smallest direction, with which the arithmetic cannot overflow.
 pub(crate) const RANGE: f32 = 1_099_511_627_776.0; // 2^40
-const SMALLEST_COMPONENT: f32 = 1.0 / 1_125_899_906_842_624.0; // 2^-50
+pub(crate) const SMALLEST_COMPONENT: f32 = 1.0 / 1_125_899_906_842_624.0; // 2^-50
 /// 2^-19: by this part of the largest coordinate (of the origin, of the triangle) boxes are padded.
 pub(crate) const PAD: f32 = 1.0 / 524_288.0;
 

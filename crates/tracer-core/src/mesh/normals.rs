@@ -138,8 +138,8 @@ mod tests {
         // A right angle between a triangle of area 4.5 and one of area 0.5: the sum leans by 9 to 1.
         let positions = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let normals = vertex_normals(&positions, &[[0, 1, 2], [0, 3, 4]]);
-        let length = 82.0_f32.sqrt();
-        assert_eq!(normals[0], [1.0 / length, 0.0, 9.0 / length]);
+        let length = 82.0_f64.sqrt();
+        assert_eq!(normals[0], [(1.0 / length) as f32, 0.0, (9.0 / length) as f32]);
         assert_eq!(normals[1], [0.0, 0.0, 1.0]);
     }
 

@@ -1,17 +1,23 @@
 //! Cutting polygons into triangles.
 //!
 //! Convex polygons (and all that are star-shaped around their first corner) become the fan that every program makes.
-//! Others are cut by ear clipping (Meisters, "Polygons have ears", 1975) in the plane of Newell's normal, projected by
-//! leaving out the normal's largest coordinate, so that corners on one line stay on one line. Corners that are not
+//! Others are cut by ear clipping (Meisters, "Polygons have ears", 1975) in the plane of Newell's normal; a
+//! bent quadrilateral along the diagonal that folds it less. Corners that are not
 //! strictly convex are kept in a grid, and only those near an ear are tested against it. Corners on a straight edge are
 //! kept as corners of triangles, so that no gap opens against the neighbouring face.
 
+mod blockers;
+
 use super::cursor::Fault;
+use blockers::BlockerGrid;
 use std::collections::VecDeque;
 
-/// How many tests one polygon may cost, per corner: enough for any outline that a person or program draws, while an
+/// How many tests one polygon may cost: rings, spirals and combs of 20,000 corners take up to 100 for each corner. An
 /// outline made to be slow is refused in time.
-const TESTS_PER_CORNER: u64 = 2048;
+const TESTS_PER_CORNER: u64 = 512;
+
+/// Tests that any polygon may cost besides.
+const FREE_TESTS: u64 = 1 << 16;
 
 /// The polygon would take too long to cut.
 #[derive(Debug, PartialEq)]
@@ -43,6 +49,10 @@ fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
@@ -69,6 +79,14 @@ struct Turn {
     corner: u32,
     /// Counts the corner's turns; this one is void when it got a later one.
     number: u32,
+}
+
+/// What became of a quadrilateral.
+#[derive(PartialEq)]
+enum Quadrilateral {
+    Cut,
+    /// Both diagonals leave triangles that face apart.
+    Unclear,
 }
 
 /// How much an ear must look like one to be cut off, strictest first.
@@ -98,7 +116,7 @@ impl PolygonCutter {
             if self.project() {
                 if self.is_fan() {
                     (1..count as u32 - 1).for_each(|corner| self.emit([0, corner, corner + 1]));
-                } else {
+                } else if count > 4 || self.cut_quadrilateral() == Quadrilateral::Unclear {
                     crossing = self.clip_ears()?;
                 }
             } else {
@@ -116,8 +134,9 @@ impl PolygonCutter {
         }
     }
 
-    /// Projects the corners so that the polygon runs counter-clockwise; `false` when it has no normal.
+    /// Projects the corners along Newell's normal so that the polygon runs counter-clockwise; `false` when it has none.
     fn project(&mut self) -> bool {
+        // From the first corner, so that a polygon far away keeps its digits.
         let origin = self.corners[0];
         let mut normal = [0.0; 3];
         let mut from = [0.0; 3];
@@ -129,22 +148,45 @@ impl PolygonCutter {
             }
             from = to;
         }
-        let mut largest = 0;
-        for axis in 1..3 {
-            if normal[axis].abs() > normal[largest].abs() {
-                largest = axis;
-            }
-        }
-        if normal[largest] == 0.0 {
+        let length = dot(normal, normal).sqrt();
+        if length == 0.0 {
             return false;
         }
-        let (mut u, mut v) = ((largest + 1) % 3, (largest + 2) % 3);
-        if normal[largest] < 0.0 {
-            std::mem::swap(&mut u, &mut v);
-        }
+        let normal = normal.map(|part| part / length);
+        let mut across = [0.0; 3];
+        let smallest =
+            (0..3).fold(0, |least, axis| if normal[axis].abs() < normal[least].abs() { axis } else { least });
+        across[smallest] = 1.0;
+        let v = cross(normal, across);
+        let length = dot(v, v).sqrt();
+        let v = v.map(|part| part / length);
+        let u = cross(v, normal);
         self.flat.clear();
-        self.flat.extend(self.corners.iter().map(|corner| [corner[u], corner[v]]));
+        self.flat.extend(self.corners.iter().map(|&corner| {
+            let from_origin = difference(corner, origin);
+            [dot(from_origin, u), dot(from_origin, v)]
+        }));
         true
+    }
+
+    /// Cuts a quadrilateral that is bent, or whose fan is not clear, along the diagonal with the smaller fold.
+    fn cut_quadrilateral(&mut self) -> Quadrilateral {
+        let fold = |[a, b, c, d]: [usize; 4]| {
+            let [first, second] = [[a, b, c], [a, c, d]].map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| self.corners[corner]);
+                cross(difference(b, a), difference(c, a))
+            });
+            let lengths = dot(first, first).sqrt() * dot(second, second).sqrt();
+            // The cosine of the angle between the triangles; a triangle without area is no good half.
+            if lengths > 0.0 { dot(first, second) / lengths } else { 0.0 }
+        };
+        let (first, second) = (fold([0, 1, 2, 3]), fold([1, 2, 3, 0]));
+        if first.max(second) <= 0.0 {
+            return Quadrilateral::Unclear;
+        }
+        let halves = if first >= second { [[0, 1, 2], [0, 2, 3]] } else { [[1, 2, 3], [1, 3, 0]] };
+        halves.into_iter().for_each(|half| self.emit(half));
+        Quadrilateral::Cut
     }
 
     /// Twice the signed area of a projected triangle.
@@ -156,11 +198,16 @@ impl PolygonCutter {
     /// Whether the corner `b` between `a` and `c` turns clearly to the inside: by more than rounded coordinates of a
     /// straight edge do.
     fn is_clearly_convex(&self, a: u32, b: u32, c: u32) -> bool {
+        self.area(a, b, c) > 1e-6 * self.longest_squared(a, b, c)
+    }
+
+    /// The square of a projected triangle's longest edge.
+    fn longest_squared(&self, a: u32, b: u32, c: u32) -> f64 {
         let squared = |p: u32, q: u32| {
             let (p, q) = (self.flat[p as usize], self.flat[q as usize]);
             (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
         };
-        self.area(a, b, c) > 1e-6 * squared(a, b).max(squared(b, c)).max(squared(c, a))
+        squared(a, b).max(squared(b, c)).max(squared(c, a))
     }
 
     /// Whether the fan around the first corner covers the polygon with well-shaped triangles that do not overlap: they
@@ -183,16 +230,8 @@ impl PolygonCutter {
         self.alive.resize(count as usize, true);
         self.turns.clear();
         self.turns.resize(count as usize, 0);
-        self.grid.clear();
-        for corner in 0..count {
-            let (before, after) = (self.previous[corner as usize], self.next[corner as usize]);
-            if !self.is_clearly_convex(before, corner, after) {
-                self.grid.add(corner);
-            }
-        }
-        self.grid.sort_into_cells(&self.flat);
-
         self.tests = 0;
+        self.fill_grid();
         let mut crossing = false;
         let mut left = count;
         let mut ear = Ear::Clear;
@@ -216,6 +255,9 @@ impl PolygonCutter {
                 self.previous[after as usize] = before;
                 left -= 1;
                 ear = Ear::Clear;
+                if self.grid.is_stale_after_removing(corner) {
+                    self.fill_grid();
+                }
                 // The neighbours may be ears now. Their turn comes last: cutting on at once would make a fan of long thin
                 // triangles, and looking through all others first would take quadratic time.
                 self.queue_corner(before);
@@ -234,6 +276,18 @@ impl PolygonCutter {
         crossing |= self.area(before, corner, after) < 0.0;
         self.emit([before, corner, after]);
         Ok(crossing)
+    }
+
+    /// Puts those corners that are left and can lie in an ear into the grid.
+    fn fill_grid(&mut self) {
+        let mut blockers = self.grid.take_corners();
+        blockers.clear();
+        blockers.extend((0..self.alive.len() as u32).filter(|&corner| {
+            let (before, after) = (self.previous[corner as usize], self.next[corner as usize]);
+            self.alive[corner as usize] && !self.is_clearly_convex(before, corner, after)
+        }));
+        self.tests += self.alive.len() as u64;
+        self.grid.fill(blockers, &self.flat);
     }
 
     /// Lets every corner that is left have a turn.
@@ -261,7 +315,7 @@ impl PolygonCutter {
             Ear::Any => true,
         };
         let free = convex && (matches!(ear, Ear::Forced | Ear::Any) || !self.is_blocked(before, corner, after));
-        if self.tests > TESTS_PER_CORNER * self.flat.len() as u64 {
+        if self.tests > FREE_TESTS + TESTS_PER_CORNER * self.flat.len() as u64 {
             return Err(TooIntricate);
         }
         Ok(free)
@@ -271,120 +325,18 @@ impl PolygonCutter {
     /// holes pass twice through the ends of the bridge to the hole).
     fn is_blocked(&mut self, a: u32, b: u32, c: u32) -> bool {
         let points = [a, b, c].map(|corner| self.flat[corner as usize]);
+        // A corner on the border is there only up to rounding.
+        let rounding = -1e-12 * self.longest_squared(a, b, c);
         let search = self.grid.any_near(points, |blocker| {
             let point = self.flat[blocker as usize];
             self.alive[blocker as usize]
                 && !points.contains(&point)
-                && self.area(a, b, blocker) >= 0.0
-                && self.area(b, c, blocker) >= 0.0
-                && self.area(c, a, blocker) >= 0.0
+                && self.area(a, b, blocker) >= rounding
+                && self.area(b, c, blocker) >= rounding
+                && self.area(c, a, blocker) >= rounding
         });
         self.tests += search.cost;
         search.found
-    }
-}
-
-/// The corners that can lie in an ear, by place.
-#[derive(Default)]
-struct BlockerGrid {
-    corners: Vec<u32>,
-    /// Where each cell's part of `corners` starts; one entry more than there are cells.
-    starts: Vec<u32>,
-    low: [f64; 2],
-    cells_per_unit: [f64; 2],
-    /// Cells along each axis.
-    side: usize,
-}
-
-/// Whether a corner was found, and after how many tests and rows of cells.
-struct Search {
-    found: bool,
-    cost: u64,
-}
-
-impl BlockerGrid {
-    fn clear(&mut self) {
-        self.corners.clear();
-    }
-
-    fn add(&mut self, corner: u32) {
-        self.corners.push(corner);
-    }
-
-    fn cell_along(&self, axis: usize, coordinate: f64) -> usize {
-        // A conversion from float to integer saturates: outside points go to the border cells.
-        (((coordinate - self.low[axis]) * self.cells_per_unit[axis]) as usize).min(self.side - 1)
-    }
-
-    /// Sorts the added corners into a square grid with about one corner in a cell.
-    fn sort_into_cells(&mut self, flat: &[[f64; 2]]) {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for &corner in &self.corners {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(flat[corner as usize][axis]);
-                high[axis] = high[axis].max(flat[corner as usize][axis]);
-            }
-        }
-        self.low = low;
-        self.side = 1;
-        while self.side * self.side < self.corners.len() {
-            self.side += 1;
-        }
-        for axis in 0..2 {
-            let extent = high[axis] - low[axis];
-            self.cells_per_unit[axis] = if extent > 0.0 { self.side as f64 / extent } else { 0.0 };
-        }
-        let cell_of = |grid: &BlockerGrid, corner: u32| {
-            let [x, y] = flat[corner as usize];
-            grid.cell_along(1, y) * grid.side + grid.cell_along(0, x)
-        };
-        // Counting sort: number per cell, then each cell's end, then fill from the back.
-        let mut starts = std::mem::take(&mut self.starts);
-        starts.clear();
-        starts.resize(self.side * self.side + 1, 0_u32);
-        for &corner in &self.corners {
-            starts[cell_of(self, corner)] += 1;
-        }
-        let mut end = 0;
-        for start in &mut starts {
-            end += *start;
-            *start = end;
-        }
-        let mut sorted = vec![0; self.corners.len()];
-        for &corner in &self.corners {
-            let start = &mut starts[cell_of(self, corner)];
-            *start -= 1;
-            sorted[*start as usize] = corner;
-        }
-        self.corners = sorted;
-        self.starts = starts;
-    }
-
-    /// Whether `test` holds for any corner in the cells that the triangle's box touches.
-    fn any_near(&self, points: [[f64; 2]; 3], test: impl Fn(u32) -> bool) -> Search {
-        let mut search = Search { found: false, cost: 0 };
-        if self.corners.is_empty() {
-            return search;
-        }
-        let bounds = |axis: usize| {
-            let [a, b, c] = points.map(|point| point[axis]);
-            self.cell_along(axis, a.min(b).min(c))..=self.cell_along(axis, a.max(b).max(c))
-        };
-        let (columns, rows) = (bounds(0), bounds(1));
-        for row in rows {
-            let (first, last) = (row * self.side + columns.start(), row * self.side + columns.end());
-            search.cost += 1;
-            // The cells of one row lie side by side.
-            for &corner in &self.corners[self.starts[first] as usize..self.starts[last + 1] as usize] {
-                search.cost += 1;
-                if test(corner) {
-                    search.found = true;
-                    return search;
-                }
-            }
-        }
-        search
     }
 }
 

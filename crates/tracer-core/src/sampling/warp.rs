@@ -46,3 +46,6 @@ pub fn power_cosine<F: Lanes>(u: F, v: F, alpha: F) -> V3<F> {
     let r = sin2.max(F::splat(0.0)).sqrt();
     V3(r * c, r * s, (one - sin2).max(F::splat(0.0)).sqrt())
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,6 +22,7 @@ pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LinearSphere, SphereTable};
+pub use texture::{Texel, TextureView};
 pub use statistics::{Statistics, WorldBounds};
 pub(crate) use texture::{TextureTable, TextureUse};
 
@@ -74,6 +75,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A texture, by the index in [`Albedo::Texture`].
+    pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
+        self.tables.textures.view(index)
+    }
+
     /// The same scene, its tree traced with the vector instructions of a level. The picture is the same.
     #[must_use]
     pub fn with_level(mut self, level: crate::lanes::level::Level) -> Self {

@@ -358,7 +358,7 @@ fn take<I: Isa, G: Goal>(
 /// # Safety
 /// An item of type `T` starts at `unit` of the tree's arena.
 #[inline(always)]
-unsafe fn item<'a, T>(tree: &TreeView<'a>, unit: u32) -> &'a T {
+pub(crate) unsafe fn item<'a, T>(tree: &TreeView<'a>, unit: u32) -> &'a T {
     // SAFETY: the caller's promise.
     unsafe { &*tree.base.add(unit as usize * size_of::<Unit>()).cast::<T>() }
 }
@@ -366,7 +366,7 @@ unsafe fn item<'a, T>(tree: &TreeView<'a>, unit: u32) -> &'a T {
 /// Asks for the lines of what a reference points to. Marks and instances give addresses that may not exist, which a
 /// prefetch ignores.
 #[inline(always)]
-fn prefetch(tree: &TreeView, reference: u32) {
+pub(crate) fn prefetch(tree: &TreeView, reference: u32) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

@@ -85,3 +85,6 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>) -> F {
 pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U) -> V3<F> {
     V3(F::gather(&lights.radiance[0], k), F::gather(&lights.radiance[1], k), F::gather(&lights.radiance[2], k))
 }
+
+#[cfg(test)]
+mod tests;

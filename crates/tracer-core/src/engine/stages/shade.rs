@@ -250,3 +250,29 @@ impl<F: Lanes> PairPoints<F> {
         self.pair.points(pixel.reversed_z, F::U::gather(&self.x, pixel.item), F::U::gather(&self.y, pixel.item))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::ArrayF;
+
+    /// The weights of both ways to find a light sum to one (Veach 1997, 9.2), also where one density is all or nothing.
+    #[test]
+    fn mis_weights_sum_to_one() {
+        type S = ArrayF<1>;
+        let weight = |a: f32, b: f32| {
+            let mut out = [0.0];
+            power_heuristic(S::splat(a), S::splat(b)).store(&mut out);
+            f64::from(out[0])
+        };
+        for a in [1e-20f32, 1e-8, 0.01, 0.3, 1.0, 7.0, 1e5, 1e20] {
+            for b in [1e-20f32, 1e-8, 0.01, 0.3, 1.0, 7.0, 1e5, 1e20] {
+                let (of_a, of_b) = (weight(a, b), weight(b, a));
+                assert!((of_a + of_b - 1.0).abs() < 3e-7, "{a} {b}: {of_a} + {of_b}");
+                let ratio = f64::from(b) / f64::from(a);
+                assert!((of_a - 1.0 / (1.0 + ratio * ratio)).abs() < 3e-7, "{a} {b}: {of_a}");
+            }
+            assert_eq!(weight(a, 0.0), 1.0);
+        }
+    }
+}
