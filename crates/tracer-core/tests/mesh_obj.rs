@@ -342,9 +342,9 @@ fn tobj_reads_the_same() {
         assert_eq!(mesh.uvs[uvs[corner] as usize][..], oracle.texcoords[2 * t..2 * t + 2]);
         let normal = &oracle.normals[3 * n..3 * n + 3];
         let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
-        for axis in 0..3 {
+        for (ours, theirs) in mesh.normals[normals[corner] as usize].iter().zip(normal) {
             // Ours are of unit length and rounded once from f64: tobj's f32 and this test's division differ by a few ulp.
-            assert!((mesh.normals[normals[corner] as usize][axis] - normal[axis] / length).abs() < 1e-6);
+            assert!((ours - theirs / length).abs() < 1e-6);
         }
     }
 }
