@@ -129,8 +129,8 @@ pub fn atan2_turns<F: Lanes>(y: F, x: F) -> F {
     let p = z.fma(p, c(0.042_909_61));
     let p = z.fma(p, c(-0.075_289_64));
     let p = z.fma(p, c(0.106_562_64));
-    let p = z.fma(p, c(-0.142_088_99));
-    let p = z.fma(p, c(0.199_935_5));
+    let p = z.fma(p, c(-0.142_089));
+    let p = z.fma(p, c(0.199_935_51));
     let p = z.fma(p, c(-0.333_331_45));
     let p = z.fma(p, c(1.0));
     let turns = p * q * c(0.5 * std::f32::consts::FRAC_1_PI);
