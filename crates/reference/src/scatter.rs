@@ -83,8 +83,13 @@ pub fn reflect(s: &Surface, wo: DVec3) -> Reflection {
 /// A smooth dielectric: reflection with the probability F, else refraction, whose radiance is scaled by (n_i/n_t)^2 (Veach 1997, 5.2).
 /// Gives the direction and its weight f cos / p.
 pub fn dielectric(s: &Surface, wo: DVec3, ior: f64, transmittance: [f64; 3], random: &mut Random) -> (DVec3, DVec3) {
-    let reflection = reflect(s, wo);
+    let mut reflection = reflect(s, wo);
     let eta = if s.outside { 1.0 / ior } else { ior };
+    // From within a smooth mesh: total reflection only where the triangle's own normal says so, too.
+    let total = |n: DVec3| refract(wo, n, eta).is_none();
+    if s.smooth && !s.outside && total(reflection.normal) && !total(s.ng) {
+        reflection = Reflection { direction: 2.0 * wo.dot(s.ng) * s.ng - wo, normal: s.ng };
+    }
     let reflected = (reflection.direction, DVec3::ONE);
     if random.number() < fresnel(wo.dot(reflection.normal), eta) {
         return reflected;

@@ -67,23 +67,21 @@ impl Block {
 
     /// Adds one sample of each pixel, from the 64 slots on; gives the number of pixels whose sample was dropped.
     pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize) -> u64 {
-        let channel = |c: usize| &radiance[c][slots..slots + PIXELS];
-        let rgb = [channel(0), channel(1), channel(2)];
+        let [red, green, blue] = radiance.each_ref().map(|channel| &channel[slots..slots + PIXELS]);
         let mut dropped = 0;
-        for pixel in 0..PIXELS {
-            let sample = [rgb[0][pixel], rgb[1][pixel], rgb[2][pixel]];
+        for (pixel, ((&r, &g), &b)) in red.iter().zip(green).zip(blue).enumerate() {
+            let sample = [r, g, b];
             // False for NaN too.
-            let usable = sample.iter().all(|&x| (0.0..=LARGEST).contains(&x));
-            if !usable {
+            if !sample.iter().all(|&x| (0.0..=LARGEST).contains(&x)) {
                 dropped += 1;
                 continue;
             }
-            for c in 0..3 {
-                let x = f64::from(sample[c]);
+            for ((x, coarse_sums), fine_sums) in sample.iter().zip(&mut self.coarse).zip(&mut self.fine) {
+                let x = f64::from(*x);
                 let coarse = (x + ROUND_COARSE) - ROUND_COARSE;
                 let fine = ((x - coarse) + ROUND_FINE) - ROUND_FINE;
-                self.coarse[c][pixel] += coarse;
-                self.fine[c][pixel] += fine;
+                coarse_sums[pixel] += coarse;
+                fine_sums[pixel] += fine;
             }
             let y = luminance(sample.map(f64::from));
             self.squares[pixel] += y * y;

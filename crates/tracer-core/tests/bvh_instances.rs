@@ -200,8 +200,8 @@ fn hits_found_earlier_stand_unless_beaten() {
 }
 
 #[test]
-fn a_million_instances_are_ready_soon_and_small() {
-    // A hundredth of that here; bytes an instance do not depend on the number.
+fn instances_are_small() {
+    // Bytes an instance hardly depend on their number.
     let mut random = Random::new(5);
     let ball = Mesh::ball(8, 4);
     let meshes = [ball.geometry(0)];

@@ -66,7 +66,7 @@ fn faces_with_both_and_slashes_without_an_index() {
     assert_eq!(mesh.normal_triangles, Some(vec![[0; 3], [NO_INDEX; 3], [NO_INDEX; 3]]));
     assert_eq!(
         warnings(&mesh),
-        ["W0510 the mesh has oddities: 2 triangles without vertex normals (kept); \
+        ["W0510 the mesh has oddities: 2 triangles without vertex normals (flat); \
           1 triangle without texture coordinates (kept)"]
     );
 }
@@ -162,7 +162,7 @@ fn oddities_are_counted_in_one_warning() {
     assert_eq!(
         warnings(&mesh),
         ["W0510 the mesh has oddities: 2 triangles without area (left out); 1 line (`l`) (left out); \
-          2 point elements (`p`) (left out); 1 triangle without vertex normals (kept); \
+          2 point elements (`p`) (left out); 1 triangle without vertex normals (flat); \
           1 vertex normal of length zero (ignored); 1 texture coordinate that no face names (ignored); \
           2 vertex colours (ignored); 1 vertex weight other than 1 (ignored); \
           3 statements not known here: `curv` `shadow_obj` (ignored)"]
@@ -342,9 +342,9 @@ fn tobj_reads_the_same() {
         assert_eq!(mesh.uvs[uvs[corner] as usize][..], oracle.texcoords[2 * t..2 * t + 2]);
         let normal = &oracle.normals[3 * n..3 * n + 3];
         let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
-        for axis in 0..3 {
+        for (ours, theirs) in mesh.normals[normals[corner] as usize].iter().zip(normal) {
             // Ours are of unit length and rounded once from f64: tobj's f32 and this test's division differ by a few ulp.
-            assert!((mesh.normals[normals[corner] as usize][axis] - normal[axis] / length).abs() < 1e-6);
+            assert!((ours - theirs / length).abs() < 1e-6);
         }
     }
 }

@@ -57,6 +57,7 @@ pub enum Command {
     /// Explain the code of a diagnostic
     Explain(ExplainArgs),
     /// Print the JSON Schema of scene files
+    #[command(after_help = SCHEMA_EXAMPLES)]
     Schema,
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
@@ -126,6 +127,11 @@ impl SceneArgs {
     }
 }
 
+const SCHEMA_EXAMPLES: &str = "\
+Examples:
+  tracer schema > scene.schema.json
+  tracer schema | jq .properties.camera";
+
 const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
@@ -175,16 +181,30 @@ pub struct RenderArgs {
     pub quiet: bool,
 }
 
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  tracer check scenes/fig4.ron
+  tracer check scene.toml --diagnostics json
+
+Diagnostics go to standard error; exit code 2 when there is an error.";
+
 /// `tracer check`
 #[derive(Debug, Args)]
+#[command(after_help = CHECK_EXAMPLES)]
 pub struct CheckArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub scene: SceneArgs,
 }
 
+const INFO_EXAMPLES: &str = "\
+Examples:
+  tracer info scenes/fig4.ron
+  tracer info scene.toml --resolved";
+
 /// `tracer info`
 #[derive(Debug, Args)]
+#[command(after_help = INFO_EXAMPLES)]
 pub struct InfoArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
@@ -197,8 +217,14 @@ pub struct InfoArgs {
     pub resolved: bool,
 }
 
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  tracer convert scene.ron -o scene.toml
+  tracer convert - --to ron < scene.toml";
+
 /// `tracer convert`
 #[derive(Debug, Args)]
+#[command(after_help = CONVERT_EXAMPLES)]
 pub struct ConvertArgs {
     /// Scene file, or - for standard input
     pub scene: PathBuf,
@@ -216,8 +242,14 @@ pub struct ConvertArgs {
     pub diagnostics: DiagnosticsForm,
 }
 
+const NEW_EXAMPLES: &str = "\
+Examples:
+  tracer new ball.ron
+  tracer new room.toml --template room";
+
 /// `tracer new`
 #[derive(Debug, Args)]
+#[command(after_help = NEW_EXAMPLES)]
 pub struct NewArgs {
     /// Scene file to make (.ron, .toml)
     pub scene: PathBuf,
@@ -256,8 +288,14 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
+const BENCH_EXAMPLES: &str = "\
+Examples:
+  tracer bench-acceleration scenes/fig3.ron
+  tracer bench-acceleration scene.ron --size 64x64 --samples 4";
+
 /// `tracer bench-acceleration`
 #[derive(Debug, Args)]
+#[command(after_help = BENCH_EXAMPLES)]
 pub struct BenchAccelerationArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
@@ -273,23 +311,41 @@ pub struct BenchAccelerationArgs {
     pub threads: Option<u16>,
 }
 
+const EXPLAIN_EXAMPLES: &str = "\
+Examples:
+  tracer explain E0301
+  tracer explain";
+
 /// `tracer explain`
 #[derive(Debug, Args)]
+#[command(after_help = EXPLAIN_EXAMPLES)]
 pub struct ExplainArgs {
     /// Code, as E0102 [default: list all codes]
     pub code: Option<String>,
 }
 
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  tracer completions bash > ~/.local/share/bash-completion/completions/tracer
+  tracer completions fish > ~/.config/fish/completions/tracer.fish";
+
 /// `tracer completions`
 #[derive(Debug, Args)]
+#[command(after_help = COMPLETIONS_EXAMPLES)]
 pub struct CompletionsArgs {
     /// Shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
 }
 
+const MAN_EXAMPLES: &str = "\
+Examples:
+  tracer man | man -l -
+  tracer man render > tracer-render.1";
+
 /// `tracer man`
 #[derive(Debug, Args)]
+#[command(after_help = MAN_EXAMPLES)]
 pub struct ManArgs {
     /// Command [default: the page of the program]
     pub command: Option<String>,

@@ -2,7 +2,8 @@
 
 use crate::args::{DiagnosticsForm, SceneArgs};
 use crate::failure::Failure;
-use crate::shell::Shell;
+use crate::memory::human;
+use crate::shell::{Shell, counted};
 use scene_format::diagnostic::Source;
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::io::Read;
@@ -32,7 +33,8 @@ pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     shell.diagnostics(&warnings, &scene.sources, args.diagnostics);
     shell.explain(|| {
         let source = scene.sources.first().map_or("", |source| source.name.as_str());
-        format!("read {source}: {} objects, {} lights", scene.objects.len(), scene.lights.len())
+        let (objects, lights) = (counted(scene.objects.len(), "object"), counted(scene.lights.len(), "light"));
+        format!("read {source}: {objects}, {lights}")
     });
     Ok(scene)
 }
@@ -88,17 +90,20 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result
     shell.diagnostics(&scene.warnings, sources, form);
     shell.explain(|| {
         let s = scene.statistics();
+        let count = |n: u64, noun: &str| counted(n as usize, noun);
         let mut line = format!(
-            "compiled: {} spheres, {} triangles in {} meshes placed {} times, {} materials, {} textures",
-            s.spheres, s.triangles, s.meshes, s.instances, s.materials, s.textures
+            "compiled {}, {} of {} in {}, {}",
+            count(s.spheres, "sphere"),
+            count(s.meshes, "mesh"),
+            count(s.triangles, "triangle"),
+            count(s.instances, "place"),
+            count(s.textures, "texture"),
         );
         if let Some(tree) = s.tree {
-            line += &format!("; tree of {} nodes, {} deep, {} bytes", tree.nodes, tree.depth, tree.bytes);
+            line += &format!("; tree of {}, {} deep, {}", count(tree.nodes, "node"), tree.depth, human(tree.bytes));
         }
-        line + &format!(
-            "; assets {:.3} s, tables {:.3} s, tree {:.3} s",
-            scene.times.assets, scene.times.tables, scene.times.tree
-        )
+        let times = scene.times;
+        line + &format!("; assets {:.3} s, tables {:.3} s, tree {:.3} s", times.assets, times.tables, times.tree)
     });
     Ok(scene)
 }

@@ -80,7 +80,6 @@ impl Shell {
         let errors = shown.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
         if form == DiagnosticsForm::Text && errors > 0 {
             let name = sources.first().map_or("the scene", |source| source.name.as_str());
-            let counted = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
             let warnings = match shown.len() - errors {
                 0 => String::new(),
                 n => format!(", {}", counted(n, "warning")),
@@ -92,6 +91,16 @@ impl Shell {
             ));
         }
     }
+}
+
+/// `1 sphere`, `2 spheres`
+pub fn counted(n: usize, noun: &str) -> String {
+    let plural = match (n, noun) {
+        (1, _) => "",
+        (_, "mesh") => "es",
+        _ => "s",
+    };
+    format!("{n} {noun}{plural}")
 }
 
 /// Columns of the terminal; of no terminal, a usual width.

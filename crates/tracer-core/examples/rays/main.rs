@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p tracer-core --example rays -- [room | field | FILE.obj] [TRIANGLES] [SIZE] [SETS] [ROUNDS]`
 //!
-//! SETS are letters, for instance `ac`.
+//! SETS are letters, for instance `ac`; only the best level is timed where they are given.
 //!
 //! Times of one run on a shared machine say little: compare within a run.
 
@@ -18,7 +18,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let what = words.next().unwrap_or_else(|| "room".to_string());
     let triangles: usize = words.next().map_or(Ok(70_000), |word| word.parse())?;
     let size: usize = words.next().map_or(Ok(512), |word| word.parse())?;
-    let only = words.next().unwrap_or_else(|| "abcde".to_string());
+    let only = words.next();
+    let levels = if only.is_some() { vec![Level::best()] } else { Level::supported() };
+    let only = only.unwrap_or_else(|| "abcde".to_string());
     let rounds: usize = words.next().map_or(Ok(5), |word| word.parse())?;
     let scene = match what.as_str() {
         "room" => room(triangles),
@@ -46,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut answers = Answers::new(set);
         for coherence in [Coherence::Incoherent, Coherence::Coherent] {
             set.coherence = coherence;
-            for level in Level::supported() {
+            for &level in &levels {
                 accel = accel.with_level(level);
                 let mut best = f64::INFINITY;
                 for _ in 0..rounds {

@@ -35,21 +35,26 @@ fn mesh_objects(desc: &SceneDesc) -> impl Iterator<Item = (&desc::Mesh, Span)> {
 pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut path_of_object = Vec::new();
+    // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
+    let mut own_materials: Vec<bool> = Vec::new();
     for (mesh, _) in mesh_objects(desc) {
         let path = desc.base_dir.join(&mesh.file.value);
         let index = paths.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
             paths.push((path, mesh.file.span));
+            own_materials.push(false);
             paths.len() - 1
         });
+        own_materials[index] |= mesh.material == MaterialRef::Default;
         path_of_object.push(index);
     }
     let results: Vec<_> = paths.par_iter().map(|(path, _)| mesh::load(path)).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
-    for (result, (_, span)) in results.into_iter().zip(&paths) {
+    for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
             Ok(mut data) => {
-                diagnostics.extend(data.warnings.drain(..).map(|w| Diagnostic { span: *span, ..w }));
+                let told = data.warnings.drain(..).filter(|w| own || w.code != "W0511");
+                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w }));
                 file_of_path.push(Some(files.len()));
                 files.push(data);
             }

@@ -86,7 +86,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
 
     let start = Instant::now();
     let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
-        .map_err(|message| CompileError { diagnostics: vec![message] })?;
+        .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let tree = start.elapsed().as_secs_f64();
     Ok(Scene {
         frame,
@@ -203,7 +203,7 @@ fn build_tree(
     spheres: &[Sphere],
     in_tree: usize,
     built: &meshes::Built,
-) -> Result<Option<bvh::Accel>, Diagnostic> {
+) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
     if built.instances.is_empty() && in_tree == 0 {
         return Ok(None);
     }
@@ -215,7 +215,9 @@ fn build_tree(
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
     built.tree(acceleration, &hung, spheres.len() as u32).map(Some).map_err(|error| {
-        Diagnostic::error("E0541", Span::NONE, format!("the scene cannot be traced: {error}"))
-            .hint("bring the sizes and distances of the objects closer together")
+        Box::new(
+            Diagnostic::error("E0541", Span::NONE, format!("the scene cannot be traced: {error}"))
+                .hint("bring the sizes and distances of the objects closer together"),
+        )
     })
 }

@@ -182,7 +182,7 @@ mod tests {
             for pass in passes(samples) {
                 assert_eq!(pass.start, next);
                 let n = (pass.end - pass.start) as usize;
-                assert!(n % ITEMS == 0 || ITEMS % n == 0);
+                assert!(n.is_multiple_of(ITEMS) || ITEMS.is_multiple_of(n));
                 next = pass.end;
             }
             assert_eq!(next, samples);

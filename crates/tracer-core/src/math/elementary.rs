@@ -110,7 +110,7 @@ pub fn acos<F: Lanes>(x: F) -> F {
     let p = a.fma(p, c(-0.050_174_305));
     let p = a.fma(p, c(0.088_978_99));
     let p = a.fma(p, c(-0.214_598_8));
-    let p = a.fma(p, c(1.570_796_3));
+    let p = a.fma(p, c(std::f32::consts::FRAC_PI_2));
     let r = (c(1.0) - a).sqrt() * p;
     F::select(x.lt(c(0.0)), c(std::f32::consts::PI) - r, r)
 }
@@ -129,7 +129,7 @@ pub fn atan2_turns<F: Lanes>(y: F, x: F) -> F {
     let p = z.fma(p, c(0.042_909_61));
     let p = z.fma(p, c(-0.075_289_64));
     let p = z.fma(p, c(0.106_562_64));
-    let p = z.fma(p, c(-0.142_088_99));
+    let p = z.fma(p, c(-0.142_089));
     let p = z.fma(p, c(0.199_935_51));
     let p = z.fma(p, c(-0.333_331_45));
     let p = z.fma(p, c(1.0));

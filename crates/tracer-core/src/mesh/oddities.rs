@@ -64,7 +64,7 @@ impl Oddity {
             Oddity::SmallFace => ["face of fewer than 3 corners", "faces of fewer than 3 corners", "left out"],
             Oddity::LineElement => ["line (`l`)", "lines (`l`)", "left out"],
             Oddity::PointElement => ["point element (`p`)", "point elements (`p`)", "left out"],
-            Oddity::MissingNormals => ["triangle without vertex normals", "triangles without vertex normals", "kept"],
+            Oddity::MissingNormals => ["triangle without vertex normals", "triangles without vertex normals", "flat"],
             Oddity::MissingUvs => {
                 ["triangle without texture coordinates", "triangles without texture coordinates", "kept"]
             }

@@ -7,3 +7,4 @@ mod figures;
 mod random_scenes;
 mod seams;
 mod support;
+mod surfaces;

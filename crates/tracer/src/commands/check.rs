@@ -3,7 +3,7 @@
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::loading::{compile, load};
-use crate::shell::Shell;
+use crate::shell::{Shell, counted};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -13,7 +13,6 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     let scene = compile(&desc, form, shell)?;
     if form == DiagnosticsForm::Text {
         let name = desc.sources.first().map_or("", |source| source.name.as_str());
-        let counted = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
         let (objects, lights) = (counted(desc.objects.len(), "object"), counted(scene.lights.len(), "light"));
         writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}")?;
     }

@@ -2,6 +2,7 @@
 
 use crate::args::{Cli, ManArgs};
 use crate::failure::{Failure, exit};
+use crate::write::Provenance;
 use clap::CommandFactory;
 use std::io::Write;
 use std::process::ExitCode;
@@ -18,7 +19,7 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
         })?,
     };
     let mut page = Vec::new();
-    clap_mangen::Man::new(command).render(&mut page)?;
+    clap_mangen::Man::new(command).source(Provenance::SOFTWARE).manual("tracer").render(&mut page)?;
     let mut out = std::io::stdout().lock();
     out.write_all(&page)?;
     out.flush()?;

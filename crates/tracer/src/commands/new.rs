@@ -18,7 +18,7 @@ pub enum Template {
     Ball,
     /// Every material, side by side
     Materials,
-    /// A closed room with a lamp, a mirror and glass
+    /// A closed room with a lamp and two balls
     Room,
 }
 

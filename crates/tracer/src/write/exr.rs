@@ -17,10 +17,12 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
     };
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(vec![channel("R", 0), channel("G", 1), channel("B", 2)]));
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(text(Provenance::SOFTWARE));
     let comments = [provenance.scene_name.as_str(), &provenance.settings_line()].join(": ");
-    attributes.comments = Some(text(&comments));
+    let mut attributes = LayerAttributes {
+        software_name: Some(text(Provenance::SOFTWARE)),
+        comments: Some(text(&comments)),
+        ..LayerAttributes::default()
+    };
     if let Some(scene) = provenance.embedded_scene() {
         // The only one of its map: the order of several would change from run to run, and the bytes with it.
         attributes.other.insert(text("scene"), AttributeValue::Text(text(scene)));

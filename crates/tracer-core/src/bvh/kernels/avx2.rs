@@ -200,6 +200,15 @@ impl Isa for Avx2 {
         unsafe { _mm_movemask_ps(_mm_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
     }
     #[inline(always)]
+    fn not_negative_and_not_zero4(self, a: __m128, b: __m128) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let zero = _mm_setzero_ps();
+            let (first, second) = (_mm_cmp_ps::<_CMP_GE_OQ>(a, zero), _mm_cmp_ps::<_CMP_NEQ_OQ>(b, zero));
+            _mm_movemask_ps(_mm_and_ps(first, second)) as u32
+        }
+    }
+    #[inline(always)]
     fn lt4(self, a: __m128, b: __m128) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm_movemask_ps(_mm_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }

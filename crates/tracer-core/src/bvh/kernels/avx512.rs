@@ -206,6 +206,15 @@ impl Isa for Avx512 {
         unsafe { u32::from(_mm_cmp_ps_mask::<_CMP_LE_OQ>(a, b)) }
     }
     #[inline(always)]
+    fn not_negative_and_not_zero4(self, a: __m128, b: __m128) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let zero = _mm_setzero_ps();
+            let mask = _mm_cmp_ps_mask::<_CMP_GE_OQ>(a, zero);
+            u32::from(_mm_mask_cmp_ps_mask::<_CMP_NEQ_OQ>(mask, b, zero))
+        }
+    }
+    #[inline(always)]
     fn lt4(self, a: __m128, b: __m128) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe { u32::from(_mm_cmp_ps_mask::<_CMP_LT_OQ>(a, b)) }

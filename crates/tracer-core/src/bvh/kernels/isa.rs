@@ -77,6 +77,8 @@ pub(crate) trait Isa: Copy {
     fn copysign4(self, a: Self::F4, b: Self::F4) -> Self::F4;
     /// Bit i set where a[i] <= b[i].
     fn le4(self, a: Self::F4, b: Self::F4) -> u32;
+    /// Bit i set where a[i] >= 0 and b[i] != 0.
+    fn not_negative_and_not_zero4(self, a: Self::F4, b: Self::F4) -> u32;
     /// Bit i set where a[i] < b[i].
     fn lt4(self, a: Self::F4, b: Self::F4) -> u32;
     /// Bit i set where a[i] = b[i].

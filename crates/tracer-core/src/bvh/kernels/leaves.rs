@@ -41,9 +41,9 @@ pub(crate) fn triangles4<I: Isa>(
     let least = isa.min4(isa.min4(u, v), w);
     let most = isa.max4(isa.max4(u, v), w);
     let det = isa.add4(isa.add4(u, v), w);
-    let inside = isa.le4(zero, least) | isa.le4(most, zero);
-    let solid = isa.lt4(zero, det) | isa.lt4(det, zero);
-    let mask = inside & solid & !skip;
+    // All three >= 0 or all three <= 0.
+    let inside = isa.max4(least, isa.neg4(most));
+    let mask = isa.not_negative_and_not_zero4(inside, det) & !skip;
     if mask == 0 {
         return None;
     }

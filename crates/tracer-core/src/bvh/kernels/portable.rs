@@ -174,6 +174,10 @@ impl Isa for Portable {
         (0..4).fold(0, |mask, i| mask | (u32::from(a[i] <= b[i]) << i))
     }
     #[inline(always)]
+    fn not_negative_and_not_zero4(self, a: [f32; 4], b: [f32; 4]) -> u32 {
+        (0..4).fold(0, |mask, i| mask | (u32::from(a[i] >= 0.0 && b[i] != 0.0) << i))
+    }
+    #[inline(always)]
     fn lt4(self, a: [f32; 4], b: [f32; 4]) -> u32 {
         (0..4).fold(0, |mask, i| mask | (u32::from(a[i] < b[i]) << i))
     }

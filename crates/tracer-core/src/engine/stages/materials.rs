@@ -177,9 +177,18 @@ pub struct DielectricSample<F: Lanes> {
 pub fn sample_dielectric<F: Lanes>(s: &Surface<F>, wo: V3<F>, ior: F, lobe: F) -> DielectricSample<F> {
     let c = F::splat;
     let one = c(1.0);
-    let (reflected, normal) = reflect_bent(s, wo);
+    let (mut reflected, mut normal) = reflect_bent(s, wo);
     // n_incident / n_transmitted.
     let eta = F::select(s.outside, one / ior, ior);
+    if s.smooth.any() {
+        // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides: else
+        // rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
+        let cos_g = wo.dot(s.ng);
+        let total = one.le(refract(wo, normal, eta).sin2_t);
+        let caught = s.smooth & !s.outside & total & refract(wo, s.ng, eta).sin2_t.lt(one);
+        reflected = V3::select(caught, s.ng.scale(cos_g + cos_g).sub(wo), reflected);
+        normal = V3::select(caught, s.ng, normal);
+    }
     let r = refract(wo, normal, eta);
     let mut direction = r.direction;
     let reflectance = F::select(r.sin2_t.lt(one), fresnel(r.cos_i, r.cos_t, eta), one);

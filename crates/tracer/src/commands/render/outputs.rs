@@ -39,8 +39,10 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         }
         outputs.push(Output { encoding: encoding(path, args, bits)?, place });
     }
-    if args.format.is_some() && !args.output.iter().any(|path| is_dash(path)) {
-        return Err(Failure::wrong("--format is for `-o -` only; files say their kind by their extension"));
+    if args.format.is_some() && args.output.iter().all(|path| path.extension().is_some()) {
+        return Err(Failure::wrong(
+            "--format is for `-o -` and names without an extension; others say their kind by it",
+        ));
     }
     if args.bits.is_some() && !outputs.iter().any(|output| matches!(output.encoding, Encoding::Png(_))) {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
@@ -50,11 +52,16 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
 
 fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Failure> {
     let kinds = Encoding::NAMES.join(", ");
-    if is_dash(path) {
+    if path.extension().is_none() {
         let Some(format) = &args.format else {
-            return Err(Failure::wrong(format!("`-o -` needs --format, one of {kinds}")));
+            let shown = path.display();
+            return Err(Failure::wrong(if is_dash(path) {
+                format!("-o - needs --format, one of {kinds}")
+            } else {
+                format!("-o {shown} has no extension; name it {shown}.png (or exr, hdr, pfm), or give --format")
+            }));
         };
-        if std::io::stdout().is_terminal() {
+        if is_dash(path) && std::io::stdout().is_terminal() {
             return Err(Failure::wrong(
                 "a picture does not go to a terminal; send standard output into a file or a pipe",
             ));
@@ -63,13 +70,9 @@ fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Fail
             .map_err(|_| Failure::wrong(format!("--format {format} is unknown; expected one of {kinds}")));
     }
     Encoding::from_path(path, bits).map_err(|_| {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
         let shown = path.display();
-        Failure::wrong(match path.extension() {
-            Some(extension) => {
-                format!("-o {shown}: `.{}` is no kind of picture; expected one of {kinds}", extension.to_string_lossy())
-            }
-            None => format!("-o {shown} has no extension; expected one of {kinds}, as in -o {shown}.png"),
-        })
+        Failure::wrong(format!("-o {shown}: `.{extension}` is no kind of picture; expected one of {kinds}"))
     })
 }
 
