@@ -1,0 +1,152 @@
+//! The reference: a path tracer as the textbook writes it, in `f64`, that the engine of `tracer-core` is held against.
+//!
+//! It reads the public [`Scene`] and shares nothing below it: every ray is tested against every sphere and every triangle, one
+//! sample at a time, recursively, with its own random numbers. Sampling is plain and different from the engine's: at a diffuse or
+//! glossy surface ONE direction is drawn, half of the time towards a light, half of the time by the material, and weighted by the
+//! density of that mixture (Veach 1997, 9.2.4: the one-sample model with the balance heuristic). There are no shadow rays and no
+//! roulette, and a light counts wherever a ray meets it.
+//!
+//! The rendering equation (Kajiya 1986), with L_e only on lights, which absorb:
+//! L(x, wo) = L_e + integral of f(wo, wi) L(x', -wi) |cos| dwi. A path ends after `max_bounces + 1` scatterings.
+#![forbid(unsafe_code)]
+
+mod camera;
+mod light;
+mod random;
+mod scatter;
+pub mod statistics;
+mod surface;
+mod texture;
+mod world;
+
+use glam::DVec3;
+pub use random::Random;
+use tracer_core::Scene;
+use tracer_core::scene::{Light, Material};
+use world::World;
+
+/// Where rays start that leave a smooth mesh by diffuse or glossy scattering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Smoothing {
+    /// On the smooth surface that the triangle stands for (Hanika 2021), as the engine does.
+    Hanika,
+    /// On the triangle: the terminator of a low-poly mesh shows its edges.
+    Naive,
+}
+
+/// A half-line; the direction is unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ray {
+    pub origin: DVec3,
+    pub direction: DVec3,
+}
+
+/// A rendered picture: row by row from the top, linear RGB.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Mean radiance per pixel.
+    pub mean: Vec<DVec3>,
+    /// Variance of that mean, per pixel and channel: the samples are independent.
+    pub variance: Vec<DVec3>,
+}
+
+/// Renders the scene with this many independent samples per pixel, at least two.
+pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> Picture {
+    let tracer = Tracer { scene, world: World::new(scene), smoothing };
+    let [width, height] = scene.size;
+    let mut picture = Picture { size: scene.size, mean: Vec::new(), variance: Vec::new() };
+    let n = f64::from(samples);
+    for y in 0..height {
+        for x in 0..width {
+            let mut random = Random::new(seed ^ (u64::from(y) << 32 | u64::from(x)) << 16);
+            let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
+            for _ in 0..samples {
+                let ray = camera::ray(&scene.camera, scene.size, [x, y], &mut random);
+                let radiance = tracer.radiance(ray, 0, &mut random);
+                sum += radiance;
+                squares += radiance * radiance;
+            }
+            let mean = sum / n;
+            picture.mean.push(mean);
+            picture.variance.push((squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0));
+        }
+    }
+    picture
+}
+
+struct Tracer<'a> {
+    scene: &'a Scene,
+    world: World,
+    smoothing: Smoothing,
+}
+
+impl Tracer<'_> {
+    /// Radiance that arrives along the ray, which has been scattered `scatterings` times.
+    fn radiance(&self, ray: Ray, scatterings: u32, random: &mut Random) -> DVec3 {
+        let Some(hit) = self.world.closest(&ray) else {
+            return DVec3::from(self.scene.background.map(f64::from));
+        };
+        if let Some(light) = self.world.light_of(&hit) {
+            let Light::Sphere { radiance, .. } = self.scene.lights[light];
+            return DVec3::from(radiance);
+        }
+        if scatterings > self.scene.max_bounces {
+            return DVec3::ZERO;
+        }
+        let s = self.world.surface(&ray, &hit, self.smoothing);
+        let wo = -ray.direction;
+        match self.scene.materials[s.material as usize] {
+            Material::Mirror { reflectance } => {
+                let ray = Ray { origin: s.p, direction: scatter::reflect(&s, wo).direction };
+                DVec3::from(reflectance) * self.radiance(ray, scatterings + 1, random)
+            }
+            Material::Transparent { ior, transmittance } => {
+                let (direction, weight) = scatter::dielectric(&s, wo, ior, transmittance, random);
+                weight * self.radiance(Ray { origin: s.p, direction }, scatterings + 1, random)
+            }
+            Material::Diffuse { albedo } => {
+                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy: None };
+                self.rough(&s, wo, &lobes, scatterings, random)
+            }
+            Material::BlinnPhong { albedo, exponent, specular, energy_conserving } => {
+                let glossy = Some(scatter::Glossy { exponent, share: specular, energy_conserving });
+                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy };
+                self.rough(&s, wo, &lobes, scatterings, random)
+            }
+        }
+    }
+
+    /// One direction from the mixture of lights and material: f cos / p times what comes from there.
+    fn rough(
+        &self,
+        s: &surface::Surface,
+        wo: DVec3,
+        lobes: &scatter::Rough,
+        scatterings: u32,
+        random: &mut Random,
+    ) -> DVec3 {
+        let to_lights = if self.scene.lights.is_empty() { 0.0 } else { 0.5 };
+        let direction = if random.number() < to_lights {
+            light::sample(self.scene, s.start, random)
+        } else {
+            lobes.sample(s.ns, wo, random)
+        };
+        let cos = s.ns.dot(direction);
+        if cos <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let by_material = lobes.density(s.ns, wo, direction);
+        let density = if to_lights == 0.0 {
+            by_material
+        } else {
+            to_lights * light::density(self.scene, s.start, direction) + (1.0 - to_lights) * by_material
+        };
+        let weight = lobes.f(s.ns, wo, direction) * (cos / density);
+        if weight == DVec3::ZERO {
+            return DVec3::ZERO;
+        }
+        weight * self.radiance(Ray { origin: s.start, direction }, scatterings + 1, random)
+    }
+}

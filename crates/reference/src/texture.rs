@@ -1,0 +1,54 @@
+//! Colours of surfaces, constant or from a picture.
+
+use glam::DVec3;
+use scene_format::desc::{TextureFilter, TextureWrap};
+use tracer_core::Scene;
+use tracer_core::scene::{Albedo, Texel, TextureView};
+
+/// The albedo at texture coordinates (u, v), v upwards.
+pub fn albedo(scene: &Scene, albedo: Albedo, [u, v]: [f64; 2]) -> DVec3 {
+    let index = match albedo {
+        Albedo::Color(color) => return DVec3::from(color),
+        Albedo::Texture(index) => index,
+    };
+    let texture = scene.texture(index).expect("a texture of the scene");
+    // Texel (i, j) covers [i, i + 1) x [j, j + 1), row 0 at the top.
+    let x = u * f64::from(texture.width);
+    let y = (1.0 - v) * f64::from(texture.height);
+    match texture.filter {
+        TextureFilter::Nearest => texel(&texture, x.floor(), y.floor()),
+        TextureFilter::Bilinear => {
+            let (x, y) = (x - 0.5, y - 0.5);
+            let row = |j: f64| texel(&texture, x.floor(), j).lerp(texel(&texture, x.floor() + 1.0, j), x - x.floor());
+            row(y.floor()).lerp(row(y.floor() + 1.0), y - y.floor())
+        }
+    }
+}
+
+/// A texel by whole numbers, which may lie beyond the borders.
+fn texel(texture: &TextureView, i: f64, j: f64) -> DVec3 {
+    let (i, j) = (wrap(i, texture.width, texture.wrap), wrap(j, texture.height, texture.wrap));
+    match texture.texel(i, j).expect("a texel of the picture") {
+        Texel::Srgb8(code) => DVec3::from(code.map(srgb)),
+        Texel::Linear(color) => DVec3::from(color.map(f64::from)),
+    }
+}
+
+fn wrap(i: f64, n: u32, wrap: TextureWrap) -> u32 {
+    let size = f64::from(n);
+    let k = match wrap {
+        TextureWrap::Repeat => i.rem_euclid(size),
+        TextureWrap::Clamp => i.clamp(0.0, size - 1.0),
+        TextureWrap::Mirror => {
+            let k = i.rem_euclid(2.0 * size);
+            if k < size { k } else { 2.0 * size - 1.0 - k }
+        }
+    };
+    k as u32
+}
+
+/// Linear light of an sRGB code value (IEC 61966-2-1).
+fn srgb(code: u8) -> f64 {
+    let c = f64::from(code) / 255.0;
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}

@@ -1,0 +1,387 @@
+//! Meshes: files loaded once each, placed as often as the scene says, brought into render space.
+//!
+//! A mesh that is placed once is moved vertex by vertex, in f64. One that is placed several times stays in a frame of its own,
+//! recentred and scaled by a power of two to a size of about one, and its instances carry matrices.
+
+use super::materials::MaterialBuilder;
+use super::placing::place as place_matrix;
+use crate::bvh;
+use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
+use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
+use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3A};
+use rayon::prelude::*;
+use scene_format::desc::{self, MaterialRef, Object, Placements, Shading};
+use scene_format::diagnostic::{Span, Spanned};
+use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use std::path::PathBuf;
+
+/// The mesh files of a scene.
+pub struct Loaded {
+    /// Each file once.
+    files: Vec<MeshData>,
+    /// Per mesh object of the scene: its file, or `None` where that could not be loaded.
+    file_of_object: Vec<Option<usize>>,
+}
+
+/// The mesh objects of a scene, in order.
+fn mesh_objects(desc: &SceneDesc) -> impl Iterator<Item = (&desc::Mesh, Span)> {
+    desc.objects.iter().filter_map(|object| match &object.value {
+        Object::Mesh(mesh) => Some((mesh, object.span)),
+        Object::Sphere(_) => None,
+    })
+}
+
+/// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
+pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
+    let mut paths: Vec<(PathBuf, Span)> = Vec::new();
+    let mut path_of_object = Vec::new();
+    // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
+    let mut own_materials: Vec<bool> = Vec::new();
+    for (mesh, _) in mesh_objects(desc) {
+        let path = desc.base_dir.join(&mesh.file.value);
+        let index = paths.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
+            paths.push((path, mesh.file.span));
+            own_materials.push(false);
+            paths.len() - 1
+        });
+        own_materials[index] |= mesh.material == MaterialRef::Default;
+        path_of_object.push(index);
+    }
+    let results: Vec<_> = paths.par_iter().map(|(path, _)| mesh::load(path)).collect();
+    let mut files = Vec::new();
+    let mut file_of_path = Vec::new();
+    for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
+        match result {
+            Ok(mut data) => {
+                let told = data.warnings.drain(..).filter(|w| own || w.code != "W0511");
+                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w }));
+                file_of_path.push(Some(files.len()));
+                files.push(data);
+            }
+            Err(error) => {
+                diagnostics.push(error.to_diagnostic(*span));
+                file_of_path.push(None);
+            }
+        }
+    }
+    Loaded { files, file_of_object: path_of_object.into_iter().map(|p| file_of_path[p]).collect() }
+}
+
+/// Which material each mesh object has.
+pub struct Assigned {
+    /// Per mesh object: one for all of it, or [`NONE`] for what its file says per triangle.
+    of_object: Vec<u32>,
+    /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for them.
+    of_file: Vec<Vec<u32>>,
+}
+
+/// Resolves the materials of the mesh objects: what the scene names, else what the file's MTL says, else the default.
+pub fn assign_materials(
+    desc: &SceneDesc,
+    loaded: &Loaded,
+    builder: &mut MaterialBuilder,
+    diagnostics: &mut Diagnostics,
+) -> Assigned {
+    let mut assigned = Assigned { of_object: Vec::new(), of_file: vec![Vec::new(); loaded.files.len()] };
+    for ((mesh, _), file) in mesh_objects(desc).zip(&loaded.file_of_object) {
+        let own = file.filter(|&f| !loaded.files[f].triangle_material.is_empty());
+        assigned.of_object.push(match (&mesh.material, own) {
+            (MaterialRef::Default, Some(f)) => {
+                if assigned.of_file[f].is_empty() {
+                    assigned.of_file[f] =
+                        loaded.files[f].materials.iter().map(|m| builder.add(&m.material, None)).collect();
+                    assigned.of_file[f].push(builder.default_material());
+                }
+                NONE
+            }
+            (reference, _) => builder.resolve(reference, diagnostics),
+        });
+    }
+    assigned
+}
+
+/// Where the mesh objects are.
+pub struct Placed {
+    /// Per mesh object: from the file's frame to the world, one per copy.
+    maps: Vec<Vec<DAffine3>>,
+    /// Per mesh object: the corners of its box in the file's frame.
+    boxes: Vec<[DVec3; 2]>,
+}
+
+/// Evaluates transforms and placements.
+pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
+    let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
+    for ((mesh, span), file) in mesh_objects(desc).zip(&loaded.file_of_object) {
+        // A placements file is read even when the mesh is missing: all faults in one run.
+        let copies = copies(desc, &mesh.placements, diagnostics);
+        let Some(data) = file.map(|f| &loaded.files[f]) else {
+            placed.maps.push(Vec::new());
+            placed.boxes.push([DVec3::ZERO; 2]);
+            continue;
+        };
+        let lowest = |map: &DAffine3| {
+            let row = map.matrix3.row(1);
+            let heights = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation.y);
+            heights.reduce(|| f64::INFINITY, f64::min)
+        };
+        let map = place_matrix(&mesh.transform, DVec3::from(data.barycentre()), &lowest);
+        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+        let usable = |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
+        if let Some(at) = maps.iter().position(|m| !usable(m)) {
+            let which = if maps.len() > 1 { format!(" (copy {})", at + 1) } else { String::new() };
+            let at = mesh.transform.first().map_or(span, |t| t.span);
+            diagnostics.push(
+                Diagnostic::error("E0540", at, format!("the transforms flatten the mesh to nothing{which}"))
+                    .expected("transforms that can be undone: no scale of 0, no overflow"),
+            );
+        }
+        placed.maps.push(maps);
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for p in data.positions.iter().map(|p| DVec3::from(*p)) {
+            (low, high) = (low.min(p), high.max(p));
+        }
+        placed.boxes.push([low, high]);
+    }
+    placed
+}
+
+/// The maps of the copies, in the world.
+fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
+    match placements {
+        Placements::One => vec![DAffine3::IDENTITY],
+        Placements::List(list) => {
+            list.iter().map(|steps: &Vec<Spanned<_>>| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect()
+        }
+        Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
+            Ok(maps) => maps,
+            Err(error) => {
+                diagnostics.push(error.to_diagnostic(file.span));
+                Vec::new()
+            }
+        },
+    }
+}
+
+impl Placed {
+    /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per object.
+    pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
+        self.maps.iter().zip(&self.boxes).flat_map(move |(maps, corners)| {
+            maps.iter().step_by(maps.len().div_ceil(1024).max(1)).map(move |map| {
+                let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                for k in 0..8usize {
+                    let pick = |axis: usize| corners[k >> axis & 1][axis];
+                    let p = map.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
+                    (low, high) = (low.min(p), high.max(p));
+                }
+                look_at.clamp(low, high)
+            })
+        })
+    }
+}
+
+/// The meshes of a compiled scene.
+#[derive(Default)]
+pub struct Built {
+    /// Each mesh once.
+    pub meshes: Vec<Mesh>,
+    /// All triangles.
+    pub triangles: Triangles,
+    /// Copies.
+    pub instances: Vec<Instance>,
+}
+
+/// A mesh as it enters the scene: a file, smooth or flat.
+#[derive(Clone, Copy, PartialEq)]
+struct Variant {
+    file: usize,
+    smooth: bool,
+}
+
+/// Brings the meshes into render space.
+pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Built {
+    let variant_of_object: Vec<Option<Variant>> = mesh_objects(desc)
+        .zip(&loaded.file_of_object)
+        .map(|((mesh, _), file)| {
+            file.map(|file| Variant {
+                file,
+                smooth: match mesh.shading {
+                    Shading::Smooth => true,
+                    Shading::Flat => false,
+                    Shading::Auto => !loaded.files[file].normals.is_empty(),
+                },
+            })
+        })
+        .collect();
+    let mut built = Built::default();
+    let mut done: Vec<(Variant, u32, DAffine3)> = Vec::new();
+    let scaled = DAffine3::from_scale(DVec3::splat(frame.scale));
+    for (object, variant) in variant_of_object.iter().enumerate() {
+        let Some(variant) = *variant else { continue };
+        let maps = &placed.maps[object];
+        let whole = assigned.of_object[object];
+        let data = &loaded.files[variant.file];
+        let copies: usize = variant_of_object
+            .iter()
+            .zip(&placed.maps)
+            .filter(|(v, _)| **v == Some(variant))
+            .map(|(_, m)| m.len())
+            .sum();
+        if copies == 1 {
+            for map in maps {
+                // Subtract the centre before scaling: nothing is lost far away from the world's origin.
+                let world = DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre };
+                let mesh =
+                    built.add_mesh(data, variant.smooth, &world, frame.scale, whole, &assigned.of_file[variant.file]);
+                built.instances.push(Instance { mesh, material: whole, placement: None });
+            }
+            continue;
+        }
+        let known = done.iter().find(|(v, ..)| *v == variant).copied();
+        let (_, mesh, file_from_object) = known.unwrap_or_else(|| {
+            let [low, high] = placed.boxes[object];
+            let centre = (low + high) * 0.5;
+            let size = (high - low).max_element();
+            let exponent = if size > 0.0 { libm::ilogb(size) } else { 0 };
+            let scale = libm::scalbn(1.0, -exponent);
+            let to_object = DAffine3::from_translation(-centre);
+            let mesh = built.add_mesh(data, variant.smooth, &to_object, scale, NONE, &assigned.of_file[variant.file]);
+            let back = DAffine3 { translation: centre, ..DAffine3::from_scale(DVec3::splat(1.0 / scale)) };
+            done.push((variant, mesh, back));
+            (variant, mesh, back)
+        });
+        built.instances.extend(maps.iter().map(|map| {
+            let world = DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre };
+            Instance { mesh, material: whole, placement: Some(rows(&(scaled * world * file_from_object))) }
+        }));
+    }
+    built
+}
+
+/// The rows of a map as single precision.
+fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
+    [0, 1, 2].map(|r| {
+        let row = map.matrix3.row(r);
+        [row.x as f32, row.y as f32, row.z as f32, map.translation[r] as f32]
+    })
+}
+
+impl Built {
+    /// The tree over these meshes and the first `spheres` spheres.
+    pub fn tree(
+        &self,
+        acceleration: bvh::Acceleration,
+        spheres: &[bvh::SphereGeometry],
+        first_primitive: u32,
+    ) -> Result<bvh::Accel, bvh::BuildError> {
+        let t = &self.triangles;
+        let meshes: Vec<bvh::MeshGeometry> = self
+            .meshes
+            .iter()
+            .map(|m| bvh::MeshGeometry {
+                positions: &t.positions,
+                triangles: &t.vertices[m.first_triangle as usize..][..m.triangle_count as usize],
+                first_primitive: first_primitive + m.first_triangle,
+            })
+            .collect();
+        let instances: Vec<bvh::InstanceGeometry> = self
+            .instances
+            .iter()
+            .map(|i| bvh::InstanceGeometry {
+                mesh: i.mesh,
+                placement: i.placement.map(|rows| {
+                    let [x, y, z] = rows;
+                    let matrix3 = Mat3A::from_cols(
+                        Vec3A::new(x[0], y[0], z[0]),
+                        Vec3A::new(x[1], y[1], z[1]),
+                        Vec3A::new(x[2], y[2], z[2]),
+                    );
+                    let world_from_object = Affine3A { matrix3, translation: Vec3A::new(x[3], y[3], z[3]) };
+                    bvh::Placement { world_from_object, object_from_world: world_from_object.inverse() }
+                }),
+            })
+            .collect();
+        bvh::Accel::build(&bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
+    }
+
+    /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].
+    fn add_mesh(
+        &mut self,
+        data: &MeshData,
+        smooth: bool,
+        map: &DAffine3,
+        scale: f64,
+        whole: u32,
+        own_materials: &[u32],
+    ) -> u32 {
+        let t = &mut self.triangles;
+        let first_triangle = t.vertices.len() as u32;
+        let first_vertex = t.positions.len();
+        let mirrored = map.matrix3.determinant() < 0.0;
+        // A mirrored mesh winds the other way: swapping two corners keeps its outside outside.
+        let wound = |[a, b, c]: [u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let shifted = |first: usize| {
+            let first = first as u32;
+            move |corner: u32| if corner == NO_INDEX { NONE } else { corner + first }
+        };
+        t.positions.par_extend(
+            data.positions.par_iter().map(|p| (map.transform_point3(DVec3::from(*p)) * scale).as_vec3().to_array()),
+        );
+        t.vertices.par_extend(data.triangles.par_iter().map(|v| wound(*v).map(shifted(first_vertex))));
+
+        if smooth {
+            let computed;
+            let (normals, indices) = if data.normals.is_empty() {
+                computed = vertex_normals(&data.positions, &data.triangles);
+                (&computed, &data.triangles)
+            } else {
+                (&data.normals, data.normal_triangles.as_ref().unwrap_or(&data.triangles))
+            };
+            let first = t.normals.len();
+            // Inverse transpose; turned along when the map mirrors, because the outside stays outside.
+            let inverse = map.matrix3.inverse().transpose();
+            t.normals.par_extend(
+                normals
+                    .par_iter()
+                    .map(|n| (inverse * DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()),
+            );
+            t.normal_indices.resize(first_triangle as usize, [NONE; 3]);
+            // A triangle with a corner that has no normal is flat.
+            t.normal_indices.par_extend(
+                indices.par_iter().map(
+                    |n| {
+                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+                    },
+                ),
+            );
+        } else if !t.normal_indices.is_empty() {
+            t.normal_indices.resize(t.vertices.len(), [NONE; 3]);
+        }
+
+        if !data.uvs.is_empty() {
+            let first = t.uvs.len();
+            t.uvs.extend_from_slice(&data.uvs);
+            t.uv_indices.resize(first_triangle as usize, [NONE; 3]);
+            let indices = data.uv_triangles.as_ref().unwrap_or(&data.triangles);
+            t.uv_indices.par_extend(
+                indices.par_iter().map(
+                    |n| {
+                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+                    },
+                ),
+            );
+        } else if !t.uv_indices.is_empty() {
+            t.uv_indices.resize(t.vertices.len(), [NONE; 3]);
+        }
+
+        let material = |k: usize| match (whole, own_materials.split_last()) {
+            (NONE, Some((&default, own))) => {
+                data.triangle_material.get(k).and_then(|&m| own.get(m as usize)).copied().unwrap_or(default)
+            }
+            (NONE, None) => 0,
+            (whole, _) => whole,
+        };
+        t.material.extend((0..data.triangles.len()).map(material));
+        self.meshes.push(Mesh { first_triangle, triangle_count: data.triangles.len() as u32 });
+        self.meshes.len() as u32 - 1
+    }
+}

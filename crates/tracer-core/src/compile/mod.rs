@@ -1,0 +1,223 @@
+//! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built. The second hand.
+
+mod materials;
+mod meshes;
+mod placing;
+
+use crate::bvh;
+use crate::scene::{
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sphere, SphereTable, Tables,
+    TextureTable,
+};
+use glam::DVec3;
+use materials::MaterialBuilder;
+use scene_format::desc::{Acceleration, Emission, Object, PixelFilter, SphereLight};
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
+use std::time::Instant;
+
+/// Why a scene could not be compiled: everything that was found, errors and warnings.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", summary(.diagnostics))]
+pub struct CompileError {
+    /// What is wrong; at least one is an error.
+    pub diagnostics: Diagnostics,
+}
+
+fn summary(diagnostics: &[Diagnostic]) -> String {
+    let mut errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);
+    let first = errors.next().map_or("", |d| d.message.as_str());
+    match errors.count() {
+        0 => first.to_owned(),
+        more => format!("{first} (and {more} more)"),
+    }
+}
+
+/// Seconds that the parts of compiling took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CompileTimes {
+    /// Loading meshes, textures and placements.
+    pub assets: f64,
+    /// Placing everything in render space, tables.
+    pub tables: f64,
+    /// Building the tree.
+    pub tree: f64,
+}
+
+/// Compiles the scene. Relative paths start from `desc.base_dir`.
+///
+/// # Errors
+/// All faults of the assets at once: missing or unreadable files, wrong meshes and textures, singular transforms, each at the place in
+/// the scene file that names it.
+pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
+    let start = Instant::now();
+    let mut diagnostics = Diagnostics::new();
+    let mut builder = MaterialBuilder::new(desc);
+    let loaded = meshes::load(desc, &mut diagnostics);
+    let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
+    let sphere_materials: Vec<u32> = desc
+        .objects
+        .iter()
+        .filter_map(|object| match &object.value {
+            Object::Sphere(sphere) => Some(builder.resolve(&sphere.material, &mut diagnostics)),
+            Object::Mesh(_) => None,
+        })
+        .collect();
+    let (materials, images, uses) = builder.finish(&mut diagnostics);
+    let placed = meshes::place(desc, &loaded, &mut diagnostics);
+    let assets = start.elapsed().as_secs_f64();
+    if diagnostics.iter().any(|d| d.severity == Severity::Error) {
+        diagnostics.sort_by_key(|d| d.span);
+        return Err(CompileError { diagnostics });
+    }
+
+    let start = Instant::now();
+    let eye = DVec3::from(desc.camera.position.value);
+    let look_at = DVec3::from(desc.camera.look_at.value);
+    let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
+    let (spheres, lights) = spheres_and_lights(desc, &frame, &sphere_materials);
+    let built = meshes::build(&frame, desc, &loaded, &placed, &assigned);
+    drop((loaded, placed));
+    let material_table = MaterialTable::new(&materials);
+    let sphere_table = SphereTable::new(&spheres, material_table.emitter);
+    let light_table = LightTable::new(&lights, &spheres);
+    let instance_table = InstanceTable::new(&built.instances);
+    let tables_seconds = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
+        .map_err(|message| CompileError { diagnostics: vec![*message] })?;
+    let tree = start.elapsed().as_secs_f64();
+    Ok(Scene {
+        frame,
+        camera: camera(desc, &frame),
+        size: [desc.image.width.value, desc.image.height.value],
+        samples: desc.render.samples.value,
+        max_bounces: desc.render.max_bounces.value,
+        seed: desc.render.seed.value,
+        background: desc.background.map(|x| x as f32),
+        spheres,
+        materials,
+        lights,
+        meshes: built.meshes,
+        triangles: built.triangles,
+        instances: built.instances,
+        acceleration: desc.render.acceleration,
+        look: crate::develop::Look { exposure: desc.effects.exposure.value, tone_map: desc.effects.tone_map },
+        warnings: diagnostics,
+        times: CompileTimes { assets, tables: tables_seconds, tree },
+        tables: Tables {
+            spheres: sphere_table,
+            materials: material_table,
+            lights: light_table,
+            textures: TextureTable::new(images, &uses),
+            instances: instance_table,
+        },
+        accel,
+    })
+}
+
+/// One point per object near what the camera looks at, on its surface or in its box.
+fn marks(desc: &SceneDesc, placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
+    let spheres = desc.objects.iter().filter_map(|object| match &object.value {
+        Object::Sphere(sphere) => {
+            let center = DVec3::from(sphere.center.value);
+            let towards = (look_at - center).try_normalize().unwrap_or(DVec3::Z);
+            Some(center + towards * sphere.radius.value)
+        }
+        Object::Mesh(_) => None,
+    });
+    spheres.chain(placed.marks(look_at)).collect()
+}
+
+/// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), and the lights.
+fn spheres_and_lights(desc: &SceneDesc, frame: &Frame, sphere_materials: &[u32]) -> (Vec<Sphere>, Vec<Light>) {
+    let objects = desc.objects.iter().filter_map(|object| match &object.value {
+        Object::Sphere(sphere) => Some(sphere),
+        Object::Mesh(_) => None,
+    });
+    let render_space = |center: [f64; 3], radius: f64, material: u32, light: u32| Sphere {
+        center: frame.point(DVec3::from(center)),
+        radius: frame.length(radius),
+        material,
+        light,
+    };
+    let mut spheres: Vec<Sphere> = objects
+        .zip(sphere_materials)
+        .map(|(s, &material)| render_space(s.center.value, s.radius.value, material, NONE))
+        .collect();
+    let mut lights = Vec::new();
+    for light in &desc.lights {
+        let desc::Light::SphereLight(light) = &light.value;
+        spheres.push(render_space(light.center.value, light.radius.value, NONE, lights.len() as u32));
+        lights.push(Light::Sphere { sphere: NONE, radiance: radiance(light) });
+    }
+    SphereTable::order(&mut spheres);
+    for (k, sphere) in spheres.iter().enumerate() {
+        if let Some(Light::Sphere { sphere: index, .. }) = lights.get_mut(sphere.light as usize) {
+            *index = k as u32;
+        }
+    }
+    (spheres, lights)
+}
+
+/// L = I / (pi r^2) = P / (4 pi^2 r^2).
+fn radiance(light: &SphereLight) -> [f64; 3] {
+    let disc = std::f64::consts::PI * light.radius.value * light.radius.value;
+    match light.emission.value {
+        Emission::Radiance(l) => l,
+        Emission::Intensity(i) => i.map(|x| x / disc),
+        Emission::Power(p) => p.map(|x| x / (4.0 * std::f64::consts::PI * disc)),
+    }
+}
+
+fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
+    let eye = DVec3::from(desc.camera.position.value);
+    let forward = (DVec3::from(desc.camera.look_at.value) - eye).normalize();
+    let right = forward.cross(DVec3::from(desc.camera.up.value).normalize()).normalize();
+    let up = right.cross(forward);
+    let half_angle = desc.camera.fov.value.to_radians() / 2.0;
+    let half_height = libm::tan(half_angle);
+    let half_width = half_height * f64::from(desc.image.width.value) / f64::from(desc.image.height.value);
+    let lens = desc.effects.depth_of_field.as_ref();
+    Camera {
+        eye: frame.point(eye),
+        forward,
+        right: right * half_width,
+        up: up * half_height,
+        lens_radius: lens.map_or(0.0, |l| frame.length(l.aperture.value / 2.0)),
+        focus_distance: lens.map_or(1.0, |l| frame.length(l.focus_distance.value)),
+        filter: match &desc.effects.antialiasing {
+            PixelFilter::None => Filter::Centre,
+            PixelFilter::Box => Filter::Box,
+            PixelFilter::Gaussian { sigma } if sigma.value == 0.0 => Filter::Centre,
+            PixelFilter::Gaussian { sigma } => Filter::Gaussian(sigma.value),
+            PixelFilter::BlackmanHarris { radius } => Filter::BlackmanHarris(radius.value),
+        },
+    }
+}
+
+/// The tree over meshes and those spheres that are too many to be tested by every ray; none when there is nothing to hang in it.
+fn build_tree(
+    acceleration: Acceleration,
+    spheres: &[Sphere],
+    in_tree: usize,
+    built: &meshes::Built,
+) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
+    if built.instances.is_empty() && in_tree == 0 {
+        return Ok(None);
+    }
+    let acceleration = match acceleration {
+        Acceleration::Bvh => bvh::Acceleration::Bvh,
+        Acceleration::BoundingBox => bvh::Acceleration::BoundingBox,
+        Acceleration::None => bvh::Acceleration::None,
+    };
+    let hung: Vec<bvh::SphereGeometry> =
+        spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
+    built.tree(acceleration, &hung, spheres.len() as u32).map(Some).map_err(|error| {
+        Box::new(
+            Diagnostic::error("E0541", Span::NONE, format!("the scene cannot be traced: {error}"))
+                .hint("bring the sizes and distances of the objects closer together"),
+        )
+    })
+}

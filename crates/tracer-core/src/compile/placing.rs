@@ -1,0 +1,72 @@
+//! Transforms of the scene language as matrices.
+
+use crate::mesh::placements::rotation;
+use glam::{DAffine3, DMat3, DVec3};
+use scene_format::desc::Transform;
+use scene_format::diagnostic::Spanned;
+
+/// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along. `lowest` gives the
+/// smallest y of the vertices under a map (asked only by `DropTo`).
+pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
+    let mut map = DAffine3::IDENTITY;
+    for transform in transforms {
+        let here = |about: Option<[f64; 3]>, map: &DAffine3| {
+            about.map_or_else(|| map.transform_point3(barycentre), DVec3::from)
+        };
+        let step = match &transform.value {
+            Transform::Translate(by) => DAffine3::from_translation(DVec3::from(*by)),
+            Transform::Scale { factor, about } => {
+                about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(*about, &map))
+            }
+            Transform::Rotate { axis, degrees, about } => {
+                about_point(rotation(DVec3::from(*axis), *degrees), here(*about, &map))
+            }
+            Transform::DropTo { y } => DAffine3::from_translation(DVec3::new(0.0, y - lowest(&map), 0.0)),
+        };
+        map = step * map;
+    }
+    map
+}
+
+/// A linear map with this fixed point.
+fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
+    DAffine3 { matrix3: matrix, translation: point - matrix * point }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(a: DVec3, b: [f64; 3]) {
+        assert!((a - DVec3::from(b)).length() < 1e-12, "{a} {b:?}");
+    }
+
+    #[test]
+    fn rotation_by_the_right_hand_rule() {
+        near(rotation(DVec3::Y, 90.0) * DVec3::Z, [1.0, 0.0, 0.0]);
+        near(rotation(DVec3::Z * 2.0, 90.0) * DVec3::X, [0.0, 1.0, 0.0]);
+        near(rotation(DVec3::ONE, 120.0) * DVec3::X, [0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn scale_and_rotate_act_about_the_barycentre_which_moves_along() {
+        let steps = [
+            Transform::Translate([10.0, 0.0, 0.0]),
+            Transform::Scale { factor: [2.0; 3], about: None },
+            Transform::Rotate { axis: [0.0, 0.0, 1.0], degrees: 90.0, about: None },
+        ]
+        .map(Spanned::from);
+        let map = place(&steps, DVec3::new(1.0, 0.0, 0.0), &|_| 0.0);
+        near(map.transform_point3(DVec3::new(1.0, 0.0, 0.0)), [11.0, 0.0, 0.0]);
+        near(map.transform_point3(DVec3::new(2.0, 0.0, 0.0)), [11.0, 2.0, 0.0]);
+    }
+
+    #[test]
+    fn about_a_point_and_drop() {
+        let steps =
+            [Transform::Scale { factor: [3.0, 3.0, -3.0], about: Some([0.0; 3]) }, Transform::DropTo { y: -20.0 }]
+                .map(Spanned::from);
+        let map = place(&steps, DVec3::ONE, &|m| m.transform_point3(DVec3::new(0.0, -1.0, 0.0)).y);
+        near(map.transform_point3(DVec3::new(1.0, -1.0, 1.0)), [3.0, -20.0, -3.0]);
+    }
+}

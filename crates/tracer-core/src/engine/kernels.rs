@@ -1,0 +1,94 @@
+//! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
+
+use super::batch::Batch;
+use super::stages::{camera, shade, spheres};
+use crate::lanes::level::Level;
+use crate::scene::Scene;
+
+/// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
+#[derive(Clone, Copy)]
+pub struct Kernels {
+    camera: unsafe fn(&Scene, u32, &mut Batch),
+    closest: unsafe fn(&Scene, &mut Batch),
+    shade: unsafe fn(&Scene, u32, u32, &mut Batch),
+    occluded: unsafe fn(&Scene, &mut Batch),
+}
+
+/// The entry functions of a level.
+macro_rules! kernels {
+    ($name:ident, $lanes:ty $(, $features:literal)?) => {
+        mod $name {
+            use super::*;
+            $(#[target_feature(enable = $features)])?
+            fn camera_entry(scene: &Scene, seed: u32, batch: &mut Batch) {
+                camera::camera::<$lanes>(scene, seed, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn closest_entry(scene: &Scene, batch: &mut Batch) {
+                spheres::spheres_closest::<$lanes>(scene, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn shade_entry(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
+                shade::shade::<$lanes>(scene, seed, vertex, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn occluded_entry(scene: &Scene, batch: &mut Batch) {
+                spheres::spheres_occluded::<$lanes>(scene, batch)
+            }
+            pub const KERNELS: Kernels = Kernels {
+                camera: camera_entry,
+                closest: closest_entry,
+                shade: shade_entry,
+                occluded: occluded_entry,
+            };
+        }
+    };
+}
+
+kernels!(portable, crate::lanes::ArrayF<1>);
+#[cfg(not(target_arch = "x86_64"))]
+kernels!(portable_8, crate::lanes::ArrayF<8>);
+#[cfg(target_arch = "x86_64")]
+kernels!(scalar_fma, crate::lanes::ArrayF<1>, "fma");
+#[cfg(target_arch = "x86_64")]
+kernels!(avx2, crate::lanes::F8, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+#[cfg(target_arch = "x86_64")]
+kernels!(avx512, crate::lanes::F16, "avx512f,avx512vl,avx512dq,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+
+impl Kernels {
+    /// The stages for a level that this CPU has ([`Level::available`]).
+    pub fn new(level: Level) -> Self {
+        match level {
+            Level::Portable => portable::KERNELS,
+            #[cfg(not(target_arch = "x86_64"))]
+            Level::Portable8 => portable_8::KERNELS,
+            #[cfg(target_arch = "x86_64")]
+            Level::Scalar => scalar_fma::KERNELS,
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => avx2::KERNELS,
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => avx512::KERNELS,
+        }
+    }
+
+    /// Camera rays for the items of the batch.
+    pub fn camera(&self, scene: &Scene, seed: u32, batch: &mut Batch) {
+        // SAFETY: a `Level` is only made for features that this CPU was seen to have.
+        unsafe { (self.camera)(scene, seed, batch) }
+    }
+    /// The nearest of the spheres that every ray tests.
+    pub fn closest(&self, scene: &Scene, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.closest)(scene, batch) }
+    }
+    /// Shades the hits of a vertex.
+    pub fn shade(&self, scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.shade)(scene, seed, vertex, batch) }
+    }
+    /// Which shadow rays the spheres block.
+    pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.occluded)(scene, batch) }
+    }
+}

@@ -1,0 +1,191 @@
+//! The path engine: batches of paths through stages, over lanes, on all cores.
+//!
+//! A pass adds a range of sample indices to every block of the picture. Blocks are independent and a pixel's sum is exact
+//! ([`crate::film`]), so threads take batches in any order and the film is the same.
+
+mod batch;
+mod kernels;
+mod lane_io;
+mod stages;
+mod trace;
+
+pub use batch::Counters;
+
+use crate::film::{Crop, Film};
+use crate::lanes::level::Level;
+use crate::scene::Scene;
+use batch::{BLOCK, Batch, ITEMS, Item};
+use kernels::Kernels;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// What a caller may decide about a rendering; `None` and zero take what the scene says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RenderOptions {
+    /// Samples per pixel.
+    pub samples: Option<u32>,
+    /// Seed of all random choices.
+    pub seed: Option<u32>,
+    /// The part of the picture to render; the same bytes as that part of the whole.
+    pub crop: Option<Crop>,
+    /// Worker threads; 0: one per core.
+    pub threads: usize,
+    /// Lane type; the bytes are the same for all.
+    pub level: Option<Level>,
+}
+
+/// How far a rendering is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Camera samples done.
+    pub samples_done: u64,
+    /// Camera samples in all.
+    pub samples_total: u64,
+}
+
+/// Who watches a rendering, and may end it. Called from worker threads.
+pub trait Observer: Sync {
+    /// Called after each batch. `Break` ends the rendering; the film keeps what is done.
+    fn progress(&self, progress: Progress) -> ControlFlow<()>;
+    /// Called between passes with the film so far: every pixel holds the same samples.
+    fn pass(&self, _film: &Film) {}
+}
+
+/// Renders without being watched.
+pub struct Unobserved;
+
+impl Observer for Unobserved {
+    fn progress(&self, _: Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early.
+pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
+    let level = options.level.unwrap_or_else(Level::best);
+    let kernels = Kernels::new(level);
+    let samples = options.samples.unwrap_or(scene.samples);
+    let seed = options.seed.unwrap_or(scene.seed);
+    let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
+    let threads = if options.threads == 0 { available_threads() } else { options.threads };
+    let mut film = Film::new(scene.size, crop, seed);
+    let blocks: Vec<(u32, u32)> = film.block_positions().collect();
+    let samples_total = blocks.len() as u64 * u64::from(samples) * u64::from(BLOCK * BLOCK);
+    let done = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
+    for pass in passes(samples) {
+        // Whole blocks per batch: a block's samples of one pass are added by one thread.
+        let per_batch = (ITEMS / (pass.end - pass.start).min(ITEMS as u32) as usize).max(1);
+        let next = AtomicUsize::new(0);
+        let cells: Vec<Mutex<&mut crate::film::Block>> = film.blocks_mut().map(Mutex::new).collect();
+        let work = |worker: &mut Worker| {
+            while !stopped.load(Ordering::Relaxed) {
+                let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
+                let Some(mine) = blocks.get(first..blocks.len().min(first + per_batch)) else { break };
+                if mine.is_empty() {
+                    break;
+                }
+                let mut sample = pass.start;
+                while sample < pass.end {
+                    let count = (pass.end - sample).min(ITEMS as u32);
+                    let batch = &mut worker.batch;
+                    batch.items.clear();
+                    for &(block_x, block_y) in mine {
+                        batch.items.extend((sample..sample + count).map(|sample| Item { block_x, block_y, sample }));
+                    }
+                    trace::trace(scene, &kernels, seed, batch);
+                    for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
+                        let mut block = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+                        for j in 0..count as usize {
+                            let slots = (k * count as usize + j) * batch::BLOCK_PIXELS;
+                            batch.counters.dropped += block.add(&batch.radiance, slots);
+                        }
+                    }
+                    sample += count;
+                    let added = mine.len() * count as usize * batch::BLOCK_PIXELS;
+                    let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
+                    if observer.progress(Progress { samples_done, samples_total }).is_break() {
+                        stopped.store(true, Ordering::Relaxed);
+                        break;
+                    }
+                }
+            }
+        };
+        if threads == 1 {
+            work(&mut lock(&workers[0]));
+        } else {
+            std::thread::scope(|scope| {
+                for worker in &workers {
+                    scope.spawn(|| work(&mut lock(worker)));
+                }
+            });
+        }
+        drop(cells);
+        if stopped.load(Ordering::Relaxed) {
+            break;
+        }
+        observer.pass(&film);
+    }
+    for worker in &workers {
+        film.counters.add(&lock(worker).batch.counters);
+    }
+    film.level = level;
+    film.threads = threads;
+    film
+}
+
+/// A thread's memory.
+struct Worker {
+    batch: Batch,
+}
+
+impl Worker {
+    fn new() -> Self {
+        Worker { batch: Batch::new() }
+    }
+}
+
+fn lock(worker: &Mutex<Worker>) -> std::sync::MutexGuard<'_, Worker> {
+    worker.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Sample ranges of the passes: powers of two up to 64 samples, then 64 at a time, so that an early look costs little and later
+/// passes are long. The picture does not depend on them.
+fn passes(samples: u32) -> Vec<std::ops::Range<u32>> {
+    let mut ranges = Vec::new();
+    let mut start = 0;
+    while start < samples {
+        let length = if start == 0 { 1 } else { start.min(64) };
+        // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
+        let rest = (samples - start).min(length);
+        let whole = if rest > ITEMS as u32 { rest - rest % ITEMS as u32 } else { 1 << rest.ilog2() };
+        ranges.push(start..start + whole);
+        start += whole;
+    }
+    ranges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_cover_all_samples_once() {
+        for samples in (1..300).chain([1000, 1023]) {
+            let mut next = 0;
+            for pass in passes(samples) {
+                assert_eq!(pass.start, next);
+                let n = (pass.end - pass.start) as usize;
+                assert!(n.is_multiple_of(ITEMS) || ITEMS.is_multiple_of(n));
+                next = pass.end;
+            }
+            assert_eq!(next, samples);
+        }
+    }
+}

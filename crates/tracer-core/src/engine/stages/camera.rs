@@ -1,0 +1,137 @@
+//! Camera rays: a point in the pixel by its filter, a point on the lens.
+
+use crate::engine::batch::{BLOCK, BLOCK_PIXELS, Batch};
+use crate::lanes::{Bits, Lanes};
+use crate::math::{V3, ln, sincos_turns};
+use crate::sampling::sampler::{Pair, Purpose};
+use crate::sampling::warp;
+use crate::scene::{Camera, Filter, NONE, Scene};
+
+/// x and y of the pixels of a block in Z-order.
+static PIXEL_X: [f32; BLOCK_PIXELS] = z_order_coordinates(0);
+static PIXEL_Y: [f32; BLOCK_PIXELS] = z_order_coordinates(1);
+
+const fn z_order_coordinates(which: u32) -> [f32; BLOCK_PIXELS] {
+    let mut table = [0.0; BLOCK_PIXELS];
+    let mut z = 0;
+    while z < BLOCK_PIXELS {
+        let b = (z as u32) >> which;
+        table[z] = ((b & 1) | (b >> 1 & 2) | (b >> 2 & 4)) as f32;
+        z += 1;
+    }
+    table
+}
+
+/// Fills `batch.paths` with the camera rays of its items and clears the slots.
+#[inline(always)]
+pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
+    let c = F::splat;
+    let camera: &Camera = &scene.camera;
+    let pixel = Pair::new(seed, Purpose::Pixel);
+    let lens = Pair::new(seed, Purpose::Lens);
+    let [eye, forward, right, up] =
+        [camera.eye, camera.forward, camera.right, camera.up].map(|v| v.as_vec3().to_array());
+    let (eye, forward) = (V3::<F>::splat(eye), V3::<F>::splat(forward));
+    let (right, up) = (V3::<F>::splat(right), V3::<F>::splat(up));
+    let [width, height] = scene.size;
+    let (scale_x, scale_y) = (c(2.0 / width as f32), c(-2.0 / height as f32));
+    let paths = &mut batch.paths;
+    for (k, item) in batch.items.iter().enumerate() {
+        let block_z = batch.block_z[k];
+        let pixel_part = pixel.sample_part(block_z, item.sample);
+        let lens_part = lens.sample_part(block_z, item.sample);
+        // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
+        let left = c((item.block_x * BLOCK) as f32 + 0.5 - width as f32 / 2.0);
+        let top = c((item.block_y * BLOCK) as f32 + 0.5 - height as f32 / 2.0);
+        for j in (0..BLOCK_PIXELS).step_by(F::N) {
+            let i = k * BLOCK_PIXELS + j;
+            let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
+            let z = (F::U::splat(block_z << 6) | F::U::load(&SLOTS[j..])).reverse_bits();
+            let (u, v) = pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y));
+            let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
+            let x = (left + F::load(&PIXEL_X[j..]) + dx) * scale_x;
+            let y = (top + F::load(&PIXEL_Y[j..]) + dy) * scale_y;
+            let mut direction = right.mad(x, up.mad(y, forward));
+            let mut origin = eye;
+            if camera.lens_radius > 0.0 {
+                // The plane of focus is met at focus_distance times the direction whose forward component is one.
+                let (u, v) = lens.points::<F>(z, F::U::splat(lens_part.x), F::U::splat(lens_part.y));
+                let (lx, ly) = warp::disc(u, v);
+                let radius = c(camera.lens_radius as f32);
+                let offset = right.normalise().mad(lx * radius, up.normalise().scale(ly * radius));
+                direction = direction.scale(c(camera.focus_distance as f32)).sub(offset);
+                origin = eye.add(offset);
+            }
+            origin.store(&mut paths.origin, i);
+            direction.normalise().store(&mut paths.direction, i);
+            V3::grey(c(1.0)).store(&mut paths.throughput, i);
+            V3::<F>::zero().store(&mut batch.radiance, i);
+            c(1.0).store(&mut paths.eta2[i..]);
+            c(-1.0).store(&mut paths.pdf[i..]);
+            slot.store(&mut paths.slot[i..]);
+            F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
+            F::U::splat(NONE).store(&mut paths.from_instance[i..]);
+        }
+    }
+    paths.len = batch.items.len() * BLOCK_PIXELS;
+    batch.counters.camera_rays += paths.len as u64;
+}
+
+static SLOTS: [u32; BLOCK_PIXELS] = {
+    let mut table = [0; BLOCK_PIXELS];
+    let mut k = 0;
+    while k < BLOCK_PIXELS {
+        table[k] = k as u32;
+        k += 1;
+    }
+    table
+};
+
+/// Offset from the pixel's centre, in pixels.
+#[inline(always)]
+fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
+    let c = F::splat;
+    match filter {
+        Filter::Centre => (c(0.0), c(0.0)),
+        Filter::Box => (u - c(0.5), v - c(0.5)),
+        Filter::Gaussian(sigma) => {
+            let radius = (ln(c(1.0) - u) * c(-2.0)).max(c(0.0)).sqrt() * c(sigma as f32);
+            let (sin, cos) = sincos_turns(v);
+            (radius * cos, radius * sin)
+        }
+        Filter::BlackmanHarris(radius) => {
+            (blackman_harris(u) * c(radius as f32), blackman_harris(v) * c(radius as f32))
+        }
+    }
+}
+
+/// Inverse of the cumulative 4-term Blackman-Harris window on [-1, 1] (Harris 1978), by bisection.
+#[inline(always)]
+fn blackman_harris<F: Lanes>(u: F) -> F {
+    let c = F::splat;
+    let (mut low, mut high) = (c(-1.0), c(1.0));
+    // 22 halvings reach 5e-7 of the half width.
+    let mut step = 0;
+    while step < 22 {
+        let middle = (low + high) * c(0.5);
+        let below = blackman_harris_cumulative(middle).lt(u);
+        low = F::select(below, middle, low);
+        high = F::select(below, high, middle);
+        step += 1;
+    }
+    (low + high) * c(0.5)
+}
+
+/// Share of the window a0 + a1 cos(pi x) + a2 cos(2 pi x) + a3 cos(3 pi x) that lies below x; its whole is 2 a0.
+#[inline(always)]
+fn blackman_harris_cumulative<F: Lanes>(x: F) -> F {
+    const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
+    let c = F::splat;
+    let half = x * c(0.5);
+    let (s1, _) = sincos_turns(half);
+    let (s2, _) = sincos_turns(half + half);
+    let (s3, _) = sincos_turns(half + half + half);
+    let pi = std::f32::consts::PI;
+    let sines = s1.fma(c(A[1] / pi), s2.fma(c(A[2] / (2.0 * pi)), s3 * c(A[3] / (3.0 * pi))));
+    x.fma(c(A[0]), sines).fma(c(0.5 / A[0]), c(0.5))
+}

@@ -1,0 +1,155 @@
+//! Directions to luminous spheres, from outside, from within and at grazing angles.
+
+use super::*;
+use crate::lanes::ArrayF;
+use crate::scene::{Light, NONE, Sphere};
+use glam::DVec3;
+use std::f64::consts::TAU;
+use tracer_reference::Random;
+use tracer_reference::statistics::{chi_square, sidak};
+
+type S = ArrayF<1>;
+
+fn scalar(x: S) -> f64 {
+    let mut out = [0.0];
+    x.store(&mut out);
+    f64::from(out[0])
+}
+fn point(v: V3<S>) -> DVec3 {
+    DVec3::new(scalar(v.0), scalar(v.1), scalar(v.2))
+}
+fn number(random: &mut Random) -> S {
+    S::splat((random.bits() >> 40) as f32 / 16_777_216.0)
+}
+
+/// Lights of these centres, radii and radiances.
+fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
+    let spheres: Vec<Sphere> = lights
+        .iter()
+        .enumerate()
+        .map(|(k, &(center, radius, _))| Sphere { center, radius, material: NONE, light: k as u32 })
+        .collect();
+    let lights: Vec<Light> = lights
+        .iter()
+        .enumerate()
+        .map(|(k, &(.., radiance))| Light::Sphere { sphere: k as u32, radiance: [radiance, 0.5, 0.0] })
+        .collect();
+    LightTable::new(&lights, &spheres)
+}
+
+/// Distances of a point from the centre of a light of radius 1: far, near, just outside, on it, just within, at its centre.
+const DISTANCES: [f64; 9] = [1000.0, 30.0, 3.0, 1.1, 1.001, 1.0, 0.999, 0.5, 0.0];
+
+/// The solid angle that a sphere of radius 1 covers at this distance.
+fn solid_angle(distance: f64) -> f64 {
+    if distance <= 1.0 {
+        return 2.0 * TAU;
+    }
+    let sin2 = 1.0 / (distance * distance);
+    TAU * sin2 / (1.0 + (1.0 - sin2).sqrt())
+}
+
+/// A density that is the same within the cone integrates to one when it is one over the cone's solid angle.
+#[test]
+fn densities_integrate_to_one() {
+    let center = DVec3::new(0.3, -0.2, 0.5);
+    let lights = table(&[(center, 1.0, 1.0)]);
+    let mut random = Random::new(1);
+    for distance in DISTANCES {
+        for _ in 0..20 {
+            let p = (center + distance * random.direction()).as_vec3();
+            let v = V3::<S>::splat(p.to_array());
+            let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), v));
+            // Where the point really is, after rounding. Close to the surface the solid angle grows with a square root of the
+            // distance to it: rounding of the point (1e-7) then moves it by up to sqrt(2e-7) = 5e-4.
+            let at = (p.as_dvec3() - center.as_vec3().as_dvec3()).length();
+            let near = (at - 1.0).abs() < 1e-5;
+            if near {
+                assert!((2.0 * TAU * density - 1.5).abs() < 0.502, "on the surface: {density}");
+                continue;
+            }
+            let error = (density * solid_angle(at) - 1.0).abs();
+            assert!(error < if (at - 1.0).abs() < 0.01 { 1e-4 } else { 2e-6 }, "distance {at}: {error}");
+        }
+    }
+}
+
+/// Sampled directions meet the light, at the distance that is said, and their density is the one that meeting it gives.
+#[test]
+fn samples_meet_the_light() {
+    let center = DVec3::new(0.3, -0.2, 0.5);
+    let lights = table(&[(center, 1.0, 1.0)]);
+    let mut random = Random::new(2);
+    for distance in DISTANCES {
+        for _ in 0..500 {
+            let p = (center + distance * random.direction()).as_vec3();
+            let v = V3::<S>::splat(p.to_array());
+            let k = <S as Lanes>::U::splat(0);
+            let sample = sample(&lights, k, v, number(&mut random), number(&mut random));
+            assert_eq!(scalar(sample.pdf), scalar(pdf(&lights, k, v)), "distance {distance}");
+            let (wi, t) = (point(sample.wi), scalar(sample.distance));
+            assert!((wi.length() - 1.0).abs() < 2e-6);
+            let met = p.as_dvec3() + t * wi - center;
+            // The chord's end is found to sqrt(rounding) where the direction only just touches.
+            let rounding = 1e-6 * distance.max(1.0);
+            assert!(
+                (met.length() - 1.0).abs() < 2.0 * rounding.sqrt() * 1e-1 + rounding,
+                "distance {distance}: {}",
+                met.length()
+            );
+            if distance > 1.0 {
+                assert!(met.dot(wi) < rounding.sqrt(), "the far side, from distance {distance}");
+            }
+        }
+    }
+}
+
+/// Uniform in the cone (1 - cos to the axis over its largest value, and the angle about the axis), 5 % for all distances together.
+#[test]
+fn directions_are_uniform_in_the_cone() {
+    let level = sidak(0.05, DISTANCES.len());
+    let center = DVec3::new(0.3, -0.2, 0.5);
+    let lights = table(&[(center, 1.0, 1.0)]);
+    let mut random = Random::new(3);
+    for distance in DISTANCES {
+        let p = (center + distance * DVec3::new(0.6, 0.48, 0.64)).as_vec3();
+        let to_center = center.as_vec3().as_dvec3() - p.as_dvec3();
+        let axis = to_center.try_normalize().unwrap_or(DVec3::Z);
+        let opening = solid_angle(to_center.length()) / TAU;
+        let (x, y) = axis.any_orthonormal_pair();
+        let mut cells = vec![0u64; 128];
+        for _ in 0..50_000 {
+            let k = <S as Lanes>::U::splat(0);
+            let wi = point(sample(&lights, k, V3::splat(p.to_array()), number(&mut random), number(&mut random)).wi);
+            // 1 - cos from the chord, which keeps its digits.
+            let share = 0.5 * (wi - axis).length_squared() / opening;
+            let turn = libm::atan2(wi.dot(y), wi.dot(x)).rem_euclid(TAU) / TAU;
+            cells[8 * ((16.0 * share) as usize).min(15) + ((8.0 * turn) as usize).min(7)] += 1;
+        }
+        let probability = chi_square(&cells, &[50_000.0 / 128.0; 128]);
+        assert!(probability > level, "distance {distance}: p {probability}");
+    }
+}
+
+/// Lights are chosen as their probabilities say, and these are in the ratio of their powers.
+#[test]
+fn lights_are_chosen_by_power() {
+    let lights: Vec<(DVec3, f64, f64)> =
+        (0..23).map(|k| (DVec3::splat(f64::from(k)), 0.1 + f64::from(k % 5), 0.3 + f64::from(k % 7))).collect();
+    let table = table(&lights);
+    let power = |&(_, r, l): &(DVec3, f64, f64)| r * r * (l + 0.5);
+    let total: f64 = lights.iter().map(power).sum();
+    let mut random = Random::new(4);
+    let mut counts = vec![0u64; lights.len()];
+    let n = 200_000;
+    for _ in 0..n {
+        let mut out = [0];
+        choose::<S>(&table, number(&mut random), number(&mut random)).store(&mut out);
+        counts[out[0] as usize] += 1;
+    }
+    let expected: Vec<f64> = lights.iter().map(|l| power(l) / total * f64::from(n)).collect();
+    for (k, e) in expected.iter().enumerate() {
+        assert!((f64::from(table.probability[k]) * f64::from(n) / e - 1.0).abs() < 1e-6);
+    }
+    assert!(chi_square(&counts, &expected) > 0.05);
+}

@@ -1,0 +1,10 @@
+//! The stages of a bounce, each a function over lanes from arrays to arrays.
+
+pub mod camera;
+pub mod deposit;
+pub mod lights;
+pub mod materials;
+pub mod shade;
+pub mod spheres;
+pub mod surface;
+pub mod textures;

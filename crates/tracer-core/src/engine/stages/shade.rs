@@ -1,0 +1,278 @@
+//! One vertex of every path: light that the ray met, light sampled from here, and the next ray.
+//!
+//! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the material's lobe.
+//! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
+
+use super::lights;
+use super::materials::{Bsdf, reflect_bent, sample_dielectric};
+use super::surface::{Surface, surface};
+use super::textures::texture_color;
+use crate::engine::batch::{Batch, Columns};
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::sampling::sampler::{Pair, Purpose};
+use crate::scene::{NONE, Scene};
+
+/// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier, roulette throws
+/// away the stratification that the sampler pays for.
+const ROULETTE_FROM: u32 = 3;
+
+/// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in `batch.shadows`.
+#[inline(always)]
+pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
+    let c = F::splat;
+    let (zero, one) = (c(0.0), c(1.0));
+    let tables = &scene.tables;
+    let draw = |purpose: Purpose| PairPoints::<F>::new(seed, purpose, &batch.items, &batch.block_z);
+    let choices = draw(Purpose::Choice(vertex));
+    let light_points = draw(Purpose::Light(vertex));
+    let directions = draw(Purpose::Direction(vertex));
+    let roulettes = draw(Purpose::Roulette(vertex));
+    let background = V3::<F>::splat(scene.background);
+    let open = scene.background.iter().any(|&x| x > 0.0);
+    // After the last scattering a ray is cast only to see the light that it meets.
+    let scatters = vertex <= scene.max_bounces;
+    let last = vertex == scene.max_bounces;
+
+    let (paths, next, shadows) = (&batch.paths, &mut batch.next, &mut batch.shadows);
+    next.len = 0;
+    shadows.len = 0;
+    for i in (0..paths.len).step_by(F::N) {
+        let valid = F::first(paths.len - i);
+        let origin = V3::<F>::load(&paths.origin, i);
+        let direction = V3::<F>::load(&paths.direction, i);
+        let throughput = V3::<F>::load(&paths.throughput, i);
+        let eta2 = F::load(&paths.eta2[i..]);
+        let slot = F::U::load(&paths.slot[i..]);
+        let primitive = F::U::load(&batch.hits.primitive[i..]);
+        let instance = F::U::load(&batch.hits.instance[i..]);
+        let hit = valid & !primitive.eq(F::U::splat(NONE));
+        if open {
+            let miss = valid & !hit;
+            add_to_slots(&mut batch.radiance, slot, throughput.scale(eta2).mul(background), miss);
+        }
+        if !hit.any() {
+            continue;
+        }
+        let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+
+        // Light met by the ray.
+        let emits = hit & !s.light.eq(F::U::splat(0));
+        if emits.any() {
+            let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
+            let pdf = F::load(&paths.pdf[i..]);
+            let sampled = lights::pdf(&tables.lights, light, origin);
+            let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
+            add_to_slots(&mut batch.radiance, slot, seen, emits);
+        }
+        let surfaces = hit & !emits;
+        if !scatters || !surfaces.any() {
+            continue;
+        }
+
+        let mut bsdf = Bsdf::new(&tables.materials, s.material, surfaces);
+        if tables.materials.textured {
+            let texture = F::gather(&tables.materials.texture, s.material).to_int();
+            let textured = surfaces & !texture.eq(F::U::splat(0));
+            if textured.any() {
+                let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
+                bsdf.color = V3::select(textured, texel, bsdf.color);
+            }
+        }
+        let wo = direction.neg();
+        let rough = bsdf.diffuse | bsdf.glossy;
+        // Diffuse surfaces go on at the last vertex only to see a background.
+        let goes_on = if last && !open { !bsdf.diffuse } else { valid };
+        let pixel = PixelOf::<F>::new(slot, &batch.block_z);
+
+        // Light sampled from here.
+        if rough.any() && tables.lights.len > 0 {
+            let light = if tables.lights.len == 1 {
+                F::U::splat(0)
+            } else {
+                let (u, v) = choices.points(&pixel);
+                lights::choose(&tables.lights, u, v)
+            };
+            let (u, v) = light_points.points(&pixel);
+            let l = lights::sample(&tables.lights, light, s.start, u, v);
+            let cos_i = s.ns.dot(l.wi);
+            let lit = rough & zero.lt(cos_i) & zero.lt(l.distance);
+            if lit.any() {
+                let (f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
+                let weight = F::select(goes_on, power_heuristic(l.pdf, pdf), one);
+                let value = f.mul(throughput).mul(l.radiance).scale(cos_i / l.pdf * (weight * eta2));
+                let cast = lit & zero.lt(value.max_component());
+                let k = shadows.len;
+                s.start.compress(cast, &mut shadows.origin, k);
+                l.wi.compress(cast, &mut shadows.direction, k);
+                l.distance.compress(cast, &mut shadows.t_max[k..]);
+                value.compress(cast, &mut shadows.contribution, k);
+                slot.compress(cast, &mut shadows.slot[k..]);
+                leaves(&s, l.wi, primitive).compress(cast, &mut shadows.from_primitive[k..]);
+                instance.compress(cast, &mut shadows.from_instance[k..]);
+                l.primitive.compress(cast, &mut shadows.light_primitive[k..]);
+                shadows.len += cast.count();
+            }
+        }
+
+        // The next ray.
+        let (go_on, lobe) = if bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM {
+            roulettes.points(&pixel)
+        } else {
+            (zero, zero)
+        };
+        let mut wi = direction;
+        let mut weight = bsdf.color;
+        let mut pdf = c(-1.0);
+        let mut start = s.start;
+        let mut new_eta2 = eta2;
+        let mut alive = surfaces & goes_on;
+        if (rough & goes_on).any() {
+            let (u, v) = directions.points(&pixel);
+            let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe);
+            wi = V3::select(rough, sample.wi, wi);
+            weight = V3::select(rough, sample.weight, weight);
+            pdf = F::select(rough, sample.pdf, pdf);
+            alive = alive & !(rough & sample.pdf.le(zero));
+        }
+        if bsdf.mirror.any() {
+            let (reflected, _) = reflect_bent(&s, wo);
+            wi = V3::select(bsdf.mirror, reflected, wi);
+            start = V3::select(bsdf.mirror, s.ng.mad(s.offset, s.p), start);
+        }
+        if bsdf.transparent.any() {
+            let d = sample_dielectric(&s, wo, bsdf.parameter, lobe);
+            wi = V3::select(bsdf.transparent, d.wi, wi);
+            let side = F::select(d.refracted, -s.offset, s.offset);
+            start = V3::select(bsdf.transparent, s.ng.mad(side, s.p), start);
+            weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);
+            new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2, eta2);
+        }
+        let mut carried = throughput.mul(weight);
+        if vertex >= ROULETTE_FROM {
+            let q = carried.max_component().min(one);
+            alive = alive & go_on.lt(q);
+            carried = carried.scale(one / F::select(zero.lt(q), q, one));
+        }
+        let alive = alive & zero.lt(carried.max_component());
+        let k = next.len;
+        start.compress(alive, &mut next.origin, k);
+        wi.compress(alive, &mut next.direction, k);
+        carried.compress(alive, &mut next.throughput, k);
+        new_eta2.compress(alive, &mut next.eta2[k..]);
+        pdf.compress(alive, &mut next.pdf[k..]);
+        slot.compress(alive, &mut next.slot[k..]);
+        leaves(&s, wi, primitive).compress(alive, &mut next.from_primitive[k..]);
+        instance.compress(alive, &mut next.from_instance[k..]);
+        next.len += alive.count();
+    }
+    std::mem::swap(&mut batch.paths, &mut batch.next);
+    batch.counters.scattered_rays += batch.paths.len as u64;
+    batch.counters.shadow_rays += batch.shadows.len as u64;
+}
+
+/// The primitive that a ray from this surface must not meet: the one it leaves. A ray that sinks below a smooth triangle starts
+/// above it (Hanika) and may well meet it.
+#[inline(always)]
+fn leaves<F: Lanes>(s: &Surface<F>, wi: V3<F>, primitive: F::U) -> F::U {
+    let sinks = s.smooth & wi.dot(s.ng).le(F::splat(0.0)) & !s.start.sub(s.p).dot(s.ng).le(s.offset);
+    F::U::select(sinks, F::U::splat(NONE), primitive)
+}
+
+/// a^2 / (a^2 + b^2), written so that large densities do not overflow.
+#[inline(always)]
+fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
+    let ratio = b / a;
+    F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
+}
+
+/// Adds the lanes of the mask to their slots' radiance. A path ends here, so at most one addition per slot.
+#[inline(always)]
+fn add_to_slots<F: Lanes>(radiance: &mut Columns, slot: F::U, value: V3<F>, mask: F::M) {
+    let mut bits = mask.bits();
+    if bits == 0 {
+        return;
+    }
+    let mut slots = [0u32; 32];
+    let mut values = [[0f32; 32]; 3];
+    slot.store(&mut slots);
+    value.0.store(&mut values[0]);
+    value.1.store(&mut values[1]);
+    value.2.store(&mut values[2]);
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let to = slots[lane] as usize;
+        for channel in 0..3 {
+            radiance[channel][to] += values[channel][lane];
+        }
+    }
+}
+
+/// The pixels of a vector of slots, as the sampler wants them.
+struct PixelOf<F: Lanes> {
+    reversed_z: F::U,
+    item: F::U,
+}
+
+impl<F: Lanes> PixelOf<F> {
+    #[inline(always)]
+    fn new(slot: F::U, block_z: &[u32]) -> Self {
+        let item = slot.shr::<6>();
+        let z = F::U::gather(block_z, item).shl::<6>() | (slot & F::U::splat(63));
+        PixelOf { reversed_z: z.reverse_bits(), item }
+    }
+}
+
+/// A dimension pair with its per-item parts.
+struct PairPoints<F: Lanes> {
+    pair: Pair,
+    x: [u32; 16],
+    y: [u32; 16],
+    lanes: std::marker::PhantomData<F>,
+}
+
+impl<F: Lanes> PairPoints<F> {
+    #[inline(always)]
+    fn new(seed: u32, purpose: Purpose, items: &[crate::engine::batch::Item], block_z: &[u32]) -> Self {
+        let pair = Pair::new(seed, purpose);
+        let (mut x, mut y) = ([0; 16], [0; 16]);
+        for (k, item) in items.iter().enumerate() {
+            let part = pair.sample_part(block_z[k], item.sample);
+            x[k] = part.x;
+            y[k] = part.y;
+        }
+        PairPoints { pair, x, y, lanes: std::marker::PhantomData }
+    }
+    #[inline(always)]
+    fn points(&self, pixel: &PixelOf<F>) -> (F, F) {
+        self.pair.points(pixel.reversed_z, F::U::gather(&self.x, pixel.item), F::U::gather(&self.y, pixel.item))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::ArrayF;
+
+    /// The weights of both ways to find a light sum to one (Veach 1997, 9.2), also where one density is all or nothing.
+    #[test]
+    fn mis_weights_sum_to_one() {
+        type S = ArrayF<1>;
+        let weight = |a: f32, b: f32| {
+            let mut out = [0.0];
+            power_heuristic(S::splat(a), S::splat(b)).store(&mut out);
+            f64::from(out[0])
+        };
+        for a in [1e-20f32, 1e-8, 0.01, 0.3, 1.0, 7.0, 1e5, 1e20] {
+            for b in [1e-20f32, 1e-8, 0.01, 0.3, 1.0, 7.0, 1e5, 1e20] {
+                let (of_a, of_b) = (weight(a, b), weight(b, a));
+                assert!((of_a + of_b - 1.0).abs() < 3e-7, "{a} {b}: {of_a} + {of_b}");
+                let ratio = f64::from(b) / f64::from(a);
+                assert!((of_a - 1.0 / (1.0 + ratio * ratio)).abs() < 3e-7, "{a} {b}: {of_a}");
+            }
+            assert_eq!(weight(a, 0.0), 1.0);
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! The film: per pixel, exact sums of radiance over its samples.
+//!
+//! Sums do not depend on their order, so threads, resumed renderings and parts of a picture rendered elsewhere give the same bytes.
+//! A sample is split into a multiple of 2^-20 and a rest that is rounded to a multiple of 2^-50; each part is summed in its own f64, exactly as long as the sum of up to 2^20 samples stays below 2^32
+//! (Demmel and Nguyen: Fast Reproducible Floating-Point Summation, 2013, with two fixed bins).
+
+use crate::engine::Counters;
+use crate::lanes::level::Level;
+
+/// Pixels along a block's side; see `engine::batch`.
+const BLOCK: u32 = 8;
+const PIXELS: usize = 64;
+
+/// A rectangle of pixels, from the upper left corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Crop {
+    /// The whole picture.
+    pub fn whole(size: [u32; 2]) -> Self {
+        Crop { x: 0, y: 0, width: size[0], height: size[1] }
+    }
+
+    /// The part of it that lies in the picture.
+    pub fn within(self, size: [u32; 2]) -> Self {
+        let x = self.x.min(size[0]);
+        let y = self.y.min(size[1]);
+        Crop { x, y, width: self.width.min(size[0] - x), height: self.height.min(size[1] - y) }
+    }
+}
+
+/// The sums of a block of 8x8 pixels; pixels in Z-order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    coarse: [[f64; PIXELS]; 3],
+    fine: [[f64; PIXELS]; 3],
+    /// Sum of squares of the luminance, for the noise estimate.
+    squares: [f64; PIXELS],
+    /// Samples so far, dropped ones included.
+    samples: u32,
+}
+
+/// Adding and taking away 1.5 * 2^52 * q rounds to a multiple of q, ties to even.
+const ROUND_COARSE: f64 = 1.5 * 4_503_599_627_370_496.0 / 1_048_576.0;
+const ROUND_FINE: f64 = 1.5 * 4_503_599_627_370_496.0 / 1_125_899_906_842_624.0;
+/// Larger samples than this are dropped as not finite: their coarse part would not be exact.
+const LARGEST: f32 = 4_294_967_296.0;
+
+/// Luminance of linear sRGB.
+pub(crate) fn luminance(rgb: [f64; 3]) -> f64 {
+    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+}
+
+impl Block {
+    fn new() -> Self {
+        Block { coarse: [[0.0; PIXELS]; 3], fine: [[0.0; PIXELS]; 3], squares: [0.0; PIXELS], samples: 0 }
+    }
+
+    /// Adds one sample of each pixel, from the 64 slots on; gives the number of pixels whose sample was dropped.
+    pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize) -> u64 {
+        let [red, green, blue] = radiance.each_ref().map(|channel| &channel[slots..slots + PIXELS]);
+        let mut dropped = 0;
+        for (pixel, ((&r, &g), &b)) in red.iter().zip(green).zip(blue).enumerate() {
+            let sample = [r, g, b];
+            // False for NaN too.
+            if !sample.iter().all(|&x| (0.0..=LARGEST).contains(&x)) {
+                dropped += 1;
+                continue;
+            }
+            for ((x, coarse_sums), fine_sums) in sample.iter().zip(&mut self.coarse).zip(&mut self.fine) {
+                let x = f64::from(*x);
+                let coarse = (x + ROUND_COARSE) - ROUND_COARSE;
+                let fine = ((x - coarse) + ROUND_FINE) - ROUND_FINE;
+                coarse_sums[pixel] += coarse;
+                fine_sums[pixel] += fine;
+            }
+            let y = luminance(sample.map(f64::from));
+            self.squares[pixel] += y * y;
+        }
+        self.samples += 1;
+        dropped
+    }
+}
+
+/// What [`crate::render`] makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    size: [u32; 2],
+    crop: Crop,
+    seed: u32,
+    first_block: [u32; 2],
+    block_columns: u32,
+    blocks: Vec<Block>,
+    /// Rays and dropped samples.
+    pub counters: Counters,
+    /// Lane type that was used.
+    pub level: Level,
+    /// Threads that were used.
+    pub threads: usize,
+}
+
+impl Film {
+    pub(crate) fn new(size: [u32; 2], crop: Crop, seed: u32) -> Self {
+        let first_block = [crop.x / BLOCK, crop.y / BLOCK];
+        let end = [(crop.x + crop.width).div_ceil(BLOCK), (crop.y + crop.height).div_ceil(BLOCK)];
+        let block_columns = end[0].saturating_sub(first_block[0]);
+        let count = block_columns as usize * end[1].saturating_sub(first_block[1]) as usize;
+        Film {
+            size,
+            crop,
+            seed,
+            first_block,
+            block_columns,
+            blocks: vec![Block::new(); count],
+            counters: Counters::default(),
+            level: Level::best(),
+            threads: 1,
+        }
+    }
+
+    /// Size of the whole picture.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The part of it that this film holds.
+    pub fn crop(&self) -> Crop {
+        self.crop
+    }
+
+    /// The seed it was rendered with.
+    pub fn seed(&self) -> u32 {
+        self.seed
+    }
+
+    /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended early.
+    pub fn samples(&self) -> std::ops::RangeInclusive<u32> {
+        let counts = || self.blocks.iter().map(|b| b.samples);
+        counts().min().unwrap_or(0)..=counts().max().unwrap_or(0)
+    }
+
+    /// Bytes of memory that the sums take.
+    pub fn bytes(&self) -> usize {
+        self.blocks.len() * size_of::<Block>()
+    }
+
+    /// Bytes of memory that the sums of a picture, or part of one, will take.
+    pub fn bytes_of(crop: Crop) -> u64 {
+        let blocks = |first: u32, length: u32| u64::from((first + length).div_ceil(BLOCK) - first / BLOCK);
+        blocks(crop.x, crop.width) * blocks(crop.y, crop.height) * size_of::<Block>() as u64
+    }
+
+    /// Column and row of each block.
+    pub(crate) fn block_positions(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (first, columns) = (self.first_block, self.block_columns.max(1));
+        (0..self.blocks.len() as u32).map(move |k| (first[0] + k % columns, first[1] + k / columns))
+    }
+
+    pub(crate) fn blocks_mut(&mut self) -> impl Iterator<Item = &mut Block> {
+        self.blocks.iter_mut()
+    }
+
+    /// Block and place in it of a pixel of the crop.
+    fn place(&self, x: u32, y: u32) -> (&Block, usize) {
+        let column = x / BLOCK - self.first_block[0];
+        let row = y / BLOCK - self.first_block[1];
+        let z = crate::sampling::sampler::z_order(x % BLOCK, y % BLOCK);
+        (&self.blocks[(row * self.block_columns + column) as usize], z as usize)
+    }
+
+    /// Mean radiance of a pixel, linear RGB; (x, y) in the whole picture, within the crop. Black where there is no sample yet.
+    pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
+        let (block, pixel) = self.place(x, y);
+        let n = f64::from(block.samples.max(1));
+        [0, 1, 2].map(|c| (block.coarse[c][pixel] + block.fine[c][pixel]) / n)
+    }
+
+    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero below two
+    /// samples.
+    pub fn variance(&self, x: u32, y: u32) -> f64 {
+        let (block, pixel) = self.place(x, y);
+        let n = f64::from(block.samples);
+        if block.samples < 2 {
+            return 0.0;
+        }
+        let mean = luminance(self.radiance(x, y));
+        ((block.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)
+    }
+
+    /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of the
+    /// picture as one number, an upper bound because the samples are stratified.
+    pub fn relative_noise(&self) -> f64 {
+        let Crop { x, y, width, height } = self.crop;
+        let (mut variance, mut mean) = (0.0, 0.0);
+        for py in y..y + height {
+            for px in x..x + width {
+                variance += self.variance(px, py);
+                mean += luminance(self.radiance(px, py));
+            }
+        }
+        let n = f64::from(width) * f64::from(height);
+        if mean > 0.0 { (variance / n).sqrt() / (mean / n) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(value: impl Fn(usize) -> f32) -> [Vec<f32>; 3] {
+        let column: Vec<f32> = (0..PIXELS).map(value).collect();
+        [column.clone(), column.clone(), column]
+    }
+
+    #[test]
+    fn sums_do_not_depend_on_their_order() {
+        let samples: Vec<[Vec<f32>; 3]> = (0..500u32)
+            .map(|k| {
+                filled(|pixel| {
+                    let h = (k * 64 + pixel as u32).wrapping_mul(0x9e37_79b9);
+                    f32::from_bits(0x3000_0000 + (h >> 5))
+                })
+            })
+            .collect();
+        let (mut forwards, mut backwards) = (Block::new(), Block::new());
+        samples.iter().for_each(|s| assert_eq!(forwards.add(s, 0), 0));
+        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0), 0));
+        assert_eq!(forwards.coarse, backwards.coarse);
+        assert_eq!(forwards.fine, backwards.fine);
+    }
+
+    #[test]
+    fn a_film_takes_the_bytes_that_were_foretold() {
+        for crop in
+            [Crop::whole([17, 8]), Crop { x: 7, y: 3, width: 2, height: 6 }, Crop { x: 8, y: 8, width: 8, height: 1 }]
+        {
+            assert_eq!(Film::new([40, 40], crop, 0).bytes() as u64, Film::bytes_of(crop));
+        }
+    }
+
+    #[test]
+    fn wrong_samples_are_dropped_and_counted() {
+        let mut block = Block::new();
+        let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY][k % 4]);
+        assert_eq!(block.add(&samples, 0), 48);
+        assert_eq!(block.coarse[0][0], 1.0);
+        assert_eq!(block.coarse[0][1], 0.0);
+    }
+}

@@ -1,0 +1,160 @@
+//! Sobol' points in base 2 and their Owen scrambling by hashing.
+//!
+//! Words are held bit-reversed where that saves work: in a *reversed fraction* bit 0 weighs 1/2, bit 1 weighs 1/4, and so on,
+//! so that the first Sobol' dimension of index i (van der Corput) is i itself.
+
+use crate::lanes::Bits;
+
+/// The second Sobol' dimension of an index, as a reversed fraction: the Pascal matrix mod 2 (upper triangle) over the bits.
+#[inline(always)]
+pub fn pascal_upper<U: Bits>(i: U) -> U {
+    let m = U::splat;
+    let i = i ^ i.shr::<16>();
+    let i = i ^ (i & m(0xff00_ff00)).shr::<8>();
+    let i = i ^ (i & m(0xf0f0_f0f0)).shr::<4>();
+    let i = i ^ (i & m(0xcccc_cccc)).shr::<2>();
+    i ^ (i & m(0xaaaa_aaaa)).shr::<1>()
+}
+
+/// The Pascal matrix mod 2 (lower triangle): row r, column c is binomial(r, c). Any k successive rows of its first k columns are
+/// invertible (the binomials are polynomials of degree c in r), which is what [`super::sampler`] needs.
+#[inline(always)]
+pub fn pascal_lower<U: Bits>(i: U) -> U {
+    let m = U::splat;
+    let i = i ^ i.shl::<16>();
+    let i = i ^ (i & m(0x00ff_00ff)).shl::<8>();
+    let i = i ^ (i & m(0x0f0f_0f0f)).shl::<4>();
+    let i = i ^ (i & m(0x3333_3333)).shl::<2>();
+    i ^ (i & m(0x5555_5555)).shl::<1>()
+}
+
+/// Owen scrambling of a reversed fraction, keyed: each bit is flipped by a hash of the bits that weigh more.
+/// Laine and Karras: Stratified Sampling for Stochastic Transparency (2011), with the constants of Vegdahl (2021).
+#[inline(always)]
+pub fn owen<U: Bits>(x: U, key: U) -> U {
+    let m = U::splat;
+    let x = x ^ (x * m(0x3d20_adea));
+    let x = (x + key) * (key.shr::<16>() | m(1));
+    let x = x ^ (x * m(0x0552_6c56));
+    x ^ (x * m(0x53a2_2864))
+}
+
+/// A keyed permutation of indices that maps [2^m, 2^(m+1)) to itself for every m, and 0 to 0: [`owen`] on the reversed index without
+/// its addition keeps trailing zeros and the lowest set bit. So the first N = 2^m samples are the same set whatever the key, in
+/// another order: two dimension pairs get independent orders, and no prefix of a power of two loses its stratification.
+pub fn shuffle_index(i: u32, key: u32) -> u32 {
+    let x = i.reverse_bits();
+    let x = x ^ x.wrapping_mul(0x3d20_adea);
+    let x = x.wrapping_mul(key | 1);
+    let x = x ^ x.wrapping_mul(0x0552_6c56);
+    let x = x.wrapping_mul((key >> 16) | 1);
+    let x = x ^ x.wrapping_mul(0x53a2_2864);
+    x.reverse_bits()
+}
+
+/// Direction numbers of the third and fourth Sobol' dimension (Joe and Kuo 2008, new-joe-kuo-6: s = 2, a = 1, m = 1 3 and
+/// s = 3, a = 1, m = 1 3 1), reversed.
+const DIRECTIONS: [[u32; 32]; 2] = [directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];
+
+const fn directions(s: usize, a: u32, m: [u32; 3]) -> [u32; 32] {
+    let mut v = [0u32; 32];
+    let mut k = 0;
+    while k < 32 {
+        if k < s {
+            v[k] = m[k] << (31 - k);
+        } else {
+            v[k] = v[k - s] ^ (v[k - s] >> s);
+            let mut j = 1;
+            while j < s {
+                if (a >> (s - 1 - j)) & 1 == 1 {
+                    v[k] ^= v[k - j];
+                }
+                j += 1;
+            }
+        }
+        k += 1;
+    }
+    let mut k = 0;
+    while k < 32 {
+        v[k] = v[k].reverse_bits();
+        k += 1;
+    }
+    v
+}
+
+/// The third (`which` = 0) or fourth (1) Sobol' dimension of an index, as a reversed fraction.
+pub fn higher_dimension(which: usize, i: u32) -> u32 {
+    let mut word = 0;
+    let mut rest = i;
+    while rest != 0 {
+        word ^= DIRECTIONS[which & 1][rest.trailing_zeros() as usize];
+        rest &= rest - 1;
+    }
+    word
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::ArrayU;
+
+    fn upper(i: u32) -> u32 {
+        let mut out = [0];
+        pascal_upper(ArrayU::<1>::splat(i)).store(&mut out);
+        out[0]
+    }
+    fn lower(i: u32) -> u32 {
+        let mut out = [0];
+        pascal_lower(ArrayU::<1>::splat(i)).store(&mut out);
+        out[0]
+    }
+
+    #[test]
+    fn pascal_matrices_are_binomials_mod_2() {
+        for c in 0..32u32 {
+            for r in 0..32u32 {
+                // Lucas: binomial(n, k) is odd when the bits of k are among those of n.
+                assert_eq!(lower(1 << c) >> r & 1, u32::from(c & !r == 0), "lower {r} {c}");
+                assert_eq!(upper(1 << c) >> r & 1, u32::from(r & !c == 0), "upper {r} {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn shuffling_keeps_every_prefix_of_a_power_of_two() {
+        for key in [0u32, 1, 0xdead_beef, 0x1234_5678, u32::MAX] {
+            for m in 0..12 {
+                let mut seen: Vec<u32> = (0..1 << m).map(|i| shuffle_index(i, key)).collect();
+                seen.sort_unstable();
+                assert!(seen.iter().enumerate().all(|(i, &s)| i as u32 == s), "key {key:x} m {m}");
+            }
+        }
+    }
+
+    /// Every elementary interval of the first 2^m points of a pair holds what a (t, 2)-sequence promises (t = 0 for the first pair).
+    #[test]
+    fn first_pair_is_a_zero_two_sequence() {
+        for m in 0..=10u32 {
+            for a in 0..=m {
+                let mut cells = vec![0u32; 1 << m];
+                for i in 0..1u32 << m {
+                    let x = u64::from(i.reverse_bits());
+                    let y = u64::from(upper(i).reverse_bits());
+                    let column = (x << a) >> 32;
+                    let row = (y << (m - a)) >> 32;
+                    cells[((column << (m - a)) | row) as usize] += 1;
+                }
+                assert!(cells.iter().all(|&c| c == 1), "m {m} a {a}");
+            }
+        }
+    }
+
+    #[test]
+    fn higher_dimensions_are_stratified_alone() {
+        for which in 0..2 {
+            let mut seen: Vec<u32> = (0..1024).map(|i| higher_dimension(which, i).reverse_bits() >> 22).collect();
+            seen.sort_unstable();
+            assert!(seen.iter().enumerate().all(|(i, &s)| i as u32 == s));
+        }
+    }
+}

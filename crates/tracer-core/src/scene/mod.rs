@@ -1,0 +1,124 @@
+//! The compiled scene: immutable, `Sync`, in render space. After [`crate::compile`] has made one, rendering cannot fail.
+//!
+//! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of two so
+//! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
+
+mod camera;
+mod frame;
+mod light;
+mod material;
+mod mesh;
+mod sphere;
+mod statistics;
+mod texture;
+
+pub use camera::{Camera, Filter};
+pub use frame::Frame;
+pub use light::Light;
+pub(crate) use light::LightTable;
+pub use material::{Albedo, Material};
+pub(crate) use material::{MaterialTable, kind};
+pub(crate) use mesh::InstanceTable;
+pub use mesh::{Instance, Mesh, Triangles};
+pub use sphere::Sphere;
+pub(crate) use sphere::{LinearSphere, SphereTable};
+pub use statistics::{Statistics, WorldBounds};
+pub use texture::{Texel, TextureView};
+pub(crate) use texture::{TextureTable, TextureUse};
+
+use scene_format::Diagnostic;
+use scene_format::desc::Acceleration;
+
+/// No primitive, no instance.
+pub const NONE: u32 = u32::MAX;
+
+/// A compiled scene.
+pub struct Scene {
+    /// Where render space lies in the person's world.
+    pub frame: Frame,
+    /// Camera and pixel filter.
+    pub camera: Camera,
+    /// Picture size in pixels: width, height.
+    pub size: [u32; 2],
+    /// Samples per pixel, unless the caller says otherwise.
+    pub samples: u32,
+    /// Scattering events after the first hit.
+    pub max_bounces: u32,
+    /// Seed of all random choices, unless the caller says otherwise.
+    pub seed: u32,
+    /// Radiance of everything that no object covers.
+    pub background: [f32; 3],
+    /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
+    pub spheres: Vec<Sphere>,
+    /// Materials; surfaces name them by index.
+    pub materials: Vec<Material>,
+    /// Lights.
+    pub lights: Vec<Light>,
+    /// Meshes, each once.
+    pub meshes: Vec<Mesh>,
+    /// The triangles of all meshes. Triangle k has primitive id `spheres.len() + k`.
+    pub triangles: Triangles,
+    /// Meshes placed in the scene.
+    pub instances: Vec<Instance>,
+    /// What finds the hits.
+    pub acceleration: Acceleration,
+    /// How the film is developed unless the caller says otherwise.
+    pub look: crate::develop::Look,
+    /// What was odd but not wrong.
+    pub warnings: Vec<Diagnostic>,
+    /// How long compiling took.
+    pub times: crate::compile::CompileTimes,
+    /// The scene as tables for the engine.
+    pub(crate) tables: Tables,
+    /// The tree over meshes and many spheres; `None` when there are neither.
+    pub(crate) accel: Option<crate::bvh::Accel>,
+}
+
+impl Scene {
+    /// A texture, by the index in [`Albedo::Texture`].
+    pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
+        self.tables.textures.view(index)
+    }
+
+    /// The same scene, its tree traced with the vector instructions of a level. The picture is the same.
+    #[must_use]
+    pub fn with_level(mut self, level: crate::lanes::level::Level) -> Self {
+        let name = match level.lanes() {
+            8 => "avx2",
+            16 => "avx512",
+            _ => "portable",
+        };
+        // A level without instructions of its own for the tree traces it portably.
+        let of_tree = crate::bvh::Level::supported().into_iter().find(|l| l.name() == name);
+        let portable = || crate::bvh::Level::supported().into_iter().find(|l| l.name() == "portable");
+        if let Some(found) = of_tree.or_else(portable) {
+            self.accel = self.accel.map(|accel| accel.with_level(found));
+        }
+        self
+    }
+}
+
+/// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
+pub(crate) struct Tables {
+    pub spheres: SphereTable,
+    pub materials: MaterialTable,
+    pub lights: LightTable,
+    pub textures: TextureTable,
+    pub instances: InstanceTable,
+}
+
+/// Pads a look-up table: 16 and 32 entries are looked up by a permutation of registers, and no table may be empty.
+pub(crate) fn padded(mut table: Vec<f32>) -> Vec<f32> {
+    let n = table.len();
+    table.resize(
+        if n <= 16 {
+            16
+        } else if n <= 32 {
+            32
+        } else {
+            n
+        },
+        0.0,
+    );
+    table
+}

@@ -1,0 +1,127 @@
+//! Textures as the engine reads them: all texels in one buffer of words.
+
+use crate::texture::{Texels, Texture};
+use scene_format::desc::{TextureFilter, TextureWrap};
+
+/// Where a texture lies in the buffer, and how it is looked up. Columns, index = texture.
+#[derive(Default)]
+pub(crate) struct TextureTable {
+    /// Texels: one word 0x00BBGGRR in sRGB, or three words (linear f32) where `wide` is set. Row 0 is the top.
+    pub words: Vec<u32>,
+    pub offset: Vec<u32>,
+    pub width: Vec<u32>,
+    pub height: Vec<u32>,
+    /// 1: three words per texel.
+    pub wide: Vec<u32>,
+    /// 1: the nearest texel.
+    pub nearest: Vec<u32>,
+    /// 0 repeat, 1 clamp, 2 mirror.
+    pub wrap: Vec<u32>,
+    /// How each is looked up, as the scene says it.
+    pub uses: Vec<TextureUse>,
+}
+
+/// A texel as its file holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Texel {
+    /// sRGB code values of an 8-bit file.
+    Srgb8([u8; 3]),
+    /// Linear RGB of a 16-bit file.
+    Linear([f32; 3]),
+}
+
+/// A texture of a compiled scene, and how it is looked up.
+#[derive(Clone, Copy)]
+pub struct TextureView<'a> {
+    /// Texels across.
+    pub width: u32,
+    /// Texels down.
+    pub height: u32,
+    /// Between texels.
+    pub filter: TextureFilter,
+    /// Beyond the borders.
+    pub wrap: TextureWrap,
+    words: &'a [u32],
+    wide: bool,
+}
+
+impl TextureView<'_> {
+    /// The texel in a column and a row, from the upper left; `None` beyond the borders.
+    pub fn texel(&self, column: u32, row: u32) -> Option<Texel> {
+        if column >= self.width || row >= self.height {
+            return None;
+        }
+        let k = row as usize * self.width as usize + column as usize;
+        if self.wide {
+            let words = self.words.get(3 * k..3 * k + 3)?;
+            return Some(Texel::Linear([0, 1, 2].map(|c: usize| f32::from_bits(words[c]))));
+        }
+        let [red, green, blue, _] = self.words.get(k)?.to_le_bytes();
+        Some(Texel::Srgb8([red, green, blue]))
+    }
+}
+
+/// A texture and how it is looked up.
+#[derive(Clone, Copy)]
+pub(crate) struct TextureUse {
+    pub image: usize,
+    pub filter: TextureFilter,
+    pub wrap: TextureWrap,
+}
+
+impl TextureTable {
+    /// The words of each picture once, however many uses it has.
+    pub fn new(images: Vec<Texture>, uses: &[TextureUse]) -> Self {
+        let mut table = TextureTable { uses: uses.to_vec(), ..TextureTable::default() };
+        let mut place = Vec::with_capacity(images.len());
+        for image in images {
+            let offset = table.words.len() as u32;
+            let wide = match image.texels {
+                Texels::Srgb8(words) => {
+                    table.words.extend_from_slice(&words);
+                    0
+                }
+                Texels::Linear(texels) => {
+                    table.words.extend(texels.iter().flatten().map(|x| x.to_bits()));
+                    1
+                }
+            };
+            place.push((offset, image.width, image.height, wide));
+        }
+        for u in uses {
+            let (offset, width, height, wide) = place[u.image];
+            table.offset.push(offset);
+            table.width.push(width);
+            table.height.push(height);
+            table.wide.push(wide);
+            table.nearest.push(u32::from(u.filter == TextureFilter::Nearest));
+            table.wrap.push(match u.wrap {
+                TextureWrap::Repeat => 0,
+                TextureWrap::Clamp => 1,
+                TextureWrap::Mirror => 2,
+            });
+        }
+        if table.words.is_empty() {
+            table.words.push(0);
+        }
+        for column in [
+            &mut table.offset,
+            &mut table.width,
+            &mut table.height,
+            &mut table.wide,
+            &mut table.nearest,
+            &mut table.wrap,
+        ] {
+            column.resize(column.len().max(16), 1);
+        }
+        table
+    }
+
+    /// A texture, by the index that materials name.
+    pub fn view(&self, index: u32) -> Option<TextureView<'_>> {
+        let k = index as usize;
+        let TextureUse { filter, wrap, .. } = *self.uses.get(k)?;
+        let words = &self.words[self.offset[k] as usize..];
+        Some(TextureView { width: self.width[k], height: self.height[k], filter, wrap, words, wide: self.wide[k] == 1 })
+    }
+}

@@ -1,0 +1,82 @@
+//! What can be wrong with a picture file.
+
+use super::MAX_SIDE;
+use crate::mesh::FileError;
+use image::{ImageError, ImageFormat};
+use scene_format::Diagnostic;
+use scene_format::diagnostic::Span;
+use std::path::PathBuf;
+
+/// Why a texture could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum TextureError {
+    /// The file could not be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is neither PNG nor JPEG.
+    #[error("{} is no PNG or JPEG picture", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it is instead, if that is known.
+        found: Option<ImageFormat>,
+    },
+    /// The picture cannot be decoded.
+    #[error("the picture {} is broken", path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        source: ImageError,
+    },
+    /// The file is cut off, or its header promises more than it can hold.
+    #[error("the picture {} is broken: {reason}", path.display())]
+    Incomplete {
+        /// The file.
+        path: PathBuf,
+        /// What tells it.
+        reason: String,
+    },
+    /// The picture is empty, or too large in itself or for its file.
+    #[error("the picture {} has {width} x {height} pixels in {bytes} bytes", path.display())]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Size of the file.
+        bytes: u64,
+    },
+}
+
+impl TextureError {
+    /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, or `E0520` (the picture is wrong).
+    pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
+        match self {
+            TextureError::File(error) => error.to_diagnostic(span),
+            TextureError::Format { found, .. } => {
+                let what = match found.and_then(|format| format.extensions_str().first()) {
+                    Some(name) => format!("{self}, but looks like `{name}`"),
+                    None => self.to_string(),
+                };
+                Diagnostic::error("E0520", span, what).expected("a PNG or JPEG file").hint("convert the picture to PNG")
+            }
+            TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
+                let message = match self {
+                    TextureError::Broken { source, .. } => format!("{self}: {source}"),
+                    _ => self.to_string(),
+                };
+                Diagnostic::error("E0520", span, message)
+                    .expected("a whole PNG or JPEG file")
+                    .hint("open it in an image program and save it again")
+            }
+            TextureError::Size { .. } => Diagnostic::error("E0520", span, self.to_string())
+                .expected(format!(
+                    "1 to {MAX_SIDE} pixels along a side, and beyond 4096 x 4096 no more than 256 for each byte of the file"
+                ))
+                .hint("save the picture smaller"),
+        }
+    }
+}

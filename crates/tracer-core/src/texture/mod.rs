@@ -1,0 +1,130 @@
+//! Pictures laid over surfaces: PNG and JPEG files, decoded.
+
+mod error;
+mod extent;
+mod srgb;
+
+pub use error::TextureError;
+pub use srgb::SRGB_TO_LINEAR;
+
+use crate::mesh::read_regular_file;
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use rayon::prelude::*;
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, Diagnostics};
+use std::io::Cursor;
+use std::path::Path;
+
+/// Most pixels along a side.
+pub const MAX_SIDE: u32 = 1 << 15;
+
+/// Pixels that any file may have, however well it is packed (4096 x 4096).
+const FREE_PIXELS: u64 = 1 << 24;
+
+/// Further pixels that a file may have per byte. A JPEG of one colour has 64 with the usual tables; far beyond this a small
+/// file would take the memory of a large one.
+const PIXELS_PER_BYTE: u64 = 256;
+
+/// A decoded picture. Row 0 is the top row of the picture, each row from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// Texels across.
+    pub width: u32,
+    /// Texels down.
+    pub height: u32,
+    /// `width * height` texels, row by row.
+    pub texels: Texels,
+    /// At most one `W0520`: what of the file was ignored. It has no span.
+    pub warnings: Diagnostics,
+}
+
+/// The colours of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Texels {
+    /// Of an 8-bit file: sRGB, packed as `0x00BBGGRR`; [`SRGB_TO_LINEAR`] decodes each byte.
+    Srgb8(Vec<u32>),
+    /// Of a 16-bit file: linear RGB in 0 to 1, sRGB already decoded.
+    Linear(Vec<[f32; 3]>),
+}
+
+/// Reads the PNG or JPEG picture in `path`; its content decides which, not its extension.
+///
+/// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours are
+/// taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied.
+///
+/// # Errors
+/// When there is no such file, it cannot be read, it is no PNG or JPEG or a broken one, or it has more than [`MAX_SIDE`]
+/// pixels along a side or out of all proportion to its size.
+pub fn load(path: &Path) -> Result<Texture, TextureError> {
+    decode(&read_regular_file(path)?, path)
+}
+
+/// Decodes a picture from the bytes of its file; `path` is what messages show.
+///
+/// # Errors
+/// As [`load`].
+pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+        other => return Err(TextureError::Format { path: path.to_owned(), found: other.ok() }),
+    };
+    let fault = if format == ImageFormat::Png { extent::fault_of_png(bytes) } else { extent::fault_of_jpeg(bytes) };
+    if let Some(reason) = fault {
+        return Err(TextureError::Incomplete { path: path.to_owned(), reason });
+    }
+    let broken = |source| TextureError::Broken { path: path.to_owned(), source };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::no_limits();
+    let most_pixels = FREE_PIXELS + PIXELS_PER_BYTE * bytes.len() as u64;
+    // A decoder holds the picture, of up to 8 bytes a pixel, and rows of it.
+    limits.max_alloc = Some(10 * most_pixels);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    let pixels = u64::from(width) * u64::from(height);
+    if width > MAX_SIDE || height > MAX_SIDE || pixels > most_pixels || pixels == 0 {
+        return Err(TextureError::Size { path: path.to_owned(), width, height, bytes: bytes.len() as u64 });
+    }
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    picture.apply_orientation(orientation);
+    Ok(from_picture(picture, path))
+}
+
+fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
+    let (width, height) = (picture.width(), picture.height());
+    let transparent = match &picture {
+        DynamicImage::ImageLumaA8(p) => p.pixels().any(|p| p.0[1] != u8::MAX),
+        DynamicImage::ImageRgba8(p) => p.pixels().any(|p| p.0[3] != u8::MAX),
+        DynamicImage::ImageLumaA16(p) => p.pixels().any(|p| p.0[1] != u16::MAX),
+        DynamicImage::ImageRgba16(p) => p.pixels().any(|p| p.0[3] != u16::MAX),
+        _ => false,
+    };
+    let texels = match picture {
+        DynamicImage::ImageLumaA16(_)
+        | DynamicImage::ImageLuma16(_)
+        | DynamicImage::ImageRgb16(_)
+        | DynamicImage::ImageRgba16(_) => {
+            let table = srgb::linear_of_srgb16();
+            let picture = picture.into_rgb16();
+            Texels::Linear(
+                picture.as_raw().par_chunks_exact(3).map(|p| [0, 1, 2].map(|c| table[usize::from(p[c])])).collect(),
+            )
+        }
+        other => {
+            let picture = other.into_rgb8();
+            let pack = |p: &[u8]| u32::from_le_bytes([p[0], p[1], p[2], 0]);
+            Texels::Srgb8(picture.as_raw().par_chunks_exact(3).map(pack).collect())
+        }
+    };
+    let warnings = transparent
+        .then(|| {
+            Diagnostic::warning("W0520", Span::NONE, "the picture has an alpha channel, which is ignored")
+                .expected("an opaque picture")
+                .at_line(path, 0)
+        })
+        .into_iter()
+        .collect();
+    Texture { width, height, texels, warnings }
+}

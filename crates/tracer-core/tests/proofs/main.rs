@@ -1,0 +1,10 @@
+//! Proofs that the picture is right: the engine against the reference tracer, against formulas, and against itself.
+//!
+//! `TRACER_PROOFS=long` gives the statistical ones 16 times the samples.
+
+mod analytic;
+mod figures;
+mod random_scenes;
+mod seams;
+mod support;
+mod surfaces;
