@@ -323,6 +323,9 @@ codes! {
     /// Scene(objects: [Mesh(file: "cat.obj", transform: [Scale(0)])])
     /// ```
     SINGULAR_TRANSFORM "E0540" "a transform that cannot be undone";
+    /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision once
+    /// the scene is brought to its middle. Bring sizes and distances closer together.
+    UNTRACEABLE "E0541" "a scene beyond the range of numbers";
 
     /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
     ///
@@ -344,4 +347,6 @@ codes! {
     MESH_ODDITIES "W0510" "oddities in a mesh";
     /// A material file (MTL) says things that this renderer cannot do.
     MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
+    /// A texture has transparent pixels. Its colours are used, its transparency is not.
+    TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
 }

@@ -267,7 +267,7 @@ Examples:
   tracer compare new.exr old.exr --fail-above flip-mean=0.01 --fail-above max=0.1
 
 Two EXR, HDR or PFM files are compared in linear radiance, others in display values of 0 to 1.
-Exit codes: 0 within the limits, 1 above one, 2 no pictures or two sizes";
+Exit codes: 0 within the limits, 1 above one (or the map cannot be written), 2 no pictures or\ntwo sizes";
 
 /// `tracer compare`
 #[derive(Debug, Args)]

@@ -73,7 +73,7 @@ pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
             path.display(),
             path.display()
         )),
-        io @ LoadError::Io { .. } => Failure::CouldNot(io.into()),
+        io @ LoadError::Io { .. } => Failure::could_not(io.to_string()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `tracer compare`: how two pictures differ, in numbers and in false colours.
 
 use crate::args::CompareArgs;
-use crate::compare::{Difference, Kind, Metric, Picture, PictureError, difference, false_colours};
+use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
 use crate::write::{Bits, Encoding, Place, Provenance, probe, write};
 use serde_json::json;
@@ -67,11 +67,9 @@ fn limit(text: &str) -> Result<Limit, Failure> {
     Ok(Limit { metric, most: most.ok_or_else(|| wrong("the limit is no number from 0"))? })
 }
 
+/// Whatever is wrong with a picture ends with 2: 1 says that both were compared.
 fn picture(path: &Path) -> Result<Picture, Failure> {
-    Picture::load(path).map_err(|error| match error {
-        PictureError::Io { .. } => Failure::CouldNot(error.into()),
-        PictureError::Broken { .. } | PictureError::NotFinite { .. } => Failure::Wrong(error.into()),
-    })
+    Picture::load(path).map_err(|error| Failure::Wrong(error.into()))
 }
 
 fn kind(difference: &Difference) -> &'static str {

@@ -53,7 +53,7 @@ pub(super) fn run(args: &NewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let text = match syntax {
         Syntax::Ron => args.template.text().to_owned(),
         Syntax::Toml => scene_format::convert("template", args.template.text(), Syntax::Ron, Syntax::Toml)
-            .map_err(|error| Failure::CouldNot(error.into()))?,
+            .map_err(|error| Failure::could_not(error.to_string()))?,
     };
     save(path, text.as_bytes())?;
     if shell.verbosity > Verbosity::Quiet {

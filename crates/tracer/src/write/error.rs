@@ -27,7 +27,7 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// The system says no: permission, disk full, a broken disk.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
@@ -35,7 +35,7 @@ pub enum WriteError {
         source: io::Error,
     },
     /// Standard output takes no more.
-    #[error("cannot write to standard output: {0}")]
+    #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
     /// The picture could not be put into bytes.
     #[error("cannot encode the picture as {encoding}: {message}")]

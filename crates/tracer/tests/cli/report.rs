@@ -35,7 +35,7 @@ fn fields_are_the_documented_ones() {
     // One scene without a tree, one with it.
     fields(&report(&sandbox, &[]), "", &mut found);
     assert!(found.contains("tree"), "it is null");
-    let many = "Sphere(center: (0, 0, 0), radius: 1), ".repeat(200);
+    let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));
     fields(&report(&sandbox, &["--size", "8x8"]), "", &mut found);
     let documentation = std::fs::read_to_string(repository().join("docs/report.md")).expect("documentation");
