@@ -5,6 +5,7 @@
 mod analytic;
 mod figures;
 mod random_scenes;
+mod same_bytes;
 mod seams;
 mod support;
 mod surfaces;
