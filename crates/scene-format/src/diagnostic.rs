@@ -90,6 +90,15 @@ pub struct Edit {
     pub replacement: String,
 }
 
+/// A second place that belongs to a diagnostic, with a few words about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// What is there: `first written here`.
+    pub text: String,
+}
+
 /// One thing that is wrong (or doubtful), with its position, what was expected and a hint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -111,6 +120,8 @@ pub struct Diagnostic {
     pub elsewhere: Option<FileLine>,
     /// A change of the scene file that mends it, when one is certain enough to offer.
     pub edit: Option<Edit>,
+    /// Other places that have to do with it.
+    pub labels: Vec<Label>,
 }
 
 impl Diagnostic {
@@ -126,6 +137,7 @@ impl Diagnostic {
             hint: String::new(),
             elsewhere: None,
             edit: None,
+            labels: Vec::new(),
         }
     }
 
@@ -144,6 +156,26 @@ impl Diagnostic {
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = hint.into();
         self
+    }
+
+    /// Adds the field path.
+    pub fn at_path(mut self, path: impl Into<String>) -> Self {
+        self.path = path.into();
+        self
+    }
+
+    /// Adds a second place.
+    pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Offers `word` in place of what stands at the span, written as `written` says.
+    pub(crate) fn did_you_mean(&mut self, word: Option<&str>, written: impl Fn(&str) -> String) {
+        if let Some(word) = word {
+            self.hint = format!("did you mean `{word}`?");
+            self.edit = Some(Edit { span: self.span, replacement: written(word) });
+        }
     }
 
     /// Adds the place in another file.

@@ -155,6 +155,12 @@ impl Film {
         self.blocks.len() * size_of::<Block>()
     }
 
+    /// Bytes of memory that the sums of a picture, or part of one, will take.
+    pub fn bytes_of(crop: Crop) -> u64 {
+        let blocks = |first: u32, length: u32| u64::from((first + length).div_ceil(BLOCK) - first / BLOCK);
+        blocks(crop.x, crop.width) * blocks(crop.y, crop.height) * size_of::<Block>() as u64
+    }
+
     /// Column and row of each block.
     pub(crate) fn block_positions(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let (first, columns) = (self.first_block, self.block_columns.max(1));
@@ -232,6 +238,15 @@ mod tests {
         samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0), 0));
         assert_eq!(forwards.coarse, backwards.coarse);
         assert_eq!(forwards.fine, backwards.fine);
+    }
+
+    #[test]
+    fn a_film_takes_the_bytes_that_were_foretold() {
+        for crop in
+            [Crop::whole([17, 8]), Crop { x: 7, y: 3, width: 2, height: 6 }, Crop { x: 8, y: 8, width: 8, height: 1 }]
+        {
+            assert_eq!(Film::new([40, 40], crop, 0).bytes() as u64, Film::bytes_of(crop));
+        }
     }
 
     #[test]

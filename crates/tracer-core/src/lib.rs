@@ -2,6 +2,33 @@
 //!
 //! [`compile`] turns a [`scene_format::SceneDesc`] into a [`Scene`], [`render`] path-traces it into a [`Film`], [`develop`] makes a
 //! picture of the film. The picture depends on the scene, the seed and the number of samples, and on nothing else.
+//!
+//! The whole way, from text to the bytes of a picture file:
+//!
+//! ```
+//! use scene_format::{Syntax, load_str};
+//! use std::path::Path;
+//! use tracer_core::{RenderOptions, Unobserved, compile, develop, render};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let text = r#"Scene(
+//!     version: 1,
+//!     image: Image(width: 32, height: 24),
+//!     render: Render(samples: 4),
+//!     lights: [SphereLight(center: (2, 3, 4), radius: 1, power: 500)],
+//!     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+//! )"#;
+//! let loaded = load_str("ball.ron", text, Syntax::Ron, Path::new("."), &[])?;
+//! let scene = compile(&loaded.scene)?;
+//! let film = render(&scene, &RenderOptions::default(), &Unobserved);
+//! let image = develop(&film, &scene.look);
+//! let mut ppm = format!("P6 {} {} 255\n", image.width, image.height).into_bytes();
+//! ppm.extend(image.display.iter().map(|x| (x * 255.0 + 0.5) as u8));
+//! assert_eq!(ppm.len(), 13 + 3 * 32 * 24);
+//! assert!(ppm.iter().skip(13).any(|&byte| byte > 128), "the ball is lit");
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod bvh;
 mod compile;

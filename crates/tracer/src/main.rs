@@ -1,1 +1,7 @@
-fn main() {}
+//! The program `tracer`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    tracer::main()
+}

@@ -1,3 +1,16 @@
-//! Programs that make what the repository holds. Each is a pure function from nothing to files: no randomness, no network.
+//! Programs that make what the repository holds; but for [`golden`], each is a pure function from nothing to files: no randomness,
+//! no network.
 
 pub mod cat;
+pub mod gallery;
+pub mod golden;
+pub mod noise;
+pub mod picture;
+
+/// A file to be written.
+pub struct File {
+    /// Where, from the root of the repository.
+    pub path: &'static str,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}

@@ -1,6 +1,8 @@
 //! How fast the tree is: million rays a second, one thread, for each set of rays, level and mode.
 //!
-//! `cargo run --release -p tracer-core --example rays -- [room | field | FILE.obj] [TRIANGLES] [SIZE]`
+//! `cargo run --release -p tracer-core --example rays -- [room | field | FILE.obj] [TRIANGLES] [SIZE] [SETS] [ROUNDS]`
+//!
+//! SETS are letters, for instance `ac`; only the best level is timed where they are given.
 //!
 //! Times of one run on a shared machine say little: compare within a run.
 
@@ -16,6 +18,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let what = words.next().unwrap_or_else(|| "room".to_string());
     let triangles: usize = words.next().map_or(Ok(70_000), |word| word.parse())?;
     let size: usize = words.next().map_or(Ok(512), |word| word.parse())?;
+    let only = words.next();
+    let levels = if only.is_some() { vec![Level::best()] } else { Level::supported() };
+    let only = only.unwrap_or_else(|| "abcde".to_string());
+    let rounds: usize = words.next().map_or(Ok(5), |word| word.parse())?;
     let scene = match what.as_str() {
         "room" => room(triangles),
         "field" => field(triangles),
@@ -37,14 +43,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut sets = sets(&scene, &accel, size);
     println!("{:18} {:>9} {:>10} {:>13} {:>9}", "set", "rays", "level", "coherence", "Mrays/s");
     let mut accel = accel;
+    sets.retain(|set| set.name.chars().next().is_some_and(|letter| only.contains(letter)));
     for set in &mut sets {
         let mut answers = Answers::new(set);
         for coherence in [Coherence::Incoherent, Coherence::Coherent] {
             set.coherence = coherence;
-            for level in Level::supported() {
+            for &level in &levels {
                 accel = accel.with_level(level);
                 let mut best = f64::INFINITY;
-                for _ in 0..5 {
+                for _ in 0..rounds {
                     let start = Instant::now();
                     trace(&accel, set, &mut answers);
                     best = best.min(start.elapsed().as_secs_f64());

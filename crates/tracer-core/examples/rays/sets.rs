@@ -200,7 +200,7 @@ fn surface(scene: &Scene, from: &Set, answers: &Answers, i: usize) -> ([f32; 3],
 fn shuffled(set: Set, random: &mut Random) -> Set {
     let mut order: Vec<usize> = (0..set.len()).collect();
     for i in (1..order.len()).rev() {
-        order.swap(i, (u64::from(random.bits()) * (i as u64 + 1) >> 32) as usize);
+        order.swap(i, ((u64::from(random.bits()) * (i as u64 + 1)) >> 32) as usize);
     }
     let pick = |values: &[f32]| order.iter().map(|&i| values[i]).collect::<Vec<f32>>();
     Set {
@@ -320,9 +320,9 @@ struct Random(u64);
 impl Random {
     fn bits(&mut self) -> u32 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ z >> 31) >> 32) as u32
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 32) as u32
     }
 
     /// A point on the unit sphere, by rejection.

@@ -108,6 +108,7 @@ pub struct Accel {
     meshes: Vec<MeshRecord>,
     spheres: u32,
     instances: u32,
+    size: f32,
     level: Level,
     stats: AccelStats,
 }
@@ -164,9 +165,8 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn closest(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) {
-        let _ = coherence;
         let mut counters = Counters::default();
-        kernels::closest::<false>(self.level, &self.view(), Batch { rays, active }, hits, &mut counters);
+        kernels::closest::<false>(self.level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
     }
 
     /// As [`closest`](Self::closest), and says what it did. Counting costs a little.
@@ -174,9 +174,8 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn closest_counted(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) -> Counters {
-        let _ = coherence;
         let mut counters = Counters::default();
-        kernels::closest::<true>(self.level, &self.view(), Batch { rays, active }, hits, &mut counters);
+        kernels::closest::<true>(self.level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
         counters
     }
 
@@ -185,9 +184,15 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn occluded(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion, coherence: Coherence) {
-        let _ = coherence;
         let mut counters = Counters::default();
-        kernels::occluded::<false>(self.level, &self.view(), Batch { rays, active }, occlusion, &mut counters);
+        kernels::occluded::<false>(
+            self.level,
+            coherence,
+            &self.view(),
+            Batch { rays, active },
+            occlusion,
+            &mut counters,
+        );
     }
 
     /// As [`occluded`](Self::occluded), and says what it did.
@@ -201,9 +206,15 @@ impl Accel {
         occlusion: &mut Occlusion,
         coherence: Coherence,
     ) -> Counters {
-        let _ = coherence;
         let mut counters = Counters::default();
-        kernels::occluded::<true>(self.level, &self.view(), Batch { rays, active }, occlusion, &mut counters);
+        kernels::occluded::<true>(
+            self.level,
+            coherence,
+            &self.view(),
+            Batch { rays, active },
+            occlusion,
+            &mut counters,
+        );
         counters
     }
 
@@ -216,6 +227,7 @@ impl Accel {
         TreeView {
             base: self.arena.units().as_ptr().cast(),
             root: self.root.0,
+            size: self.size,
             spheres: self.spheres,
             instances: self.records(),
             meshes: &self.meshes,

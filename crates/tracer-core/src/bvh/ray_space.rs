@@ -17,7 +17,7 @@
 
 /// The largest coordinate, and the largest and (inverted) smallest direction, with which the arithmetic cannot overflow.
 pub(crate) const RANGE: f32 = 1_099_511_627_776.0; // 2^40
-const SMALLEST_COMPONENT: f32 = 1.0 / 1_125_899_906_842_624.0; // 2^-50
+pub(crate) const SMALLEST_COMPONENT: f32 = 1.0 / 1_125_899_906_842_624.0; // 2^-50
 /// 2^-19: by this part of the largest coordinate (of the origin, of the triangle) boxes are padded.
 pub(crate) const PAD: f32 = 1.0 / 524_288.0;
 
@@ -57,13 +57,9 @@ impl RaySpace {
     #[inline(always)]
     pub(crate) fn new(o: [f32; 3], d: [f32; 3]) -> Option<Self> {
         let a = [d[0].abs(), d[1].abs(), d[2].abs()];
-        let z = if a[0] > a[1] {
-            if a[0] > a[2] { 0 } else { 2 }
-        } else if a[1] > a[2] {
-            1
-        } else {
-            2
-        };
+        // Written for conditional moves: which one it is cannot be predicted.
+        let of_two = usize::from(a[0] <= a[1]);
+        let z = if larger(a[0], a[1]) > a[2] { of_two } else { 2 };
         let largest = a[z];
         let far = larger(larger(o[0].abs(), o[1].abs()), o[2].abs());
         // Comparisons with a NaN are false, so this refuses them too (each component by itself: a maximum may drop one).

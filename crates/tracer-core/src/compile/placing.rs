@@ -1,5 +1,6 @@
 //! Transforms of the scene language as matrices.
 
+use crate::mesh::placements::rotation;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::Transform;
 use scene_format::diagnostic::Spanned;
@@ -17,7 +18,7 @@ pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn 
             Transform::Scale { factor, about } => {
                 about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(*about, &map))
             }
-            Transform::Rotate { axis, degrees, about } => about_point(rotation(*axis, *degrees), here(*about, &map)),
+            Transform::Rotate { axis, degrees, about } => about_point(rotation(DVec3::from(*axis), *degrees), here(*about, &map)),
             Transform::DropTo { y } => DAffine3::from_translation(DVec3::new(0.0, y - lowest(&map), 0.0)),
         };
         map = step * map;
@@ -30,22 +31,6 @@ fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
     DAffine3 { matrix3: matrix, translation: point - matrix * point }
 }
 
-/// Rotation by the right-hand rule (Rodrigues), with `libm`'s sine and cosine: the same bits on every machine. Quarter turns are
-/// exact.
-pub fn rotation(axis: [f64; 3], degrees: f64) -> DMat3 {
-    let a = DVec3::from(axis).normalize_or_zero();
-    let turn = degrees % 360.0;
-    let (s, c) = match turn {
-        0.0 => (0.0, 1.0),
-        90.0 | -270.0 => (1.0, 0.0),
-        180.0 | -180.0 => (0.0, -1.0),
-        270.0 | -90.0 => (-1.0, 0.0),
-        _ => (libm::sin(turn.to_radians()), libm::cos(turn.to_radians())),
-    };
-    let k = DMat3::from_cols(DVec3::new(0.0, a.z, -a.y), DVec3::new(-a.z, 0.0, a.x), DVec3::new(a.y, -a.x, 0.0));
-    DMat3::IDENTITY + k * s + (k * k) * (1.0 - c)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,9 +41,9 @@ mod tests {
 
     #[test]
     fn rotation_by_the_right_hand_rule() {
-        near(rotation([0.0, 1.0, 0.0], 90.0) * DVec3::Z, [1.0, 0.0, 0.0]);
-        near(rotation([0.0, 0.0, 2.0], 90.0) * DVec3::X, [0.0, 1.0, 0.0]);
-        near(rotation([1.0, 1.0, 1.0], 120.0) * DVec3::X, [0.0, 1.0, 0.0]);
+        near(rotation(DVec3::Y, 90.0) * DVec3::Z, [1.0, 0.0, 0.0]);
+        near(rotation(DVec3::Z * 2.0, 90.0) * DVec3::X, [0.0, 1.0, 0.0]);
+        near(rotation(DVec3::ONE, 120.0) * DVec3::X, [0.0, 1.0, 0.0]);
     }
 
     #[test]

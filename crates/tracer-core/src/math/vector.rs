@@ -81,12 +81,21 @@ impl<F: Lanes> V3<F> {
     pub fn max_component(self) -> F {
         self.0.max(self.1).max(self.2)
     }
-    /// From three consecutive entries `table[3 * index ..]`.
+    /// Absolute values.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        V3(self.0.abs(), self.1.abs(), self.2.abs())
+    }
+    /// From entry `index` of a table of triples.
     #[inline(always)]
     pub fn gather(table: &[f32], index: F::U) -> Self {
-        let i = index * F::U::splat(3);
+        Self::gather_at(table, index * F::U::splat(3))
+    }
+    /// From three consecutive entries of a table, the first at `place`.
+    #[inline(always)]
+    pub fn gather_at(table: &[f32], place: F::U) -> Self {
         let one = F::U::splat(1);
-        V3(F::gather(table, i), F::gather(table, i + one), F::gather(table, i + one + one))
+        V3(F::gather(table, place), F::gather(table, place + one), F::gather(table, place + one + one))
     }
     /// Two unit vectors that make a right-handed frame (t, b, self) with this unit vector.
     /// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited (JCGT 2017).

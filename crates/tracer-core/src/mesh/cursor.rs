@@ -29,6 +29,15 @@ impl Fault {
         Box::new(Fault { at, message: message.into(), expected: expected.into() })
     }
 
+    /// Says what was expected, where the fault does not yet.
+    #[cold]
+    pub(super) fn expecting(mut self: Box<Fault>, expected: &str) -> Box<Fault> {
+        if self.expected.is_empty() {
+            self.expected.push_str(expected);
+        }
+        self
+    }
+
     /// 1-based line of the fault in the text that `at` counts in.
     pub(super) fn line_in(&self, text: &[u8]) -> u64 {
         line_of(text, self.at)

@@ -1,8 +1,8 @@
 //! Counts of things in a mesh file that are odd but do no harm, told in one warning.
 
+use super::cursor::shown;
 use scene_format::Diagnostic;
 use scene_format::diagnostic::Span;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A kind of oddity.
@@ -64,7 +64,7 @@ impl Oddity {
             Oddity::SmallFace => ["face of fewer than 3 corners", "faces of fewer than 3 corners", "left out"],
             Oddity::LineElement => ["line (`l`)", "lines (`l`)", "left out"],
             Oddity::PointElement => ["point element (`p`)", "point elements (`p`)", "left out"],
-            Oddity::MissingNormals => ["triangle without vertex normals", "triangles without vertex normals", "kept"],
+            Oddity::MissingNormals => ["triangle without vertex normals", "triangles without vertex normals", "flat"],
             Oddity::MissingUvs => {
                 ["triangle without texture coordinates", "triangles without texture coordinates", "kept"]
             }
@@ -83,17 +83,20 @@ impl Oddity {
     }
 }
 
-/// How many names of unknown statements are kept: a file of another kind may have a different one in every line.
+/// How many names of unknown statements are shown: a file of another kind may have a different one in every line.
 const NAMES: usize = 8;
+
+/// How many bytes of such a name are kept.
+const NAME_BYTES: usize = 200;
 
 /// How often each oddity occurred.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Oddities {
     counts: [u64; Oddity::ALL.len()],
-    /// Statements that are not read, by name (the first few), with their number.
-    statements: BTreeMap<String, u64>,
-    /// Statements of further names.
-    other_statements: u64,
+    /// Statements that are not read.
+    unread: u64,
+    /// Their first different names, one more than are shown.
+    unread_names: Vec<Vec<u8>>,
 }
 
 impl Oddities {
@@ -108,17 +111,14 @@ impl Oddities {
     }
 
     /// Counts a statement that is not read.
-    pub(super) fn add_statement(&mut self, shown_name: String) {
-        self.add_statements(shown_name, 1);
+    pub(super) fn add_statement(&mut self, name: &[u8]) {
+        self.unread += 1;
+        self.add_name(&name[..name.len().min(NAME_BYTES)]);
     }
 
-    fn add_statements(&mut self, shown_name: String, count: u64) {
-        if let Some(known) = self.statements.get_mut(&shown_name) {
-            *known += count;
-        } else if self.statements.len() < NAMES {
-            self.statements.insert(shown_name, count);
-        } else {
-            self.other_statements += count;
+    fn add_name(&mut self, name: &[u8]) {
+        if self.unread_names.len() <= NAMES && !self.unread_names.iter().any(|known| known == name) {
+            self.unread_names.push(name.to_vec());
         }
     }
 
@@ -127,10 +127,8 @@ impl Oddities {
         for (count, more) in self.counts.iter_mut().zip(later.counts) {
             *count += more;
         }
-        for (name, count) in later.statements {
-            self.add_statements(name, count);
-        }
-        self.other_statements += later.other_statements;
+        self.unread += later.unread;
+        later.unread_names.iter().for_each(|name| self.add_name(name));
     }
 
     /// All of them in words, parted by semicolons; empty when there are none.
@@ -144,14 +142,13 @@ impl Oddities {
                 count => parts.push(format!("{count} {many} ({done})")),
             }
         }
-        let unread: u64 = self.statements.values().sum::<u64>() + self.other_statements;
-        if unread > 0 {
-            let mut names: Vec<&str> = self.statements.keys().map(String::as_str).collect();
-            if self.other_statements > 0 {
-                names.push("…");
+        if self.unread > 0 {
+            let mut names: Vec<String> = self.unread_names.iter().take(NAMES).map(|name| shown(name)).collect();
+            if self.unread_names.len() > NAMES {
+                names.push("...".to_owned());
             }
-            let statements = if unread == 1 { "statement" } else { "statements" };
-            parts.push(format!("{unread} {statements} not known here: {} (ignored)", names.join(" ")));
+            let statements = if self.unread == 1 { "statement" } else { "statements" };
+            parts.push(format!("{} {statements} not known here: {} (ignored)", self.unread, names.join(" ")));
         }
         parts.join("; ")
     }

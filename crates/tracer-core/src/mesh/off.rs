@@ -72,7 +72,9 @@ pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
         }
         return Err(MeshError::Empty { path: path.to_owned(), hint });
     }
-    if !zero_normals.is_empty() {
+    if zero_normals.len() == mesh.normals.len() {
+        mesh.normals = Vec::new();
+    } else if !zero_normals.is_empty() {
         let without = |corner: u32| if zero_normals.binary_search(&corner).is_ok() { NO_INDEX } else { corner };
         mesh.normal_triangles = Some(mesh.triangles.iter().map(|triangle| triangle.map(without)).collect());
     }
@@ -223,10 +225,7 @@ impl Reader<'_> {
     }
 
     fn read_vertex(&mut self, layout: VertexLayout) -> Result<(), Box<Fault>> {
-        let expecting = |mut fault: Box<Fault>| {
-            fault.expected = layout.expected();
-            fault
-        };
+        let expecting = |fault: Box<Fault>| fault.expecting(&layout.expected());
         let position = self.cursor.position().map_err(expecting)?;
         // Position apart: normal, colour, texture coordinates; one more tells a line that is too long.
         const MOST: usize = 3 + 4 + 2;
@@ -296,10 +295,7 @@ impl Reader<'_> {
                 let message = format!("{} is too much after a face of {count} corners", shown(self.cursor.word()));
                 return Err(Fault::new(at, message, "at most 4 numbers of a colour"));
             }
-            self.cursor.number().map_err(|mut fault| {
-                fault.expected = "nothing more, or a colour".to_owned();
-                fault
-            })?;
+            self.cursor.number().map_err(|fault| fault.expecting("nothing more, or a colour"))?;
             color += 1;
             self.cursor.skip_blanks();
         }

@@ -164,10 +164,7 @@ fn parse_line(cursor: &mut Cursor) -> Result<DAffine3, Box<Fault>> {
         let Some(number) = numbers.get_mut(count) else {
             return Err(Fault::new(at, "a placement with more than 12 numbers", EXPECTED));
         };
-        *number = cursor.number().map_err(|mut fault| {
-            fault.expected = EXPECTED.to_owned();
-            fault
-        })?;
+        *number = cursor.number().map_err(|fault| fault.expecting(EXPECTED))?;
         if number.abs() > MAX_COORDINATE {
             let mut again = cursor.clone();
             again.go_back_to(at);

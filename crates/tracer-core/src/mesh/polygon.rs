@@ -6,12 +6,18 @@
 //! strictly convex are kept in a grid, and only those near an ear are tested against it. Corners on a straight edge are
 //! kept as corners of triangles, so that no gap opens against the neighbouring face.
 
+mod blockers;
+
 use super::cursor::Fault;
+use blockers::BlockerGrid;
 use std::collections::VecDeque;
 
-/// How many tests one polygon may cost, per corner: enough for any outline that a person or program draws, while an
+/// How many tests one polygon may cost: rings, spirals and combs of 20,000 corners take up to 100 for each corner. An
 /// outline made to be slow is refused in time.
-const TESTS_PER_CORNER: u64 = 2048;
+const TESTS_PER_CORNER: u64 = 512;
+
+/// Tests that any polygon may cost besides.
+const FREE_TESTS: u64 = 1 << 16;
 
 /// The polygon would take too long to cut.
 #[derive(Debug, PartialEq)]
@@ -274,14 +280,14 @@ impl PolygonCutter {
 
     /// Puts those corners that are left and can lie in an ear into the grid.
     fn fill_grid(&mut self) {
-        let mut blockers = std::mem::take(&mut self.grid.corners);
+        let mut blockers = self.grid.take_corners();
         blockers.clear();
         blockers.extend((0..self.alive.len() as u32).filter(|&corner| {
             let (before, after) = (self.previous[corner as usize], self.next[corner as usize]);
             self.alive[corner as usize] && !self.is_clearly_convex(before, corner, after)
         }));
         self.tests += self.alive.len() as u64;
-        self.grid.sort_into_cells(blockers, &self.flat);
+        self.grid.fill(blockers, &self.flat);
     }
 
     /// Lets every corner that is left have a turn.
@@ -309,7 +315,7 @@ impl PolygonCutter {
             Ear::Any => true,
         };
         let free = convex && (matches!(ear, Ear::Forced | Ear::Any) || !self.is_blocked(before, corner, after));
-        if self.tests > TESTS_PER_CORNER * self.flat.len() as u64 {
+        if self.tests > FREE_TESTS + TESTS_PER_CORNER * self.flat.len() as u64 {
             return Err(TooIntricate);
         }
         Ok(free)
@@ -331,119 +337,6 @@ impl PolygonCutter {
         });
         self.tests += search.cost;
         search.found
-    }
-}
-
-/// The corners that can lie in an ear, by place.
-#[derive(Default)]
-struct BlockerGrid {
-    corners: Vec<u32>,
-    /// Where each cell's part of `corners` starts; one entry more than there are cells.
-    starts: Vec<u32>,
-    low: [f64; 2],
-    cells_per_unit: [f64; 2],
-    /// Cells along each axis.
-    side: usize,
-    /// For each corner of the polygon, whether it is here.
-    holds: Vec<bool>,
-    /// How many corners here were cut off.
-    removed: usize,
-}
-
-/// Whether a corner was found, and after how many tests and rows of cells.
-struct Search {
-    found: bool,
-    cost: u64,
-}
-
-impl BlockerGrid {
-    /// Notes that a corner was cut off, if it was here at all; says when so many were that they cost more than a new grid.
-    fn is_stale_after_removing(&mut self, corner: u32) -> bool {
-        self.removed += usize::from(self.holds[corner as usize]);
-        self.removed > 32 + self.corners.len() / 16
-    }
-
-    fn cell_along(&self, axis: usize, coordinate: f64) -> usize {
-        // A conversion from float to integer saturates: outside points go to the border cells.
-        (((coordinate - self.low[axis]) * self.cells_per_unit[axis]) as usize).min(self.side - 1)
-    }
-
-    /// Sorts these corners into a square grid with about one corner in a cell.
-    fn sort_into_cells(&mut self, corners: Vec<u32>, flat: &[[f64; 2]]) {
-        self.corners = corners;
-        self.removed = 0;
-        self.holds.clear();
-        self.holds.resize(flat.len(), false);
-        for &corner in &self.corners {
-            self.holds[corner as usize] = true;
-        }
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for &corner in &self.corners {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(flat[corner as usize][axis]);
-                high[axis] = high[axis].max(flat[corner as usize][axis]);
-            }
-        }
-        self.low = low;
-        self.side = 1;
-        while self.side * self.side < self.corners.len() {
-            self.side += 1;
-        }
-        for axis in 0..2 {
-            let extent = high[axis] - low[axis];
-            self.cells_per_unit[axis] = if extent > 0.0 { self.side as f64 / extent } else { 0.0 };
-        }
-        let cell_of = |grid: &BlockerGrid, corner: u32| {
-            let [x, y] = flat[corner as usize];
-            grid.cell_along(1, y) * grid.side + grid.cell_along(0, x)
-        };
-        // Counting sort: number per cell, then each cell's end, then fill from the back.
-        let mut starts = std::mem::take(&mut self.starts);
-        starts.clear();
-        starts.resize(self.side * self.side + 1, 0_u32);
-        for &corner in &self.corners {
-            starts[cell_of(self, corner)] += 1;
-        }
-        let mut end = 0;
-        for start in &mut starts {
-            end += *start;
-            *start = end;
-        }
-        let mut sorted = vec![0; self.corners.len()];
-        for &corner in &self.corners {
-            let start = &mut starts[cell_of(self, corner)];
-            *start -= 1;
-            sorted[*start as usize] = corner;
-        }
-        self.corners = sorted;
-        self.starts = starts;
-    }
-
-    /// Whether `test` holds for any corner in the cells that the triangle's box touches.
-    fn any_near(&self, points: [[f64; 2]; 3], test: impl Fn(u32) -> bool) -> Search {
-        let mut search = Search { found: false, cost: 0 };
-        if self.corners.is_empty() {
-            return search;
-        }
-        let bounds = |axis: usize| {
-            let [a, b, c] = points.map(|point| point[axis]);
-            self.cell_along(axis, a.min(b).min(c))..=self.cell_along(axis, a.max(b).max(c))
-        };
-        let (columns, rows) = (bounds(0), bounds(1));
-        for row in rows {
-            let (first, last) = (row * self.side + columns.start(), row * self.side + columns.end());
-            search.cost += 1;
-            // The cells of one row lie side by side.
-            for &corner in &self.corners[self.starts[first] as usize..self.starts[last + 1] as usize] {
-                search.cost += 1;
-                if test(corner) {
-                    search.found = true;
-                    return search;
-                }
-            }
-        }
-        search
     }
 }
 

@@ -9,6 +9,7 @@ mod light;
 mod material;
 mod mesh;
 mod sphere;
+mod statistics;
 mod texture;
 
 pub use camera::{Camera, Filter};
@@ -22,6 +23,7 @@ pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LinearSphere, SphereTable};
 pub use texture::{Texel, TextureView};
+pub use statistics::{Statistics, WorldBounds};
 pub(crate) use texture::{TextureTable, TextureUse};
 
 use scene_format::Diagnostic;
@@ -76,6 +78,23 @@ impl Scene {
     /// A texture, by the index in [`Albedo::Texture`].
     pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
         self.tables.textures.view(index)
+    }
+
+    /// The same scene, its tree traced with the vector instructions of a level. The picture is the same.
+    #[must_use]
+    pub fn with_level(mut self, level: crate::lanes::level::Level) -> Self {
+        let name = match level.lanes() {
+            8 => "avx2",
+            16 => "avx512",
+            _ => "portable",
+        };
+        // A level without instructions of its own for the tree traces it portably.
+        let of_tree = crate::bvh::Level::supported().into_iter().find(|l| l.name() == name);
+        let portable = || crate::bvh::Level::supported().into_iter().find(|l| l.name() == "portable");
+        if let Some(found) = of_tree.or_else(portable) {
+            self.accel = self.accel.map(|accel| accel.with_level(found));
+        }
+        self
     }
 }
 

@@ -29,6 +29,14 @@ pub enum TextureError {
         /// What the decoder said.
         source: ImageError,
     },
+    /// The file is cut off, or its header promises more than it can hold.
+    #[error("the picture {} is broken: {reason}", path.display())]
+    Incomplete {
+        /// The file.
+        path: PathBuf,
+        /// What tells it.
+        reason: String,
+    },
     /// The picture is empty, or too large in itself or for its file.
     #[error("the picture {} has {width} x {height} pixels in {bytes} bytes", path.display())]
     Size {
@@ -55,9 +63,15 @@ impl TextureError {
                 };
                 Diagnostic::error("E0520", span, what).expected("a PNG or JPEG file").hint("convert the picture to PNG")
             }
-            TextureError::Broken { source, .. } => Diagnostic::error("E0520", span, format!("{self}: {source}"))
-                .expected("a whole PNG or JPEG file")
-                .hint("open it in an image program and save it again"),
+            TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
+                let message = match self {
+                    TextureError::Broken { source, .. } => format!("{self}: {source}"),
+                    _ => self.to_string(),
+                };
+                Diagnostic::error("E0520", span, message)
+                    .expected("a whole PNG or JPEG file")
+                    .hint("open it in an image program and save it again")
+            }
             TextureError::Size { .. } => Diagnostic::error("E0520", span, self.to_string())
                 .expected(format!(
                     "1 to {MAX_SIDE} pixels along a side, and beyond 4096 x 4096 no more than 256 for each byte of the file"

@@ -1,6 +1,7 @@
 //! Pictures laid over surfaces: PNG and JPEG files, decoded.
 
 mod error;
+mod extent;
 mod srgb;
 
 pub use error::TextureError;
@@ -21,7 +22,7 @@ pub const MAX_SIDE: u32 = 1 << 15;
 /// Pixels that any file may have, however well it is packed (4096 x 4096).
 const FREE_PIXELS: u64 = 1 << 24;
 
-/// Further pixels that a file may have per byte. A JPEG of one colour has 64 with the usual tables; beyond this a small
+/// Further pixels that a file may have per byte. A JPEG of one colour has 64 with the usual tables; far beyond this a small
 /// file would take the memory of a large one.
 const PIXELS_PER_BYTE: u64 = 256;
 
@@ -68,11 +69,13 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
         other => return Err(TextureError::Format { path: path.to_owned(), found: other.ok() }),
     };
+    let fault = if format == ImageFormat::Png { extent::fault_of_png(bytes) } else { extent::fault_of_jpeg(bytes) };
+    if let Some(reason) = fault {
+        return Err(TextureError::Incomplete { path: path.to_owned(), reason });
+    }
     let broken = |source| TextureError::Broken { path: path.to_owned(), source };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
     let most_pixels = FREE_PIXELS + PIXELS_PER_BYTE * bytes.len() as u64;
     // A decoder holds the picture, of up to 8 bytes a pixel, and rows of it.
     limits.max_alloc = Some(10 * most_pixels);

@@ -31,7 +31,7 @@ impl Random {
     }
 
     pub fn below(&mut self, n: usize) -> usize {
-        (u64::from(self.bits()) * n as u64 >> 32) as usize
+        ((u64::from(self.bits()) * n as u64) >> 32) as usize
     }
 }
 
@@ -153,6 +153,31 @@ impl Batch {
         let mut batch = Self::default();
         for _ in 0..count {
             batch.push(random.cube().map(|x| x * size), random.cube());
+        }
+        batch
+    }
+
+    /// `count` groups of about 20 rays that go nearly the same way: what packets are made of. Some groups straddle octants
+    /// or the diagonals between axes, some start at one point, a few rays are none.
+    pub fn beams(count: usize, size: f32, random: &mut Random) -> Self {
+        let mut batch = Self::default();
+        for group in 0..count {
+            let origin = random.cube().map(|x| x * size);
+            let direction = match group % 4 {
+                0 => random.cube(),
+                1 => [1.0, 1e-3, random.unit()],
+                2 => [1.0, -0.3, -1.0],
+                _ => random.cube().map(|x| if random.bits() & 1 == 0 { 0.0 } else { x }),
+            };
+            let (start, spread) = ([0.0, 1e-3, 0.02][random.below(3)], [1e-3, 0.02, 0.1][random.below(3)]);
+            for _ in 0..16 + random.below(10) {
+                let (about, aside) = (random.cube(), random.cube());
+                let mut d = [0, 1, 2].map(|k: usize| direction[k] + spread * aside[k]);
+                if random.below(50) == 0 {
+                    d[random.below(3)] = f32::NAN;
+                }
+                batch.push([0, 1, 2].map(|k: usize| origin[k] + start * about[k]), d);
+            }
         }
         batch
     }

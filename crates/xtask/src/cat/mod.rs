@@ -14,6 +14,7 @@ pub mod sdf;
 pub mod unwrap;
 pub mod write;
 
+use crate::File;
 use anatomy::Cat;
 use glam::DVec3;
 use mesh::Mesh;
@@ -24,14 +25,6 @@ use unwrap::{Atlas, Charted};
 const TEXTURE_SIZE: usize = 1024;
 /// Name of the material in the OBJ and MTL files.
 const MATERIAL: &str = "tabby";
-
-/// A file to be written.
-pub struct File {
-    /// Its name in the folder of the assets.
-    pub name: &'static str,
-    /// What it holds.
-    pub bytes: Vec<u8>,
-}
 
 /// Makes the cat's files: two OBJ meshes that share one texture, the small one also as OFF.
 ///
@@ -47,11 +40,11 @@ pub fn files() -> anyhow::Result<Vec<File>> {
     let texture = paint::paint(&cat, &atlas, TEXTURE_SIZE, &meshes);
     let [fine, coarse] = &meshes;
     Ok(vec![
-        File { name: "cat.obj", bytes: write::obj(&cat, coarse, &atlas, MATERIAL)?.into() },
-        File { name: "cat_60k.obj", bytes: write::obj(&cat, fine, &atlas, MATERIAL)?.into() },
-        File { name: "cat.mtl", bytes: write::mtl(MATERIAL).into() },
-        File { name: "cat.off", bytes: off.into() },
-        File { name: "cat.png", bytes: write::png(&texture)? },
+        File { path: "assets/cat.obj", bytes: write::obj(&cat, coarse, &atlas, MATERIAL)?.into() },
+        File { path: "assets/cat_60k.obj", bytes: write::obj(&cat, fine, &atlas, MATERIAL)?.into() },
+        File { path: "assets/cat.mtl", bytes: write::mtl(MATERIAL).into() },
+        File { path: "assets/cat.off", bytes: off.into() },
+        File { path: "assets/cat.png", bytes: texture.png()? },
     ])
 }
 

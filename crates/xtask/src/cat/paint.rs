@@ -3,21 +3,14 @@
 use super::anatomy::Cat;
 use super::coat;
 use super::unwrap::{Atlas, Charted};
+use crate::picture::{Picture, byte};
 use glam::{DVec2, DVec3};
 
 /// Rings of texels that a chart's border colour is carried beyond it, for filters that reach across.
 const PADDING: usize = 6;
 
-/// An 8-bit sRGB picture, rows from the top.
-pub struct Texture {
-    /// Texels per side.
-    pub size: usize,
-    /// Three bytes per texel.
-    pub rgb: Vec<u8>,
-}
-
 /// Paints what the meshes show of the texture; where they overlap, the first one counts.
-pub fn paint(cat: &Cat, atlas: &Atlas, size: usize, meshes: &[Charted]) -> Texture {
+pub fn paint(cat: &Cat, atlas: &Atlas, size: usize, meshes: &[Charted]) -> Picture {
     let mut texels: Vec<Option<DVec3>> = vec![None; size * size];
     for charted in meshes {
         let normals: Vec<DVec3> = charted.mesh.positions.iter().map(|&p| cat.normal(p)).collect();
@@ -47,9 +40,9 @@ pub fn paint(cat: &Cat, atlas: &Atlas, size: usize, meshes: &[Charted]) -> Textu
         .rev()
         .flat_map(|row| texels[row * size..(row + 1) * size].iter())
         .flat_map(|texel| texel.unwrap_or(mean).to_array())
-        .map(|c| (c * 255.0 + 0.5) as u8)
+        .map(byte)
         .collect();
-    Texture { size, rgb }
+    Picture { width: size, height: size, rgb }
 }
 
 /// Calls `texel(index, barycentric weights)` for every texel whose centre lies in the triangle.

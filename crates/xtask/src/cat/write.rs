@@ -1,8 +1,7 @@
-//! OBJ, OFF and PNG.
+//! OBJ, MTL and OFF.
 
 use super::anatomy::Cat;
 use super::mesh::Mesh;
-use super::paint::Texture;
 use super::unwrap::{Atlas, Charted};
 use anyhow::Context as _;
 use glam::DVec3;
@@ -65,28 +64,13 @@ pub fn off(mesh: &Mesh) -> String {
     text
 }
 
-/// A PNG file, 8-bit sRGB.
-///
-/// # Errors
-/// When the encoder refuses the picture.
-pub fn png(texture: &Texture) -> anyhow::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let size = u32::try_from(texture.size)?;
-    let mut encoder = png::Encoder::new(&mut bytes, size, size);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.set_compression(png::Compression::High);
-    encoder.write_header()?.write_image_data(&texture.rgb)?;
-    Ok(bytes)
-}
-
 /// Positions as they will stand in the files, so that everything else is computed from what a reader sees.
 pub fn rounded(p: DVec3) -> DVec3 {
     (p * 1e4).round() / 1e4
 }
 
-fn line(text: &mut String, key: &str, values: &[f64], decimals: usize) {
+/// A line of a keyword (or none) and numbers, without the zeros at their ends.
+pub fn line(text: &mut String, key: &str, values: &[f64], decimals: usize) {
     text.push_str(key);
     for (i, value) in values.iter().enumerate() {
         if i > 0 || !key.is_empty() {

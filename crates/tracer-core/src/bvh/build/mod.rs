@@ -4,6 +4,7 @@
 //! meshes there are, so that overlapping meshes do not overlap as trees.
 
 mod binary;
+mod collapse;
 mod contents;
 mod wide;
 
@@ -172,6 +173,7 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         meshes,
         spheres: geometry.spheres.len() as u32,
         instances: records.len() as u32,
+        size: size_of_scene(&world.contents.bounds),
         level: Level::best(),
         stats,
     })
@@ -192,6 +194,11 @@ fn check(geometry: &Geometry) -> Result<(), BuildError> {
         Some(at) => Err(BuildError::Mesh { instance: at as u32, mesh: geometry.instances[at].mesh, meshes }),
         None => Ok(()),
     }
+}
+
+/// The longest side of a box; 0 if it is empty.
+fn size_of_scene(bounds: &Bounds) -> f32 {
+    (bounds.upper - bounds.lower).truncate().max_element().max(0.0)
 }
 
 fn placement_of(instance: &InstanceGeometry) -> Placement {

@@ -1,11 +1,11 @@
 //! From a binary tree to nodes of eight, laid out in the arena.
 //!
-//! A wide node starts as the two children of a binary one and opens the child with the largest surface until there are
-//! eight (Wald, Benthin and Boulos, *Getting rid of packets*, 2008). Nodes lie in preorder, the leaves of a node right
+//! [`Choices`] says which binary nodes become wide ones. Nodes lie in preorder, the leaves of a node right
 //! behind it. A plan says where everything goes before anything is written, in chunks that threads then fill.
 
 use super::super::layout::{LINE_UNITS, NODE_UNITS, Node, Ref, SPHERES_UNITS, TRIANGLES_UNITS, Unit};
 use super::binary::{BinaryNode, Content, Kind};
+use super::collapse::Choices;
 use rayon::prelude::*;
 
 /// Binary subtrees of at most this many nodes are planned and written as one piece.
@@ -79,15 +79,16 @@ impl Plan {
             return plan;
         }
         plan.root = Root::Chunk;
+        let choices = Choices::new(nodes);
         let mut roots = Vec::new();
         let mut top = Chunk::default();
-        let mut planner = Planner { nodes, leaves, chunk: &mut top, roots: Some(&mut roots) };
+        let mut planner = Planner { nodes, choices: &choices, leaves, chunk: &mut top, roots: Some(&mut roots) };
         planner.root(0, nodes.len() as u32);
         let below: Vec<Chunk> = roots
             .par_iter()
             .map(|&(root, end, _)| {
                 let mut chunk = Chunk::default();
-                Planner { nodes, leaves, chunk: &mut chunk, roots: None }.root(root, end);
+                Planner { nodes, choices: &choices, leaves, chunk: &mut chunk, roots: None }.root(root, end);
                 chunk
             })
             .collect();
@@ -190,6 +191,7 @@ fn write_leaf(node: &BinaryNode, leaves: &impl WriteLeaves, units: &mut [Unit]) 
 
 struct Planner<'a, L> {
     nodes: &'a [BinaryNode],
+    choices: &'a Choices<'a>,
     leaves: &'a L,
     chunk: &'a mut Chunk,
     /// Roots of the chunks below (with their ends and depths); `None` where the chunk goes all the way down.
@@ -203,9 +205,7 @@ impl<L: WriteLeaves> Planner<'_, L> {
             self.leaf(root);
         } else if self.nodes[root as usize].sealed {
             // Nothing above would hold the box: a node of one child does.
-            let mut children = [(MISSING, 0); 8];
-            children[0] = (root, end);
-            self.place(children, 1);
+            self.place(&[(root, end)], 1);
         } else {
             self.node(root, end, 1);
         }
@@ -223,22 +223,22 @@ impl<L: WriteLeaves> Planner<'_, L> {
 
     /// Plans the wide node over the binary subtree `root..end`; returns its unit.
     fn node(&mut self, root: u32, end: u32, depth: u32) -> u32 {
-        self.place(self.open(root, end), depth)
+        let mut children = Vec::with_capacity(8);
+        self.choices.children(root, end, &mut children);
+        self.place(&children, depth)
     }
 
     /// Plans a wide node with these children; returns its unit.
-    fn place(&mut self, children: [(u32, u32); 8], depth: u32) -> u32 {
+    fn place(&mut self, children: &[(u32, u32)], depth: u32) -> u32 {
         self.chunk.depth = self.chunk.depth.max(depth);
         self.chunk.units = self.chunk.units.next_multiple_of(LINE_UNITS);
         let unit = self.chunk.units;
         self.chunk.units += NODE_UNITS;
         let at = self.chunk.nodes.len();
-        let binary = children.map(|(child, _)| child);
+        let mut binary = [MISSING; 8];
+        binary.iter_mut().zip(children).for_each(|(binary, (child, _))| *binary = *child);
         self.chunk.nodes.push(WideNode { unit, binary, links: [Link::Missing; 8] });
         for (i, &(child, _)) in children.iter().enumerate() {
-            if child == MISSING {
-                continue;
-            }
             if let Content::Leaf { kind, first, .. } = self.nodes[child as usize].content {
                 self.chunk.nodes[at].links[i] = match kind {
                     Kind::Instance => Link::Whole(self.leaves.instance(first).0),
@@ -247,7 +247,7 @@ impl<L: WriteLeaves> Planner<'_, L> {
             }
         }
         for (i, &(child, child_end)) in children.iter().enumerate() {
-            if child == MISSING || matches!(self.nodes[child as usize].content, Content::Leaf { .. }) {
+            if matches!(self.nodes[child as usize].content, Content::Leaf { .. }) {
                 continue;
             }
             let link = match &mut self.roots {
@@ -261,35 +261,6 @@ impl<L: WriteLeaves> Planner<'_, L> {
             self.chunk.nodes[at].links[i] = link;
         }
         unit
-    }
-
-    /// Up to eight descendants of a binary node that part it, each with the end of its subtree.
-    fn open(&self, root: u32, end: u32) -> [(u32, u32); 8] {
-        let mut children = [(MISSING, 0); 8];
-        children[0] = (root, end);
-        let mut count = 1;
-        while count < 8 {
-            let mut largest: Option<(usize, f32)> = None;
-            for (i, &(child, _)) in children[..count].iter().enumerate() {
-                let node = &self.nodes[child as usize];
-                let shut = node.sealed && child != root;
-                if shut || matches!(node.content, Content::Leaf { .. }) {
-                    continue;
-                }
-                let area = node.bounds.half_area();
-                if largest.is_none_or(|(_, most)| area > most) {
-                    largest = Some((i, area));
-                }
-            }
-            let Some((i, _)) = largest else { break };
-            let (child, child_end) = children[i];
-            if let Content::Inner { right } = self.nodes[child as usize].content {
-                children[i] = (child + 1, child + right);
-                children[count] = (child + right, child_end);
-                count += 1;
-            }
-        }
-        children
     }
 }
 

@@ -1,6 +1,6 @@
 //! AVX2 with FMA; a table of permutations stands in for compress.
 
-use super::isa::Isa;
+use super::isa::{Isa, Isa16, Lanes, WordLanes};
 use std::arch::x86_64::*;
 
 /// Proof that the processor has AVX2, FMA, BMI 1 and 2.
@@ -46,6 +46,11 @@ impl Isa for Avx2 {
     fn fmsub8(self, a: __m256, b: __m256, c: __m256) -> __m256 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm256_fmsub_ps(a, b, c) }
+    }
+    #[inline(always)]
+    fn mul8(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm256_mul_ps(a, b) }
     }
     #[inline(always)]
     fn sub8(self, a: __m256, b: __m256) -> __m256 {
@@ -195,6 +200,15 @@ impl Isa for Avx2 {
         unsafe { _mm_movemask_ps(_mm_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
     }
     #[inline(always)]
+    fn not_negative_and_not_zero4(self, a: __m128, b: __m128) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let zero = _mm_setzero_ps();
+            let (first, second) = (_mm_cmp_ps::<_CMP_GE_OQ>(a, zero), _mm_cmp_ps::<_CMP_NEQ_OQ>(b, zero));
+            _mm_movemask_ps(_mm_and_ps(first, second)) as u32
+        }
+    }
+    #[inline(always)]
     fn lt4(self, a: __m128, b: __m128) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm_movemask_ps(_mm_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
@@ -213,6 +227,164 @@ impl Isa for Avx2 {
     fn zero_where_eq4(self, a: __m128i, b: __m128i, x: __m128) -> __m128 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm_andnot_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(a, b)), x) }
+    }
+}
+
+impl Isa16 for Avx2 {
+    type F16 = [__m256; 2];
+
+    #[inline(always)]
+    fn splat16(self, x: f32) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_set1_ps(x); 2] }
+    }
+    #[inline(always)]
+    fn load16(self, from: &Lanes) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_load_ps(from.0.as_ptr()), _mm256_load_ps(from.0.as_ptr().add(8))] }
+    }
+    #[inline(always)]
+    fn store16(self, a: [__m256; 2], to: &mut Lanes) {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            _mm256_store_ps(to.0.as_mut_ptr(), a[0]);
+            _mm256_store_ps(to.0.as_mut_ptr().add(8), a[1]);
+        }
+    }
+    #[inline(always)]
+    fn add16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_add_ps(a[0], b[0]), _mm256_add_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn sub16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn mul16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_mul_ps(a[0], b[0]), _mm256_mul_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn div16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_div_ps(a[0], b[0]), _mm256_div_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn min16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_min_ps(a[0], b[0]), _mm256_min_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn max16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_max_ps(a[0], b[0]), _mm256_max_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn fmadd16(self, a: [__m256; 2], b: [__m256; 2], c: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_fmadd_ps(a[0], b[0], c[0]), _mm256_fmadd_ps(a[1], b[1], c[1])] }
+    }
+    #[inline(always)]
+    fn fmsub16(self, a: [__m256; 2], b: [__m256; 2], c: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_fmsub_ps(a[0], b[0], c[0]), _mm256_fmsub_ps(a[1], b[1], c[1])] }
+    }
+    #[inline(always)]
+    fn fnmadd16(self, a: [__m256; 2], b: [__m256; 2], c: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe { [_mm256_fnmadd_ps(a[0], b[0], c[0]), _mm256_fnmadd_ps(a[1], b[1], c[1])] }
+    }
+    #[inline(always)]
+    fn abs16(self, a: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            [_mm256_andnot_ps(sign, a[0]), _mm256_andnot_ps(sign, a[1])]
+        }
+    }
+    #[inline(always)]
+    fn copysign16(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            [
+                _mm256_or_ps(_mm256_andnot_ps(sign, a[0]), _mm256_and_ps(sign, b[0])),
+                _mm256_or_ps(_mm256_andnot_ps(sign, a[1]), _mm256_and_ps(sign, b[1])),
+            ]
+        }
+    }
+    #[inline(always)]
+    fn signs16(self, a: [__m256; 2]) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm256_movemask_ps(a[0]) as u32 | (_mm256_movemask_ps(a[1]) as u32) << 8 }
+    }
+    #[inline(always)]
+    fn le16(self, a: [__m256; 2], b: [__m256; 2]) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let low = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a[0], b[0])) as u32;
+            low | (_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a[1], b[1])) as u32) << 8
+        }
+    }
+    #[inline(always)]
+    fn lt16(self, a: [__m256; 2], b: [__m256; 2]) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let low = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a[0], b[0])) as u32;
+            low | (_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a[1], b[1])) as u32) << 8
+        }
+    }
+    #[inline(always)]
+    fn eq_words16(self, a: &WordLanes, x: u32) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let x = _mm256_set1_epi32(x as i32);
+            let low = _mm256_cmpeq_epi32(_mm256_load_si256(a.0.as_ptr().cast()), x);
+            let high = _mm256_cmpeq_epi32(_mm256_load_si256(a.0.as_ptr().add(8).cast()), x);
+            let low = _mm256_movemask_ps(_mm256_castsi256_ps(low)) as u32;
+            low | (_mm256_movemask_ps(_mm256_castsi256_ps(high)) as u32) << 8
+        }
+    }
+    #[inline(always)]
+    fn put_words16(self, mask: u32, x: u32, to: &mut WordLanes) {
+        for (lane, word) in to.0.iter_mut().enumerate() {
+            *word = if mask >> lane & 1 == 1 { x } else { *word };
+        }
+    }
+    #[inline(always)]
+    fn select16(self, mask: u32, x: [__m256; 2], y: [__m256; 2]) -> [__m256; 2] {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let low = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits);
+            let high = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((mask >> 8) as i32), bits), bits);
+            [
+                _mm256_blendv_ps(y[0], x[0], _mm256_castsi256_ps(low)),
+                _mm256_blendv_ps(y[1], x[1], _mm256_castsi256_ps(high)),
+            ]
+        }
+    }
+    #[inline(always)]
+    fn least16(self, a: [__m256; 2]) -> f32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let both = _mm256_min_ps(a[0], a[1]);
+            let four = _mm_min_ps(_mm256_castps256_ps128(both), _mm256_extractf128_ps::<1>(both));
+            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps::<1>(two, two)))
+        }
+    }
+    #[inline(always)]
+    fn greatest16(self, a: [__m256; 2]) -> f32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let both = _mm256_max_ps(a[0], a[1]);
+            let four = _mm_max_ps(_mm256_castps256_ps128(both), _mm256_extractf128_ps::<1>(both));
+            let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(two, two)))
+        }
     }
 }
 

@@ -1,6 +1,6 @@
-//! AVX-512 in 256- and 128-bit registers (F, VL, DQ, BW): masks, compress.
+//! AVX-512 (F, VL, DQ, BW): masks and compress, also in the narrower registers.
 
-use super::isa::Isa;
+use super::isa::{Isa, Isa16, Lanes, WordLanes};
 use std::arch::x86_64::*;
 
 /// Proof that the processor has AVX-512 F, VL, DQ and BW, FMA, BMI 1 and 2.
@@ -46,6 +46,11 @@ impl Isa for Avx512 {
     fn fmsub8(self, a: __m256, b: __m256, c: __m256) -> __m256 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm256_fmsub_ps(a, b, c) }
+    }
+    #[inline(always)]
+    fn mul8(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm256_mul_ps(a, b) }
     }
     #[inline(always)]
     fn sub8(self, a: __m256, b: __m256) -> __m256 {
@@ -201,6 +206,15 @@ impl Isa for Avx512 {
         unsafe { u32::from(_mm_cmp_ps_mask::<_CMP_LE_OQ>(a, b)) }
     }
     #[inline(always)]
+    fn not_negative_and_not_zero4(self, a: __m128, b: __m128) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let zero = _mm_setzero_ps();
+            let mask = _mm_cmp_ps_mask::<_CMP_GE_OQ>(a, zero);
+            u32::from(_mm_mask_cmp_ps_mask::<_CMP_NEQ_OQ>(mask, b, zero))
+        }
+    }
+    #[inline(always)]
     fn lt4(self, a: __m128, b: __m128) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe { u32::from(_mm_cmp_ps_mask::<_CMP_LT_OQ>(a, b)) }
@@ -219,5 +233,126 @@ impl Isa for Avx512 {
     fn zero_where_eq4(self, a: __m128i, b: __m128i, x: __m128) -> __m128 {
         // SAFETY: the token proves the instructions.
         unsafe { _mm_maskz_mov_ps(_mm_cmpneq_epi32_mask(a, b), x) }
+    }
+}
+
+impl Isa16 for Avx512 {
+    type F16 = __m512;
+
+    #[inline(always)]
+    fn splat16(self, x: f32) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_set1_ps(x) }
+    }
+    #[inline(always)]
+    fn load16(self, from: &Lanes) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_load_ps(from.0.as_ptr()) }
+    }
+    #[inline(always)]
+    fn store16(self, a: __m512, to: &mut Lanes) {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_store_ps(to.0.as_mut_ptr(), a) }
+    }
+    #[inline(always)]
+    fn add16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_add_ps(a, b) }
+    }
+    #[inline(always)]
+    fn sub16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_sub_ps(a, b) }
+    }
+    #[inline(always)]
+    fn mul16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_mul_ps(a, b) }
+    }
+    #[inline(always)]
+    fn div16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_div_ps(a, b) }
+    }
+    #[inline(always)]
+    fn min16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_min_ps(a, b) }
+    }
+    #[inline(always)]
+    fn max16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_max_ps(a, b) }
+    }
+    #[inline(always)]
+    fn fmadd16(self, a: __m512, b: __m512, c: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_fmadd_ps(a, b, c) }
+    }
+    #[inline(always)]
+    fn fmsub16(self, a: __m512, b: __m512, c: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_fmsub_ps(a, b, c) }
+    }
+    #[inline(always)]
+    fn fnmadd16(self, a: __m512, b: __m512, c: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_fnmadd_ps(a, b, c) }
+    }
+    #[inline(always)]
+    fn abs16(self, a: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_abs_ps(a) }
+    }
+    #[inline(always)]
+    fn copysign16(self, a: __m512, b: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let sign = _mm512_set1_ps(-0.0);
+            _mm512_or_ps(_mm512_andnot_ps(sign, a), _mm512_and_ps(sign, b))
+        }
+    }
+    #[inline(always)]
+    fn signs16(self, a: __m512) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { u32::from(_mm512_movepi32_mask(_mm512_castps_si512(a))) }
+    }
+    #[inline(always)]
+    fn le16(self, a: __m512, b: __m512) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b)) }
+    }
+    #[inline(always)]
+    fn lt16(self, a: __m512, b: __m512) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { u32::from(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b)) }
+    }
+    #[inline(always)]
+    fn eq_words16(self, a: &WordLanes, x: u32) -> u32 {
+        // SAFETY: the token proves the instructions.
+        unsafe {
+            let a = _mm512_load_si512(a.0.as_ptr().cast());
+            u32::from(_mm512_cmpeq_epi32_mask(a, _mm512_set1_epi32(x as i32)))
+        }
+    }
+    #[inline(always)]
+    fn put_words16(self, mask: u32, x: u32, to: &mut WordLanes) {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_mask_store_epi32(to.0.as_mut_ptr().cast(), mask as u16, _mm512_set1_epi32(x as i32)) }
+    }
+    #[inline(always)]
+    fn select16(self, mask: u32, x: __m512, y: __m512) -> __m512 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_mask_blend_ps(mask as u16, y, x) }
+    }
+    #[inline(always)]
+    fn least16(self, a: __m512) -> f32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_reduce_min_ps(a) }
+    }
+    #[inline(always)]
+    fn greatest16(self, a: __m512) -> f32 {
+        // SAFETY: the token proves the instructions.
+        unsafe { _mm512_reduce_max_ps(a) }
     }
 }

@@ -24,6 +24,7 @@ pub(crate) trait Isa: Copy {
     unsafe fn load_words8(self, p: *const u32) -> Self::U8;
     /// a·b − c, rounded once.
     fn fmsub8(self, a: Self::F8, b: Self::F8, c: Self::F8) -> Self::F8;
+    fn mul8(self, a: Self::F8, b: Self::F8) -> Self::F8;
     fn sub8(self, a: Self::F8, b: Self::F8) -> Self::F8;
     /// a < b ? a : b
     fn min8(self, a: Self::F8, b: Self::F8) -> Self::F8;
@@ -76,6 +77,8 @@ pub(crate) trait Isa: Copy {
     fn copysign4(self, a: Self::F4, b: Self::F4) -> Self::F4;
     /// Bit i set where a[i] <= b[i].
     fn le4(self, a: Self::F4, b: Self::F4) -> u32;
+    /// Bit i set where a[i] >= 0 and b[i] != 0.
+    fn not_negative_and_not_zero4(self, a: Self::F4, b: Self::F4) -> u32;
     /// Bit i set where a[i] < b[i].
     fn lt4(self, a: Self::F4, b: Self::F4) -> u32;
     /// Bit i set where a[i] = b[i].
@@ -85,3 +88,53 @@ pub(crate) trait Isa: Copy {
     /// 0 where a = b, x elsewhere.
     fn zero_where_eq4(self, a: Self::U4, b: Self::U4, x: Self::F4) -> Self::F4;
 }
+
+/// 16 rays side by side. Masks are words: bit i for lane i.
+pub(crate) trait Isa16: Isa {
+    type F16: Copy;
+
+    fn splat16(self, x: f32) -> Self::F16;
+    fn load16(self, from: &Lanes) -> Self::F16;
+    fn store16(self, a: Self::F16, to: &mut Lanes);
+    fn add16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    fn sub16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    fn mul16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    fn div16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    /// a·b + c, rounded once.
+    fn fmadd16(self, a: Self::F16, b: Self::F16, c: Self::F16) -> Self::F16;
+    /// a·b − c, rounded once.
+    fn fmsub16(self, a: Self::F16, b: Self::F16, c: Self::F16) -> Self::F16;
+    /// −a·b + c, rounded once.
+    fn fnmadd16(self, a: Self::F16, b: Self::F16, c: Self::F16) -> Self::F16;
+    /// a < b ? a : b
+    fn min16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    /// a > b ? a : b
+    fn max16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    fn abs16(self, a: Self::F16) -> Self::F16;
+    /// The magnitude of a with the sign of b.
+    fn copysign16(self, a: Self::F16, b: Self::F16) -> Self::F16;
+    /// Lanes whose sign bit is set.
+    fn signs16(self, a: Self::F16) -> u32;
+    fn le16(self, a: Self::F16, b: Self::F16) -> u32;
+    fn lt16(self, a: Self::F16, b: Self::F16) -> u32;
+    /// Lanes whose word equals `x`.
+    fn eq_words16(self, a: &WordLanes, x: u32) -> u32;
+    /// Writes x into the lanes of `mask`.
+    fn put_words16(self, mask: u32, x: u32, to: &mut WordLanes);
+    /// x in the lanes of `mask`, y elsewhere.
+    fn select16(self, mask: u32, x: Self::F16, y: Self::F16) -> Self::F16;
+    /// The least of all lanes; none may be NaN.
+    fn least16(self, a: Self::F16) -> f32;
+    /// The greatest of all lanes; none may be NaN.
+    fn greatest16(self, a: Self::F16) -> f32;
+}
+
+/// One float for each of 16 rays.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lanes(pub [f32; 16]);
+
+/// One word for each of 16 rays.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WordLanes(pub [u32; 16]);

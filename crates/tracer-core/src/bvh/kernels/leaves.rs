@@ -41,27 +41,18 @@ pub(crate) fn triangles4<I: Isa>(
     let least = isa.min4(isa.min4(u, v), w);
     let most = isa.max4(isa.max4(u, v), w);
     let det = isa.add4(isa.add4(u, v), w);
-    let inside = isa.le4(zero, least) | isa.le4(most, zero);
-    let solid = isa.lt4(zero, det) | isa.lt4(det, zero);
-    let mask = inside & solid & !skip;
+    // All three >= 0 or all three <= 0.
+    let inside = isa.max4(least, isa.neg4(most));
+    let mask = isa.not_negative_and_not_zero4(inside, det) & !skip;
     if mask == 0 {
         return None;
     }
     let distance = isa.fmadd4(u, az, isa.fmadd4(v, bz, isa.mul4(w, cz)));
     let t = isa.mul4(isa.div4(distance, det), isa.splat4(ray.shear[2]));
-    let (mut lower, mut upper) = ([zero; 3], [zero; 3]);
-    for axis in 0..3 {
-        let (a, b, c) = (row(isa, leaf, 0, axis), row(isa, leaf, 1, axis), row(isa, leaf, 2, axis));
-        lower[axis as usize] = isa.min4(isa.min4(a, b), c);
-        upper[axis as usize] = isa.max4(isa.max4(a, b), c);
-    }
-    let largest_x = isa.max4(upper[0], isa.neg4(lower[0]));
-    let largest_y = isa.max4(upper[1], isa.neg4(lower[1]));
-    let largest_z = isa.max4(upper[2], isa.neg4(lower[2]));
-    let pad = isa.mul4(isa.splat4(PAD), isa.max4(isa.max4(largest_x, largest_y), largest_z));
+    let (lower, upper) = padded_planes(isa, leaf);
     let (mut near, mut far) = (isa.splat4(f32::NEG_INFINITY), isa.splat4(f32::INFINITY));
     for axis in 0..3 {
-        let (lower, upper) = (isa.sub4(lower[axis], pad), isa.add4(upper[axis], pad));
+        let (lower, upper) = (lower[axis], upper[axis]);
         let rd = isa.splat4(ray.rd[axis]);
         let (enter, leave) = (isa.splat4(ray.near_offset[axis]), isa.splat4(ray.far_offset[axis]));
         near = isa.max4(near, isa.min4(isa.fmsub4(lower, rd, enter), isa.fmsub4(upper, rd, enter)));
@@ -73,6 +64,41 @@ pub(crate) fn triangles4<I: Isa>(
         return None;
     }
     Some(LeafHits { mask, t: isa.array4(t) })
+}
+
+/// The padded boxes of four triangles: axis, triangle.
+pub(crate) struct PaddedBoxes {
+    pub lower: [[f32; 4]; 3],
+    pub upper: [[f32; 4]; 3],
+}
+
+/// The boxes that the triangle test clamps to, for reading one by one.
+#[inline(always)]
+pub(crate) fn padded_boxes<I: Isa>(isa: I, leaf: &Triangles4) -> PaddedBoxes {
+    let ([lx, ly, lz], [ux, uy, uz]) = padded_planes(isa, leaf);
+    PaddedBoxes {
+        lower: [isa.array4(lx), isa.array4(ly), isa.array4(lz)],
+        upper: [isa.array4(ux), isa.array4(uy), isa.array4(uz)],
+    }
+}
+
+/// Lower and upper planes of the triangles' boxes, padded by [`PAD`] of their largest coordinate.
+#[inline(always)]
+fn padded_planes<I: Isa>(isa: I, leaf: &Triangles4) -> ([I::F4; 3], [I::F4; 3]) {
+    let (mut lower, mut upper) = ([isa.splat4(0.0); 3], [isa.splat4(0.0); 3]);
+    for axis in 0..3 {
+        let (a, b, c) = (row(isa, leaf, 0, axis), row(isa, leaf, 1, axis), row(isa, leaf, 2, axis));
+        lower[axis as usize] = isa.min4(isa.min4(a, b), c);
+        upper[axis as usize] = isa.max4(isa.max4(a, b), c);
+    }
+    let largest_x = isa.max4(upper[0], isa.neg4(lower[0]));
+    let largest_y = isa.max4(upper[1], isa.neg4(lower[1]));
+    let largest_z = isa.max4(upper[2], isa.neg4(lower[2]));
+    let pad = isa.mul4(isa.splat4(PAD), isa.max4(isa.max4(largest_x, largest_y), largest_z));
+    (
+        [isa.sub4(lower[0], pad), isa.sub4(lower[1], pad), isa.sub4(lower[2], pad)],
+        [isa.add4(upper[0], pad), isa.add4(upper[1], pad), isa.add4(upper[2], pad)],
+    )
 }
 
 /// The spheres of `leaf` that the ray meets at 0 < t <= `limit`. `from` is the primitive that the ray leaves.

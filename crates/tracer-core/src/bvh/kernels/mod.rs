@@ -10,10 +10,13 @@ mod avx512;
 mod interleaved;
 mod isa;
 mod leaves;
+mod packet;
+mod packet_space;
 mod portable;
 mod query;
 
-use super::{Hits, Occlusion};
+use super::{Coherence, Hits, Occlusion};
+use isa::Isa16;
 use query::{AnyHit, Closest, Goal};
 pub(crate) use query::{Batch, MeshRecord, TreeView};
 
@@ -99,40 +102,58 @@ pub struct Counters {
 /// Closest hits, counting only where `COUNT`.
 pub(crate) fn closest<const COUNT: bool>(
     level: Level,
+    coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     hits: &mut Hits,
     counters: &mut Counters,
 ) {
-    trace::<_, COUNT>(level, tree, batch, &mut Closest { hits }, counters);
+    trace::<_, COUNT>(level, coherence, tree, batch, &mut Closest { hits }, counters);
 }
 
 /// Occlusion, counting only where `COUNT`.
 pub(crate) fn occluded<const COUNT: bool>(
     level: Level,
+    coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     occlusion: &mut Occlusion,
     counters: &mut Counters,
 ) {
-    trace::<_, COUNT>(level, tree, batch, &mut AnyHit { occlusion }, counters);
+    trace::<_, COUNT>(level, coherence, tree, batch, &mut AnyHit { occlusion }, counters);
 }
 
 fn trace<G: Goal, const COUNT: bool>(
     level: Level,
+    coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
     counters: &mut Counters,
 ) {
     match level.0 {
-        Set::Portable => interleaved::trace::<_, G, IN_FLIGHT, COUNT>(portable::Portable, tree, batch, goal, counters),
+        Set::Portable => kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters),
         // SAFETY: a `Level` of this set exists only where the processor has its instructions (`Level::supported`).
         #[cfg(target_arch = "x86_64")]
-        Set::Avx2 => unsafe { interleaved_avx2::<G, COUNT>(tree, batch, goal, counters) },
+        Set::Avx2 => unsafe { kernel_avx2::<G, COUNT>(coherence, tree, batch, goal, counters) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Set::Avx512 => unsafe { interleaved_avx512::<G, COUNT>(tree, batch, goal, counters) },
+        Set::Avx512 => unsafe { kernel_avx512::<G, COUNT>(coherence, tree, batch, goal, counters) },
+    }
+}
+
+#[inline(always)]
+fn kernel<I: Isa16, G: Goal, const COUNT: bool>(
+    isa: I,
+    coherence: Coherence,
+    tree: &TreeView,
+    batch: Batch,
+    goal: &mut G,
+    counters: &mut Counters,
+) {
+    match coherence {
+        Coherence::Incoherent => interleaved::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters),
+        Coherence::Coherent => packet::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters),
     }
 }
 
@@ -140,7 +161,8 @@ fn trace<G: Goal, const COUNT: bool>(
 /// The processor has these features.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-unsafe fn interleaved_avx2<G: Goal, const COUNT: bool>(
+unsafe fn kernel_avx2<G: Goal, const COUNT: bool>(
+    coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
@@ -148,14 +170,15 @@ unsafe fn interleaved_avx2<G: Goal, const COUNT: bool>(
 ) {
     // SAFETY: the caller's promise.
     let isa = unsafe { avx2::Avx2::new() };
-    interleaved::trace::<_, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters);
+    kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
 }
 
 /// # Safety
 /// The processor has these features.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-unsafe fn interleaved_avx512<G: Goal, const COUNT: bool>(
+unsafe fn kernel_avx512<G: Goal, const COUNT: bool>(
+    coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
@@ -163,5 +186,5 @@ unsafe fn interleaved_avx512<G: Goal, const COUNT: bool>(
 ) {
     // SAFETY: the caller's promise.
     let isa = unsafe { avx512::Avx512::new() };
-    interleaved::trace::<_, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters);
+    kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
 }

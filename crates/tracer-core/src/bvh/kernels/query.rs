@@ -3,6 +3,8 @@
 use super::super::geometry::NONE;
 use super::super::layout::InstanceRecord;
 use super::super::{Hits, Occlusion, Rays};
+use super::packet::gather;
+use std::ops::Range;
 
 /// A tree as the kernels see it.
 ///
@@ -13,6 +15,8 @@ use super::super::{Hits, Occlusion, Rays};
 pub(crate) struct TreeView<'a> {
     pub base: *const u8,
     pub root: u32,
+    /// The longest side of what is in the tree.
+    pub size: f32,
     pub spheres: u32,
     pub instances: &'a [InstanceRecord],
     pub meshes: &'a [MeshRecord],
@@ -74,6 +78,23 @@ pub(crate) trait Goal {
     fn start(&self, ray: usize) -> Start;
     /// A second surface that cannot be hit, as (primitive, instance). Used where `ANY_HIT`.
     fn target(&self, ray: usize) -> (u32, u32);
+    /// [`start`](Self::start) for up to 16 rays, which are those of `run` where there is one.
+    fn start_packet(
+        &self,
+        rays: &[u32],
+        run: &Option<Range<usize>>,
+        t: &mut [f32; 16],
+        primitive: &mut [u32; 16],
+        instance: &mut [u32; 16],
+    );
+    /// [`target`](Self::target) for up to 16 rays. Used where `ANY_HIT`.
+    fn target_packet(
+        &self,
+        rays: &[u32],
+        run: &Option<Range<usize>>,
+        primitive: &mut [u32; 16],
+        instance: &mut [u32; 16],
+    );
     /// Called once for each ray that found something.
     fn found(&mut self, ray: usize, t: f32, primitive: u32, instance: u32);
 }
@@ -92,6 +113,21 @@ impl Goal for Closest<'_, '_> {
     fn target(&self, _ray: usize) -> (u32, u32) {
         (NONE, NONE)
     }
+    #[inline(always)]
+    fn start_packet(
+        &self,
+        rays: &[u32],
+        run: &Option<Range<usize>>,
+        t: &mut [f32; 16],
+        primitive: &mut [u32; 16],
+        instance: &mut [u32; 16],
+    ) {
+        gather(t, self.hits.t, rays, run);
+        gather(primitive, self.hits.primitive, rays, run);
+        gather(instance, self.hits.instance, rays, run);
+    }
+    #[inline(always)]
+    fn target_packet(&self, _: &[u32], _: &Option<Range<usize>>, _: &mut [u32; 16], _: &mut [u32; 16]) {}
     #[inline(always)]
     fn found(&mut self, ray: usize, t: f32, primitive: u32, instance: u32) {
         self.hits.t[ray] = t;
@@ -113,6 +149,28 @@ impl Goal for AnyHit<'_, '_> {
     #[inline(always)]
     fn target(&self, ray: usize) -> (u32, u32) {
         (self.occlusion.target_primitive[ray], self.occlusion.target_instance[ray])
+    }
+    #[inline(always)]
+    fn start_packet(
+        &self,
+        rays: &[u32],
+        run: &Option<Range<usize>>,
+        t: &mut [f32; 16],
+        _: &mut [u32; 16],
+        _: &mut [u32; 16],
+    ) {
+        gather(t, self.occlusion.tmax, rays, run);
+    }
+    #[inline(always)]
+    fn target_packet(
+        &self,
+        rays: &[u32],
+        run: &Option<Range<usize>>,
+        primitive: &mut [u32; 16],
+        instance: &mut [u32; 16],
+    ) {
+        gather(primitive, self.occlusion.target_primitive, rays, run);
+        gather(instance, self.occlusion.target_instance, rays, run);
     }
     #[inline(always)]
     fn found(&mut self, ray: usize, _t: f32, _primitive: u32, _instance: u32) {

@@ -29,9 +29,10 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
     let camera: &Camera = &scene.camera;
     let pixel = Pair::new(seed, Purpose::Pixel);
     let lens = Pair::new(seed, Purpose::Lens);
-    let vector = |v: glam::DVec3| V3::<F>::splat(v.as_vec3().to_array());
-    let (eye, forward, right, up) =
-        (vector(camera.eye), vector(camera.forward), vector(camera.right), vector(camera.up));
+    let [eye, forward, right, up] =
+        [camera.eye, camera.forward, camera.right, camera.up].map(|v| v.as_vec3().to_array());
+    let (eye, forward) = (V3::<F>::splat(eye), V3::<F>::splat(forward));
+    let (right, up) = (V3::<F>::splat(right), V3::<F>::splat(up));
     let [width, height] = scene.size;
     let (scale_x, scale_y) = (c(2.0 / width as f32), c(-2.0 / height as f32));
     let paths = &mut batch.paths;
@@ -46,9 +47,8 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
             let i = k * BLOCK_PIXELS + j;
             let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
             let z = (F::U::splat(block_z << 6) | F::U::load(&SLOTS[j..])).reverse_bits();
-            let (dx, dy) = filter_offset::<F>(camera.filter, || {
-                pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y))
-            });
+            let (u, v) = pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y));
+            let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
             let x = (left + F::load(&PIXEL_X[j..]) + dx) * scale_x;
             let y = (top + F::load(&PIXEL_Y[j..]) + dy) * scale_y;
             let mut direction = right.mad(x, up.mad(y, forward));
@@ -58,7 +58,7 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
                 let (u, v) = lens.points::<F>(z, F::U::splat(lens_part.x), F::U::splat(lens_part.y));
                 let (lx, ly) = warp::disc(u, v);
                 let radius = c(camera.lens_radius as f32);
-                let offset = unit(right).mad(lx * radius, unit(up).scale(ly * radius));
+                let offset = right.normalise().mad(lx * radius, up.normalise().scale(ly * radius));
                 direction = direction.scale(c(camera.focus_distance as f32)).sub(offset);
                 origin = eye.add(offset);
             }
@@ -87,29 +87,19 @@ static SLOTS: [u32; BLOCK_PIXELS] = {
     table
 };
 
-#[inline(always)]
-fn unit<F: Lanes>(v: V3<F>) -> V3<F> {
-    v.normalise()
-}
-
 /// Offset from the pixel's centre, in pixels.
 #[inline(always)]
-fn filter_offset<F: Lanes>(filter: Filter, points: impl FnOnce() -> (F, F)) -> (F, F) {
+fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
     let c = F::splat;
     match filter {
         Filter::Centre => (c(0.0), c(0.0)),
-        Filter::Box => {
-            let (u, v) = points();
-            (u - c(0.5), v - c(0.5))
-        }
+        Filter::Box => (u - c(0.5), v - c(0.5)),
         Filter::Gaussian(sigma) => {
-            let (u, v) = points();
             let radius = (ln(c(1.0) - u) * c(-2.0)).max(c(0.0)).sqrt() * c(sigma as f32);
             let (sin, cos) = sincos_turns(v);
             (radius * cos, radius * sin)
         }
         Filter::BlackmanHarris(radius) => {
-            let (u, v) = points();
             (blackman_harris(u) * c(radius as f32), blackman_harris(v) * c(radius as f32))
         }
     }
@@ -119,26 +109,29 @@ fn filter_offset<F: Lanes>(filter: Filter, points: impl FnOnce() -> (F, F)) -> (
 #[inline(always)]
 fn blackman_harris<F: Lanes>(u: F) -> F {
     let c = F::splat;
-    // Window w(x) = a0 + a1 cos(pi x) + a2 cos(2 pi x) + a3 cos(3 pi x), integral over [-1, 1] = 2 a0.
-    const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
-    let cumulative = |x: F| {
-        let half = x * c(0.5);
-        let (s1, _) = sincos_turns(half);
-        let (s2, _) = sincos_turns(half + half);
-        let (s3, _) = sincos_turns(half + half + half);
-        let pi = std::f32::consts::PI;
-        let sines = s1.fma(c(A[1] / pi), s2.fma(c(A[2] / (2.0 * pi)), s3 * c(A[3] / (3.0 * pi))));
-        (x.fma(c(A[0]), sines)).fma(c(0.5 / A[0]), c(0.5))
-    };
     let (mut low, mut high) = (c(-1.0), c(1.0));
     // 22 halvings reach 5e-7 of the half width.
     let mut step = 0;
     while step < 22 {
         let middle = (low + high) * c(0.5);
-        let below = cumulative(middle).lt(u);
+        let below = blackman_harris_cumulative(middle).lt(u);
         low = F::select(below, middle, low);
         high = F::select(below, high, middle);
         step += 1;
     }
     (low + high) * c(0.5)
+}
+
+/// Share of the window a0 + a1 cos(pi x) + a2 cos(2 pi x) + a3 cos(3 pi x) that lies below x; its whole is 2 a0.
+#[inline(always)]
+fn blackman_harris_cumulative<F: Lanes>(x: F) -> F {
+    const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
+    let c = F::splat;
+    let half = x * c(0.5);
+    let (s1, _) = sincos_turns(half);
+    let (s2, _) = sincos_turns(half + half);
+    let (s3, _) = sincos_turns(half + half + half);
+    let pi = std::f32::consts::PI;
+    let sines = s1.fma(c(A[1] / pi), s2.fma(c(A[2] / (2.0 * pi)), s3 * c(A[3] / (3.0 * pi))));
+    x.fma(c(A[0]), sines).fma(c(0.5 / A[0]), c(0.5))
 }

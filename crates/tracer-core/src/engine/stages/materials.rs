@@ -180,30 +180,23 @@ pub fn sample_dielectric<F: Lanes>(s: &Surface<F>, wo: V3<F>, ior: F, lobe: F) -
     let (mut reflected, mut normal) = reflect_bent(s, wo);
     // n_incident / n_transmitted.
     let eta = F::select(s.outside, one / ior, ior);
-    let sin2_transmitted = |cos_i: F| eta * eta * (one - cos_i * cos_i).max(c(0.0));
     if s.smooth.any() {
         // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides: else
         // rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
         let cos_g = wo.dot(s.ng);
-        let caught = one.le(sin2_transmitted(wo.dot(normal))) & sin2_transmitted(cos_g).lt(one);
-        let caught = s.smooth & !s.outside & caught;
+        let total = one.le(refract(wo, normal, eta).sin2_t);
+        let caught = s.smooth & !s.outside & total & refract(wo, s.ng, eta).sin2_t.lt(one);
         reflected = V3::select(caught, s.ng.scale(cos_g + cos_g).sub(wo), reflected);
         normal = V3::select(caught, s.ng, normal);
     }
-    let refract = |n: V3<F>| {
-        let cos_i = wo.dot(n);
-        let sin2_t = sin2_transmitted(cos_i);
-        let cos_t = (one - sin2_t).max(c(0.0)).sqrt();
-        let direction = n.mad(eta * cos_i - cos_t, wo.scale(-eta));
-        (direction, cos_i, cos_t, sin2_t)
-    };
-    let (mut direction, cos_i, cos_t, sin2_t) = refract(normal);
-    let reflectance = F::select(sin2_t.lt(one), fresnel(cos_i, cos_t, eta), one);
+    let r = refract(wo, normal, eta);
+    let mut direction = r.direction;
+    let reflectance = F::select(r.sin2_t.lt(one), fresnel(r.cos_i, r.cos_t, eta), one);
     if s.smooth.any() {
         // A refracted ray that would stay on the viewer's side takes the geometric normal.
         let wrong = s.smooth & c(-1e-3).lt(direction.dot(s.ng));
-        let (geometric, _, _, geometric_sin2) = refract(s.ng);
-        direction = V3::select(wrong & geometric_sin2.lt(one), geometric, direction);
+        let geometric = refract(wo, s.ng, eta);
+        direction = V3::select(wrong & geometric.sin2_t.lt(one), geometric.direction, direction);
     }
     let refracted = reflectance.le(lobe) & direction.dot(s.ng).lt(c(0.0));
     DielectricSample {
@@ -211,6 +204,25 @@ pub fn sample_dielectric<F: Lanes>(s: &Surface<F>, wo: V3<F>, ior: F, lobe: F) -
         refracted,
         eta2: F::select(refracted, eta * eta, one),
     }
+}
+
+/// wo refracted in a plane; where sin2_t reaches 1, all is reflected and `direction` means nothing.
+#[derive(Clone, Copy)]
+struct Refraction<F: Lanes> {
+    direction: V3<F>,
+    cos_i: F,
+    cos_t: F,
+    sin2_t: F,
+}
+
+/// Snell's law; `eta` = n_incident / n_transmitted.
+#[inline(always)]
+fn refract<F: Lanes>(wo: V3<F>, n: V3<F>, eta: F) -> Refraction<F> {
+    let (zero, one) = (F::splat(0.0), F::splat(1.0));
+    let cos_i = wo.dot(n);
+    let sin2_t = eta * eta * (one - cos_i * cos_i).max(zero);
+    let cos_t = (one - sin2_t).max(zero).sqrt();
+    Refraction { direction: n.mad(eta * cos_i - cos_t, wo.scale(-eta)), cos_i, cos_t, sin2_t }
 }
 
 /// Fresnel reflectance of unpolarised light; `eta` = n_incident / n_transmitted.

@@ -116,27 +116,45 @@ fn gather_indices<F: Lanes>(indices: &[[u32; 3]], triangle: F::U) -> [F::U; 3] {
     [F::U::gather(table, i), F::U::gather(table, i + one), F::U::gather(table, i + one + one)]
 }
 
+/// The axes in the order that makes the ray's largest one the last.
+#[derive(Clone, Copy)]
+struct AxisOrder<F: Lanes> {
+    z_largest: F::M,
+    y_largest: F::M,
+}
+
+impl<F: Lanes> AxisOrder<F> {
+    #[inline(always)]
+    fn of(d: V3<F>) -> Self {
+        let (ax, ay, az) = (d.0.abs(), d.1.abs(), d.2.abs());
+        let z_largest = ay.le(az) & ax.le(az);
+        AxisOrder { z_largest, y_largest: !z_largest & ax.le(ay) }
+    }
+    #[inline(always)]
+    fn pick(&self, x: F, y: F, z: F) -> F {
+        F::select(self.z_largest, z, F::select(self.y_largest, y, x))
+    }
+    /// v with its axes turned (an even permutation).
+    #[inline(always)]
+    fn turn(&self, v: V3<F>) -> V3<F> {
+        V3(self.pick(v.1, v.2, v.0), self.pick(v.2, v.0, v.1), self.pick(v.0, v.1, v.2))
+    }
+}
+
 /// Barycentric coordinates of the ray in the triangle: the edge functions of the watertight test (Woop, Benthin, Wald 2013) with
 /// the shear along the ray's largest axis, clamped into the triangle.
 #[inline(always)]
 fn barycentrics<F: Lanes>(origin: V3<F>, direction: V3<F>, corners: [V3<F>; 3]) -> [F; 3] {
     let c = F::splat;
-    let d = direction;
-    let (ax, ay, az) = (d.0.abs(), d.1.abs(), d.2.abs());
-    let z_largest = ay.le(az) & ax.le(az);
-    let y_largest = !z_largest & ax.le(ay);
-    let pick = |x: F, y: F, z: F| F::select(z_largest, z, F::select(y_largest, y, x));
-    let dz = pick(d.0, d.1, d.2);
-    let shear_x = pick(d.1, d.2, d.0) / dz;
-    let shear_y = pick(d.2, d.0, d.1) / dz;
-    let sheared = |v: V3<F>| {
-        let v = v.sub(origin);
-        let z = pick(v.0, v.1, v.2);
-        (z.fnma(shear_x, pick(v.1, v.2, v.0)), z.fnma(shear_y, pick(v.2, v.0, v.1)))
-    };
-    let (x0, y0) = sheared(corners[0]);
-    let (x1, y1) = sheared(corners[1]);
-    let (x2, y2) = sheared(corners[2]);
+    let order = AxisOrder::of(direction);
+    let d = order.turn(direction);
+    let (shear_x, shear_y) = (d.0 / d.2, d.1 / d.2);
+    let v0 = order.turn(corners[0].sub(origin));
+    let v1 = order.turn(corners[1].sub(origin));
+    let v2 = order.turn(corners[2].sub(origin));
+    let (x0, y0) = (v0.2.fnma(shear_x, v0.0), v0.2.fnma(shear_y, v0.1));
+    let (x1, y1) = (v1.2.fnma(shear_x, v1.0), v1.2.fnma(shear_y, v1.1));
+    let (x2, y2) = (v2.2.fnma(shear_x, v2.0), v2.2.fnma(shear_y, v2.1));
     let e0 = x2 * y1 - y2 * x1;
     let e1 = x0 * y2 - y0 * x2;
     let e2 = x1 * y0 - y1 * x0;
@@ -181,8 +199,8 @@ fn on_triangles<F: Lanes>(
     let b = barycentrics(origin, direction, corner);
     let p = corner[0].scale(b[0]).add(corner[1].scale(b[1])).add(corner[2].scale(b[2]));
     // pbrt 4, 6.8.4: |error| <= gamma(7) (|b0 v0| + |b1 v1| + |b2 v2|) per axis, gamma(n) = n e/(1 - n e), e = 2^-24.
-    let magnitude = |k: usize| V3((corner[k].0 * b[k]).abs(), (corner[k].1 * b[k]).abs(), (corner[k].2 * b[k]).abs());
-    let error = magnitude(0).add(magnitude(1)).add(magnitude(2)).scale(c(7.0 * 5.960_465e-8));
+    let magnitude = corner[0].abs().scale(b[0]).add(corner[1].abs().scale(b[1])).add(corner[2].abs().scale(b[2]));
+    let error = magnitude.scale(c(7.0 * 5.960_465e-8));
     let edge_normal = corner[1].sub(corner[0]).cross(corner[2].sub(corner[0]));
     let n = V3::select(mirrored, edge_normal.neg(), edge_normal).normalise();
     let outside = n.dot(direction).lt(zero);
@@ -264,23 +282,25 @@ impl<F: Lanes> Placement<F> {
             return Placement { rows: [zero, zero, zero], translation: zero };
         }
         let i = instance * F::U::splat(12);
-        let entry = |k: u32| F::gather(matrices, i + F::U::splat(k));
+        let (four, three) = (F::U::splat(4), F::U::splat(3));
+        let row = [i, i + four, i + four + four];
         Placement {
-            rows: [
-                V3(entry(0), entry(1), entry(2)),
-                V3(entry(4), entry(5), entry(6)),
-                V3(entry(8), entry(9), entry(10)),
-            ],
-            translation: V3(entry(3), entry(7), entry(11)),
+            rows: [V3::gather_at(matrices, row[0]), V3::gather_at(matrices, row[1]), V3::gather_at(matrices, row[2])],
+            translation: V3(
+                F::gather(matrices, row[0] + three),
+                F::gather(matrices, row[1] + three),
+                F::gather(matrices, row[2] + three),
+            ),
         }
     }
     #[inline(always)]
     fn point(&self, p: V3<F>) -> V3<F> {
-        let row = |r: V3<F>, t: F| r.2.fma(p.2, r.1.fma(p.1, r.0.fma(p.0, t)));
+        let [a, b, c] = self.rows;
+        let t = self.translation;
         V3(
-            row(self.rows[0], self.translation.0),
-            row(self.rows[1], self.translation.1),
-            row(self.rows[2], self.translation.2),
+            a.2.fma(p.2, a.1.fma(p.1, a.0.fma(p.0, t.0))),
+            b.2.fma(p.2, b.1.fma(p.1, b.0.fma(p.0, t.1))),
+            c.2.fma(p.2, c.1.fma(p.1, c.0.fma(p.0, t.2))),
         )
     }
     #[inline(always)]

@@ -20,15 +20,26 @@ pub fn texture_color<F: Lanes>(table: &TextureTable, id: F::U, u: F, v: F, mask:
     let (x, y) = (u, c(1.0) - v);
     let (x0, x1, fx) = axis(x, width, wrap, nearest);
     let (y0, y1, fy) = axis(y, height, wrap, nearest);
-    let texel = |x: F::U, y: F::U| fetch::<F>(table, id, y * width + x, mask);
-    let top_left = texel(x0, y0);
+    let (row0, row1) = (y0 * width, y1 * width);
+    let top_left = fetch::<F>(table, id, row0 + x0, mask);
     if (nearest | !mask).bits() == F::first(F::N).bits() {
         return top_left;
     }
-    let mix = |a: V3<F>, b: V3<F>, f: F| b.sub(a).mad(f, a);
-    let top = mix(top_left, texel(x1, y0), fx);
-    let bottom = mix(texel(x0, y1), texel(x1, y1), fx);
+    let top = mix(top_left, fetch::<F>(table, id, row0 + x1, mask), fx);
+    let bottom = mix(fetch::<F>(table, id, row1 + x0, mask), fetch::<F>(table, id, row1 + x1, mask), fx);
     mix(top, bottom, fy)
+}
+
+/// a (1 - f) + b f.
+#[inline(always)]
+fn mix<F: Lanes>(a: V3<F>, b: V3<F>, f: F) -> V3<F> {
+    b.sub(a).mad(f, a)
+}
+
+/// Linear light of the lowest byte of each word.
+#[inline(always)]
+fn decode<F: Lanes>(word: F::U) -> F {
+    F::gather(&*SRGB_TO_LINEAR, word & F::U::splat(0xff))
 }
 
 /// The two texels along an axis and the weight of the second. Texel k covers [k, k + 1)/n, its centre is (k + 1/2)/n.
@@ -79,14 +90,18 @@ fn fetch<F: Lanes>(table: &TextureTable, id: F::U, texel: F::U, mask: F::M) -> V
     let mut color = V3::<F>::zero();
     if narrow.any() {
         let word = F::U::gather(&table.words, F::U::select(narrow, offset + texel, F::U::splat(0)));
-        let byte = F::U::splat(0xff);
-        let decode = |w: F::U| F::gather(&*SRGB_TO_LINEAR, w & byte);
-        color = V3::select(narrow, V3(decode(word), decode(word.shr::<8>()), decode(word.shr::<16>())), color);
+        let texel = V3(decode::<F>(word), decode::<F>(word.shr::<8>()), decode::<F>(word.shr::<16>()));
+        color = V3::select(narrow, texel, color);
     }
     if wide.any() {
         let i = F::U::select(wide, offset + texel * F::U::splat(3), F::U::splat(0));
-        let word = |k: u32| F::from_bits(F::U::gather(&table.words, i + F::U::splat(k)));
-        color = V3::select(wide, V3(word(0), word(1), word(2)), color);
+        let one = F::U::splat(1);
+        let texel = V3(
+            F::from_bits(F::U::gather(&table.words, i)),
+            F::from_bits(F::U::gather(&table.words, i + one)),
+            F::from_bits(F::U::gather(&table.words, i + one + one)),
+        );
+        color = V3::select(wide, texel, color);
     }
     color
 }

@@ -206,10 +206,7 @@ fn says_nothing(cursor: &mut Cursor) -> bool {
 }
 
 fn number(cursor: &mut Cursor, expected: &str) -> Result<f64, Box<Fault>> {
-    cursor.number().map_err(|mut fault| {
-        fault.expected = expected.to_owned();
-        fault
-    })
+    cursor.number().map_err(|fault| fault.expecting(expected))
 }
 
 fn parse_number(cursor: &mut Cursor) -> Result<f64, Box<Fault>> {

@@ -227,6 +227,3 @@ fn clipped(statement: &str, color: Color, notes: &mut Notes) -> Color {
     }
     color.map(|part| part.clamp(0.0, 1.0))
 }
-
-#[cfg(test)]
-mod tests;

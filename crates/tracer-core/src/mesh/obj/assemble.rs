@@ -106,9 +106,13 @@ impl<'a> Assembly<'a> {
             any_normal: self.pieces.iter().any(|piece| !piece.normal_corners.is_empty()),
             any_zero_normal: normals.par_iter().any(|&normal| normal == [0.0; 3]),
         };
-        let parts: Vec<Result<Triangles, BadFace>> = (&self.pieces, &self.before, &runs)
+        let parts: Vec<Result<Triangles, BadFace>> = (&mut self.pieces, &self.before, &runs)
             .into_par_iter()
-            .map(|(piece, &before, runs)| lookup.triangulate(piece, before, runs))
+            .map(|(piece, &before, runs)| {
+                let triangles = lookup.triangulate(piece, before, runs);
+                piece.forget_faces();
+                triangles
+            })
             .collect();
         if !lookup.any_uv {
             oddities.add_many(Oddity::UnusedUvs, self.total.uvs as u64);
@@ -283,6 +287,11 @@ impl Lookup<'_> {
                 out.materials.extend(material);
             }
         }
+        // All pieces' triangles are kept until they are joined.
+        out.positions.shrink_to_fit();
+        out.uvs.shrink_to_fit();
+        out.normals.shrink_to_fit();
+        out.materials.shrink_to_fit();
         Ok(out)
     }
 

@@ -92,12 +92,26 @@ impl<'a> Piece<'a> {
             fault.at += range.start;
             piece.fault = Some(fault);
         }
+        // What grew by doubling is kept until all pieces are joined.
+        piece.positions.shrink_to_fit();
+        piece.uvs.shrink_to_fit();
+        piece.normals.shrink_to_fit();
+        piece.corners.shrink_to_fit();
+        piece.uv_corners.shrink_to_fit();
+        piece.normal_corners.shrink_to_fit();
         piece
+    }
+
+    /// Gives back the memory of faces that have become triangles.
+    pub(super) fn forget_faces(&mut self) {
+        self.corners = Vec::new();
+        self.uv_corners = Vec::new();
+        self.normal_corners = Vec::new();
+        self.face_ends = Vec::new();
     }
 
     fn parse_statements(&mut self, cursor: &mut Cursor<'a>) -> Result<(), Box<Fault>> {
         while cursor.find_statement() {
-            let start = cursor.at();
             match cursor.word() {
                 b"v" => self.parse_vertex(cursor)?,
                 b"f" | b"fo" => self.parse_face(cursor)?,
@@ -111,12 +125,7 @@ impl<'a> Piece<'a> {
                 b"g" | b"o" | b"s" => {}
                 b"l" => self.oddities.add(Oddity::LineElement),
                 b"p" => self.oddities.add(Oddity::PointElement),
-                b"" => {
-                    // A lone backslash, or another byte that starts no word.
-                    let shown = shown(&cursor.rest()[..cursor.rest().len().min(1)]);
-                    return Err(Fault::new(start, format!("{shown} starts no statement"), "`v`, `vt`, `vn`, `f` ..."));
-                }
-                word => self.oddities.add_statement(shown(word)),
+                word => self.oddities.add_statement(word),
             }
             cursor.skip_statement();
         }
@@ -124,7 +133,7 @@ impl<'a> Piece<'a> {
     }
 
     fn parse_vertex(&mut self, cursor: &mut Cursor) -> Result<(), Box<Fault>> {
-        let position = cursor.position().map_err(|fault| expecting(fault, VERTEX))?;
+        let position = cursor.position().map_err(|fault| fault.expecting(VERTEX))?;
         self.positions.push(position);
         cursor.skip_blanks();
         if !cursor.is_at_end_of_statement() {
@@ -141,7 +150,7 @@ impl<'a> Piece<'a> {
             let Some(number) = numbers.get_mut(count) else {
                 return Err(too_much(cursor, VERTEX));
             };
-            *number = cursor.number().map_err(|fault| expecting(fault, VERTEX))?;
+            *number = cursor.number().map_err(|fault| fault.expecting(VERTEX))?;
             count += 1;
             cursor.skip_blanks();
         }
@@ -168,7 +177,7 @@ impl<'a> Piece<'a> {
             let Some(number) = numbers.get_mut(count) else {
                 return Err(too_much(cursor, UV));
             };
-            *number = cursor.number().map_err(|fault| expecting(fault, UV))? as f32;
+            *number = cursor.number().map_err(|fault| fault.expecting(UV))? as f32;
             if !number.is_finite() {
                 return Err(Fault::new(start, "a texture coordinate is too large", "at most 3.4e38"));
             }
@@ -181,7 +190,7 @@ impl<'a> Piece<'a> {
         let mut normal = [0.0; 3];
         for part in &mut normal {
             cursor.skip_blanks();
-            *part = cursor.number().map_err(|fault| expecting(fault, NORMAL))?;
+            *part = cursor.number().map_err(|fault| fault.expecting(NORMAL))?;
         }
         cursor.skip_blanks();
         if !cursor.is_at_end_of_statement() {
@@ -266,13 +275,6 @@ impl<'a> Piece<'a> {
 pub(super) struct FoundCorner<'a> {
     pub(super) at: usize,
     pub(super) word: &'a [u8],
-}
-
-fn expecting(mut fault: Box<Fault>, expected: &str) -> Box<Fault> {
-    if fault.expected.is_empty() {
-        fault.expected = expected.to_owned();
-    }
-    fault
 }
 
 #[cold]

@@ -1,0 +1,347 @@
+//! The codes of all diagnostics: stable names, what each means, and how to mend it.
+//!
+//! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never changes its
+//! meaning and is never given twice.
+
+/// A code with its documentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Code {
+    /// `E0301`
+    pub code: &'static str,
+    /// What is wrong, in general.
+    pub title: &'static str,
+    /// Why it is wrong and how to mend it; Markdown, with an example of the fault where one helps.
+    pub text: &'static str,
+}
+
+macro_rules! codes {
+    ($( $(#[doc = $doc:literal])+ $NAME:ident $code:literal $title:literal; )+) => {
+        $(
+            #[doc = concat!($code, ": ", $title, ".\n")]
+            $(#[doc = $doc])+
+            pub const $NAME: &str = $code;
+        )+
+
+        /// All codes in order.
+        pub const CODES: &[Code] = &[
+            $( Code { code: $code, title: $title, text: concat!($($doc, "\n"),+) }, )+
+        ];
+    };
+}
+
+/// The explanation of a code, for `tracer explain`; letters may be small. `None`: there is no such code.
+pub fn explain(code: &str) -> Option<&'static str> {
+    find(code).map(|found| found.text)
+}
+
+/// The entry of a code.
+pub fn find(code: &str) -> Option<&'static Code> {
+    CODES.iter().find(|known| known.code.eq_ignore_ascii_case(code.trim()))
+}
+
+codes! {
+    /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign of the
+    /// other syntax (`#` in RON, `//` in TOML), typographic quotes, or round brackets in TOML.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: “0”, radius: 1)])
+    /// ```
+    UNEXPECTED_CHARACTER "E0101" "a character that means nothing here";
+    /// A `(`, `[` or `{` has no closing partner. The mark stands at the bracket that was opened, the second mark where it was
+    /// noticed: the missing bracket belongs somewhere between the two.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)]
+    /// ```
+    UNCLOSED_BRACKET "E0102" "a bracket is never closed";
+    /// A closing bracket has no partner, or closes a bracket of another kind.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0], radius: 1)])
+    /// ```
+    STRAY_BRACKET "E0103" "a closing bracket does not match";
+    /// Two values stand side by side. Values in brackets are parted by commas; a comma after the last one is allowed.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0) radius: 1)])
+    /// ```
+    MISSING_COMMA "E0104" "a comma is missing";
+    /// A name and its value are joined by `:` in RON and by `=` in TOML.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center = (0, 0, 0), radius: 1)])
+    /// ```
+    MISSING_COLON "E0105" "name and value are not joined";
+    /// A value should stand here: after a name, or between two commas.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: )])
+    /// ```
+    MISSING_VALUE "E0106" "a value is missing";
+    /// A text or a comment begins and does not end. Texts end on the line they begin on.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1, material: "red)])
+    /// ```
+    UNCLOSED_TEXT "E0107" "a text is never closed";
+    /// After a backslash only a few letters mean something. A backslash itself is written `\\`; in paths write `/`, it works on
+    /// every system.
+    ///
+    /// ```ron
+    /// Scene(objects: [Mesh(file: "models\cat.obj")])
+    /// ```
+    BAD_ESCAPE "E0108" "an escape that means nothing";
+    /// What begins like a number is none: two decimal points, a unit, a comma as decimal point.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1.5.2)])
+    /// ```
+    BAD_NUMBER "E0109" "a number is malformed";
+    /// Brackets stand inside brackets more than 128 deep. No scene needs that.
+    TOO_DEEP "E0110" "brackets too deep";
+    /// Names of materials stand between quotes: `{ "white": Diffuse() }`. In TOML a name of other characters than letters, digits,
+    /// `_` and `-` needs them.
+    ///
+    /// ```ron
+    /// Scene(materials: { red: Diffuse() }, objects: [Sphere(center: (0, 0, 0), radius: 1, material: "red")])
+    /// ```
+    KEY_NOT_QUOTED "E0111" "a name is not between quotes";
+    /// The scene (or, in TOML, the line) was complete, and something follows.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)]) Scene()
+    /// ```
+    TEXT_AFTER_END "E0112" "text after the end";
+    /// Scene files are UTF-8 text. The message says at which byte it stops being that; an editor can save the file as UTF-8.
+    NOT_UTF8 "E0113" "the file is not UTF-8";
+    /// Scene files may have 1 GiB. A scene of that size is better written with placements files beside it.
+    TOO_LARGE "E0114" "the file is too large";
+    /// `#![enable(..)]` names an extension of RON that scenes do not know. A scene needs none: remove the line.
+    ///
+    /// ```ron
+    /// #![enable(unwrap_everything)]
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UNKNOWN_EXTENSION "E0115" "an unknown RON extension";
+    /// In one pair of brackets either every value has a name or none has.
+    ///
+    /// ```ron
+    /// Scene(objects: [name: 1])
+    /// ```
+    MIXED_FIELDS "E0116" "named and unnamed values mixed";
+    /// Two headers of a TOML file contradict each other.
+    ///
+    /// ```toml
+    /// [camera]
+    /// fov = 40
+    /// [camera]
+    /// fov = 50
+    /// ```
+    TABLE_CONFLICT "E0117" "a TOML table is written twice";
+    /// In TOML every word is a text and stands between quotes, but for `true` and `false`.
+    ///
+    /// ```toml
+    /// [render]
+    /// acceleration = Bvh
+    /// ```
+    WORD_NOT_QUOTED "E0118" "a word is not between quotes";
+    /// A value has no name where its neighbours have one, or a header or point has no name beside it.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), 1)])
+    /// ```
+    MISSING_NAME "E0119" "a name is missing";
+    /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
+    TOO_MANY "E0120" "too many faults";
+
+    /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
+    /// typo.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radus: 1)])
+    /// ```
+    UNKNOWN_FIELD "E0201" "an unknown field";
+    /// A field without a default is not written.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0))])
+    /// ```
+    MISSING_FIELD "E0202" "a field is missing";
+    /// A value of another kind is needed: a number, a text, a vector ...
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: "big")])
+    /// ```
+    WRONG_TYPE "E0203" "a value of the wrong kind";
+    /// A name before brackets, or a bare word, is none of those that are possible here.
+    ///
+    /// ```ron
+    /// Scene(objects: [Ball(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UNKNOWN_VARIANT "E0204" "an unknown kind";
+    /// A field is written twice; nobody could tell which one counts.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1, radius: 2)])
+    /// ```
+    DUPLICATE_FIELD "E0205" "a field is written twice";
+    /// A vector has three numbers; a colour has three, or one for grey.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0), radius: 1)])
+    /// ```
+    WRONG_COUNT "E0206" "the wrong number of values";
+    /// A scene without objects is a picture of nothing. One sphere is enough.
+    ///
+    /// ```ron
+    /// Scene(objects: [])
+    /// ```
+    NO_OBJECTS "E0207" "the scene has no objects";
+    /// The scene is written for a newer version of the language than this program knows. Nothing else is said about it, since the
+    /// rest may mean something else there.
+    ///
+    /// ```ron
+    /// Scene(version: 2, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    NEWER_VERSION "E0208" "a newer version of the language";
+    /// The strength of a light is written in one of three ways, and here in several or in none.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     lights: [SphereLight(center: (0, 5, 0), radius: 1, intensity: 10, power: 100)],
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    EXACTLY_ONE "E0209" "exactly one of several fields";
+    /// `include`, `vars`, `repeat` and `keyframes` are kept for later versions of the language.
+    ///
+    /// ```ron
+    /// Scene(include: "room.ron", objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    RESERVED_WORD "E0210" "a word that is kept for later versions";
+
+    /// A length or size must be more than zero.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: -1)])
+    /// ```
+    NOT_POSITIVE "E0301" "a value must be positive";
+    /// A quantity such as light or blur can be zero, not less.
+    ///
+    /// ```ron
+    /// Scene(background: -0.5, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    NEGATIVE "E0302" "a value must not be negative";
+    /// A value is outside the range that makes sense for it.
+    ///
+    /// ```ron
+    /// Scene(camera: Camera(fov: 180), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    OUT_OF_RANGE "E0303" "a value is out of range";
+    /// `inf`, `NaN` and numbers beyond 1.8e308 are no positions, sizes or colours.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, NaN, 0), radius: 1)])
+    /// ```
+    NOT_FINITE "E0304" "a number is not finite";
+    /// A count (pixels, samples, bounces) is a whole number.
+    ///
+    /// ```ron
+    /// Scene(image: Image(width: 512.5), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    NOT_WHOLE "E0305" "a whole number is needed";
+    /// A colour as text is `"#rrggbb"`: six hexadecimal digits, sRGB.
+    ///
+    /// ```ron
+    /// Scene(background: "blue", objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    BAD_COLOR "E0306" "a colour that cannot be read";
+    /// A direction or an axis of length zero points nowhere.
+    ///
+    /// ```ron
+    /// Scene(objects: [Mesh(file: "cat.obj", transform: [Rotate(axis: (0, 0, 0), degrees: 90)])])
+    /// ```
+    ZERO_DIRECTION "E0307" "a direction of length zero";
+    /// The camera stands at the very point it looks at, so it has no direction.
+    ///
+    /// ```ron
+    /// Scene(camera: Camera(position: (0, 0, 0), look_at: (0, 0, 0)), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    CAMERA_IN_TARGET "E0308" "the camera looks at its own position";
+    /// The camera looks along its `up` direction, so that nothing says which way up the picture is.
+    ///
+    /// ```ron
+    /// Scene(camera: Camera(position: (0, 9, 0), look_at: (0, 0, 0)), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UP_ALONG_VIEW "E0309" "up is parallel to the view";
+    /// A name or a path is an empty text.
+    ///
+    /// ```ron
+    /// Scene(objects: [Mesh(file: "")])
+    /// ```
+    EMPTY_TEXT "E0310" "an empty text";
+
+    /// An object names a material that `materials` does not have.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1, material: "gold")])
+    /// ```
+    UNKNOWN_MATERIAL "E0401" "an unknown material";
+    /// Two materials have the same name; nobody could tell which one is meant.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     materials: { "red": Diffuse(), "red": Mirror() },
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1, material: "red")],
+    /// )
+    /// ```
+    DUPLICATE_NAME "E0402" "a name is given twice";
+    /// The argument of `--set` names no field of the scene: `--set camera.fow=40`.
+    BAD_SET_PATH "E0403" "--set names no field";
+    /// The argument of `--set` is not of the form `path=value`, as in `--set camera.fov=40` or
+    /// `--set 'materials.glass=Transparent(ior: 1.6)'`. The value is written in RON.
+    BAD_SET_SYNTAX "E0404" "--set is not of the form path=value";
+    /// The number in brackets in a `--set` path is beyond the end of the list: lists count from 0.
+    BAD_SET_INDEX "E0405" "--set counts beyond the end of a list";
+
+    /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
+    FILE_NOT_FOUND "E0501" "a file is not there";
+    /// A file is there but cannot be read: a folder, or no permission.
+    FILE_UNREADABLE "E0502" "a file cannot be read";
+    /// A mesh file breaks the rules of its format (OBJ or OFF). The message says where in the file and what was expected.
+    BROKEN_MESH "E0510" "a mesh file is broken";
+    /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
+    /// exported with faces.
+    EMPTY_MESH "E0511" "a mesh has no triangles";
+    /// A picture file cannot be decoded as PNG or JPEG.
+    BROKEN_TEXTURE "E0520" "a texture cannot be read";
+    /// A line of a placements file is not what it should be.
+    BROKEN_PLACEMENTS "E0530" "a placements file is broken";
+    /// A transform squeezes a mesh to nothing: a scale of zero, or a chain of steps that comes to it.
+    ///
+    /// ```ron
+    /// Scene(objects: [Mesh(file: "cat.obj", transform: [Scale(0)])])
+    /// ```
+    SINGULAR_TRANSFORM "E0540" "a transform that cannot be undone";
+
+    /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    BLACK_PICTURE "W0301" "the picture will be black";
+    /// A material has a name that no object uses. Remove it, or use it.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     background: 1,
+    ///     materials: { "red": Diffuse() },
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    UNUSED_MATERIAL "W0401" "a material is not used";
+    /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are counted.
+    MESH_ODDITIES "W0510" "oddities in a mesh";
+    /// A material file (MTL) says things that this renderer cannot do.
+    MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
+}

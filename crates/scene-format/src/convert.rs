@@ -1,0 +1,217 @@
+//! From one syntax to the other on the tree, so that comments, the order of fields and the form of values stay as the person
+//! wrote them.
+
+use crate::desc::Scene;
+use crate::form::{Entry, Form};
+use crate::load::{LoadError, load_str, parse};
+use crate::print;
+use crate::schema::{Content, EnumDef, StructDef, Type, fits};
+use crate::syntax::{Sink, Syntax};
+use crate::tree::{Item, Kind, Tree};
+use crate::words::Words;
+use std::path::Path;
+
+/// Writes a scene in another syntax (or tidies it up in the same one). `name` is shown in diagnostics.
+///
+/// # Errors
+/// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write.
+pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, LoadError> {
+    load_str(name, text, from, Path::new(""), &[])?;
+    let mut sink = Sink::default();
+    let tree = parse(text, from, &mut sink);
+    let Some(root) = tree.root() else { return Ok(String::new()) };
+    let mut converter = Converter { tree: &tree, next_comment: 0, to };
+    // What stands before a RON scene is the file's; in TOML it belongs to the first line.
+    let before = match from {
+        Syntax::Ron => converter.comments_before(root.span().start),
+        Syntax::Toml => converter.comments_of_the_file(),
+    };
+    let form = converter.form(root, Scene::TYPE);
+    let after = converter.comments_before(u32::MAX);
+    Ok(match to {
+        Syntax::Ron => print::ron(&form, &before, &after),
+        Syntax::Toml => print::toml(&form, &before, &after),
+    })
+}
+
+struct Converter<'t, 's> {
+    tree: &'t Tree<'s>,
+    next_comment: usize,
+    to: Syntax,
+}
+
+impl Converter<'_, '_> {
+    fn text(&self) -> &str {
+        self.tree.texts.first().map_or("", |text| text.text)
+    }
+
+    /// Comments that stand before a byte and have not been taken yet.
+    fn comments_before(&mut self, byte: u32) -> Vec<String> {
+        let mut taken = Vec::new();
+        while let Some(span) = self.tree.comments.get(self.next_comment)
+            && span.start < byte
+        {
+            let text = self.text().get(span.start as usize..span.end as usize).unwrap_or("");
+            taken.extend(comment_lines(text));
+            self.next_comment += 1;
+        }
+        taken
+    }
+
+    /// Comments at the head of a TOML file that an empty line parts from the first entry.
+    fn comments_of_the_file(&mut self) -> Vec<String> {
+        let text = self.text();
+        let head = text.len() - text.trim_start_matches('\u{feff}').trim_start().len();
+        let mut end = head;
+        for line in text[head..].split_inclusive('\n') {
+            match line.trim() {
+                "" => return self.comments_before(end as u32),
+                line if line.starts_with('#') => {}
+                _ => break,
+            }
+            end += line.len();
+        }
+        Vec::new()
+    }
+
+    /// A comment on the same line, with nothing but a comma between.
+    fn comment_after(&mut self, end: u32) -> Option<String> {
+        let span = *self.tree.comments.get(self.next_comment)?;
+        let text = self.text();
+        let between = text.get(end as usize..span.start as usize)?;
+        if between.bytes().any(|byte| !matches!(byte, b' ' | b'\t' | b',')) {
+            return None;
+        }
+        let lines = comment_lines(text.get(span.start as usize..span.end as usize)?);
+        let [line] = lines.as_slice() else { return None };
+        self.next_comment += 1;
+        Some(line.clone())
+    }
+
+    /// An entry with its comments.
+    fn entry(&mut self, name: String, start: u32, item: Item<'_, '_>, kind: Type) -> Entry {
+        let before = self.comments_before(start);
+        let end = item.span().end;
+        // The fields of a TOML table follow after its header has ended.
+        let header = item.children().next().is_some_and(|child| child.span().start >= end);
+        let early = if header { self.comment_after(end) } else { None };
+        let value = self.form(item, kind);
+        let after = if header { early } else { self.comment_after(end) };
+        Entry { name, value, before, after }
+    }
+
+    fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {
+        match kind {
+            Type::Bool => Form::Bool(item.lexeme() == "true"),
+            Type::Number | Type::Integer => Form::Lexeme(self.number(item)),
+            Type::Text | Type::File => Form::Text(item.text().into_owned()),
+            Type::Vector => self.vector(item),
+            Type::Color => match item.kind() {
+                Kind::Text => Form::Text(item.text().into_owned()),
+                Kind::List | Kind::Tuple => self.vector(item),
+                _ => Form::Lexeme(self.number(item)),
+            },
+            Type::List(inner) => Form::List(
+                item.children().map(|child| self.entry(String::new(), child.span().start, child, *inner)).collect(),
+            ),
+            Type::Map(inner) => Form::Map(
+                item.fields()
+                    .map(|(key, value)| self.entry(key.text().into_owned(), key.span().start, value, *inner))
+                    .collect(),
+            ),
+            Type::Struct(def) => self.fields(item, def),
+            Type::Enum(def) => self.variant(item, def),
+            Type::Optional(inner) => {
+                if item.is_word("None") {
+                    Form::word("None")
+                } else {
+                    self.form(item.without_some(), *inner)
+                }
+            }
+            Type::OneOf(kinds) => {
+                let item = item.without_some();
+                match kinds.iter().find(|kind| fits(item, kind)) {
+                    Some(kind) => self.form(item, *kind),
+                    None => Form::Absent,
+                }
+            }
+        }
+    }
+
+    fn vector(&self, item: Item<'_, '_>) -> Form {
+        Form::Vector(item.children().map(|child| Form::Lexeme(self.number(child))).collect())
+    }
+
+    /// A number as it was written, or the same number where the other syntax does not know the form.
+    fn number(&self, item: Item<'_, '_>) -> String {
+        let lexeme = item.lexeme();
+        if self.to == Syntax::Toml && item.syntax() == Syntax::Ron && !crate::syntax::is_toml_number(lexeme) {
+            return print::number(item.number().unwrap_or(0.0));
+        }
+        if self.to == Syntax::Ron { lexeme.trim_start_matches('+').to_owned() } else { lexeme.to_owned() }
+    }
+
+    fn fields(&mut self, item: Item<'_, '_>, def: &'static StructDef) -> Form {
+        let fields = item
+            .fields()
+            .filter_map(|(key, value)| {
+                let field = def.field(&key.text())?;
+                Some(self.entry(field.name.to_owned(), key.span().start, value, field.kind))
+            })
+            .collect();
+        Form::Struct { name: def.name, fields }
+    }
+
+    fn variant(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Form {
+        let item = item.without_some();
+        let (name, body) = match item.kind() {
+            Kind::Struct | Kind::Tuple => (item.name().unwrap_or_default().into(), Some(item)),
+            Kind::Map => match item.fields().next() {
+                Some((key, value)) => (key.text(), Some(value)),
+                None => ("".into(), None),
+            },
+            _ => (item.text(), None),
+        };
+        let Some(variant) = def.variant(&name) else { return Form::Absent };
+        let content = match (&variant.content, body) {
+            (Content::Struct(fields), Some(body)) => {
+                let bare = fields.bare.and_then(|bare| fields.field(bare));
+                // Scale(2), { Scale = 2 }: the value without the name of its field.
+                let unnamed = match (body.kind(), item.kind()) {
+                    (Kind::Struct | Kind::Map, _) => None,
+                    (Kind::Tuple, Kind::Tuple) => body.children().next(),
+                    _ => Some(body),
+                };
+                match (bare, unnamed) {
+                    (Some(field), Some(value)) => Some(self.form(value, field.kind)),
+                    _ => Some(self.fields(body, fields)),
+                }
+            }
+            (Content::Value(at), Some(body)) => {
+                let value = if item.kind() == Kind::Map { Some(body) } else { body.children().next() };
+                value.map(|value| self.form(value, at.kind))
+            }
+            _ => None,
+        };
+        Form::Variant { name: variant.name, content: content.map(Box::new) }
+    }
+}
+
+/// The lines of a comment without its signs.
+fn comment_lines(comment: &str) -> Vec<String> {
+    if let Some(block) = comment.strip_prefix("/*") {
+        let block = block.strip_suffix("*/").unwrap_or(block);
+        let lines = block.lines().map(|line| printable(line.trim().trim_start_matches('*').trim()));
+        let lines: Vec<String> = lines.collect();
+        let first = lines.iter().position(|line| !line.is_empty()).unwrap_or(0);
+        let last = lines.iter().rposition(|line| !line.is_empty()).map_or(first, |last| last + 1);
+        return lines[first..last].to_vec();
+    }
+    let text = comment.strip_prefix("//").or_else(|| comment.strip_prefix('#')).unwrap_or(comment);
+    vec![printable(text.strip_prefix(' ').unwrap_or(text).trim_end())]
+}
+
+/// A comment without the control characters that TOML does not allow in one.
+fn printable(comment: &str) -> String {
+    comment.chars().map(|c| if c.is_control() && c != '\t' { ' ' } else { c }).collect()
+}

@@ -1,0 +1,184 @@
+//! Materials and textures.
+
+use super::Color;
+use crate::diagnostic::Spanned;
+use crate::form::{Entry, Form};
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::{Item, Kind};
+use crate::words::{Words, scene_enum, scene_struct, scene_words};
+use std::path::PathBuf;
+
+/// A material with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedMaterial {
+    /// The name.
+    pub name: Spanned<String>,
+    /// The material.
+    pub material: Material,
+}
+
+scene_enum! {
+    /// How a surface scatters light.
+    pub enum Material, "material" {
+        /// Lambert: albedo / pi.
+        Diffuse as "a diffuse material" {
+            /// Reflected share per channel.
+            albedo: Albedo = Albedo::default() => Rule::share();
+        };
+        /// A perfect mirror.
+        Mirror as "a mirror" {
+            /// Reflected share per channel.
+            reflectance: Spanned<Color> = [1.0; 3] => Rule::share();
+        };
+        /// A smooth dielectric: exact Fresnel reflection and refraction.
+        Transparent as "a transparent material" {
+            /// Index of refraction of the inside against the outside.
+            ior: Spanned<f64> => Rule::within("an index of refraction", 1.0, 100.0);
+            /// Share of refracted light that passes each surface, per channel.
+            transmittance: Spanned<Color> = [1.0; 3] => Rule::share();
+        };
+        /// Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
+        BlinnPhong as "a Blinn-Phong material" {
+            /// Colour of both lobes.
+            albedo: Albedo = Albedo::default() => Rule::share();
+            /// alpha: 1 is dull, 100000 nearly a mirror.
+            exponent: Spanned<f64> => Rule::within("a number", 0.0, 10_000_000.0);
+            /// s: share of the glossy lobe, 0 to 1.
+            specular: Spanned<f64> => Rule::within("a share", 0.0, 1.0);
+            /// The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
+            energy_conserving: bool = false;
+        };
+    }
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Material::Diffuse { albedo: Albedo::default() }
+    }
+}
+
+/// A colour, constant or from a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Albedo {
+    /// The same everywhere.
+    Color(Spanned<Color>),
+    /// From a picture.
+    Texture(Texture),
+}
+
+impl Default for Albedo {
+    fn default() -> Self {
+        Albedo::Color([0.8; 3].into())
+    }
+}
+
+scene_enum! {
+    /// A colour that comes from a picture.
+    pub(crate) enum Pattern, "texture" {
+        /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
+        Texture(Texture);
+    }
+}
+
+impl Words for Albedo {
+    const TYPE: Type = Type::OneOf(&[Type::Color, Pattern::TYPE]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
+            let Pattern::Texture(texture) = Pattern::read(reader, item, at)?;
+            return Some(Albedo::Texture(texture));
+        }
+        <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        match self {
+            Albedo::Color(color) => color.form(all),
+            Albedo::Texture(texture) => Pattern::Texture(texture.clone()).form(all),
+        }
+    }
+}
+
+scene_struct! {
+    /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
+    pub struct Texture as "Texture", "a texture" {
+        /// PNG or JPEG, relative to the scene file.
+        file: Spanned<PathBuf>;
+        /// Between texels.
+        filter: TextureFilter = TextureFilter::Bilinear;
+        /// Beyond the borders.
+        wrap: TextureWrap = TextureWrap::Repeat;
+    }
+}
+
+scene_words! {
+    /// Between texels.
+    pub enum TextureFilter, "texture filter" {
+        /// Linear between the four nearest.
+        Bilinear,
+        /// The nearest texel.
+        Nearest,
+    }
+}
+
+scene_words! {
+    /// Beyond the borders.
+    pub enum TextureWrap, "texture wrap" {
+        /// Tiles.
+        Repeat,
+        /// The border texel goes on.
+        Clamp,
+        /// Tiles, every second one mirrored.
+        Mirror,
+    }
+}
+
+/// Which material an object has.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub enum MaterialRef {
+    /// None was written.
+    #[default]
+    Default,
+    /// By name.
+    Named(Spanned<String>),
+    /// Written inline.
+    Inline(Box<Spanned<Material>>),
+}
+
+impl Words for MaterialRef {
+    const TYPE: Type = Type::OneOf(&[Type::Text, Material::TYPE]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let item = item.without_some();
+        match item.kind() {
+            Kind::Text => reader.material_name(item, at).map(MaterialRef::Named),
+            Kind::Struct | Kind::Map | Kind::Tuple | Kind::Word => {
+                let material = Material::read(reader, item, at)?;
+                Some(MaterialRef::Inline(Box::new(Spanned { value: material, span: item.span() })))
+            }
+            _ => reader.wrong_type(item, at, "the name of a material, or a material written here"),
+        }
+    }
+
+    fn form(&self, all: bool) -> Form {
+        match self {
+            MaterialRef::Default => Form::Absent,
+            MaterialRef::Named(name) => Form::Text(name.value.clone()),
+            MaterialRef::Inline(material) => material.form(all),
+        }
+    }
+}
+
+/// `{ "name": material }`
+impl Words for Vec<NamedMaterial> {
+    const TYPE: Type = Type::Map(&Material::TYPE);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.materials(item, at)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        Form::Map(self.iter().map(|named| Entry::new(named.name.value.clone(), named.material.form(all))).collect())
+    }
+}

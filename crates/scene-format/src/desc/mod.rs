@@ -1,0 +1,107 @@
+//! `SceneDesc`: what the person wrote, complete (every default filled in) and valid; every item knows its position.
+//!
+//! Lengths are in the scene's own unit; angles in degrees; colours are linear RGB (sRGB primaries); radiometric values per
+//! channel. `serde` is not derived here on purpose: reading goes through the spanned tree, so that faults have positions.
+//!
+//! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones that the
+//! reader goes by and that the reference and the JSON Schema show.
+
+mod effects;
+mod light;
+mod material;
+mod object;
+mod transform;
+mod view;
+
+pub(crate) use effects::DepthOfField;
+pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
+pub use light::{Emission, Light, SphereLight};
+pub(crate) use material::Pattern;
+pub use material::{Albedo, Material, MaterialRef, NamedMaterial, Texture, TextureFilter, TextureWrap};
+pub use object::{Mesh, Object, Placements, Shading, Sphere};
+pub use transform::Transform;
+pub(crate) use transform::TransformWords;
+pub use view::{Acceleration, Camera, Image, Render};
+
+use crate::diagnostic::{Source, Spanned};
+use crate::schema::Rule;
+use crate::words::scene_struct;
+use std::path::PathBuf;
+
+/// A point or direction (x, y, z) in the scene's unit.
+pub type Vec3 = [f64; 3];
+
+/// Linear RGB.
+pub type Color = [f64; 3];
+
+/// The version of the language that this crate reads.
+pub const VERSION: u32 = 1;
+
+/// A whole scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneDesc {
+    /// Version of the language.
+    pub version: u32,
+    /// The camera.
+    pub camera: Camera,
+    /// The picture's size.
+    pub image: Image,
+    /// How to render.
+    pub render: Render,
+    /// Film and lens effects.
+    pub effects: Effects,
+    /// Radiance of everything that no object covers.
+    pub background: Color,
+    /// Lights.
+    pub lights: Vec<Spanned<Light>>,
+    /// Named materials in order of writing.
+    pub materials: Vec<NamedMaterial>,
+    /// Objects.
+    pub objects: Vec<Spanned<Object>>,
+    /// Folder that relative paths start from.
+    pub base_dir: PathBuf,
+    /// The texts that spans point into.
+    pub sources: Vec<Source>,
+}
+
+scene_struct! {
+    /// A whole scene: one file.
+    pub(crate) struct Scene as "Scene", "the scene" {
+        /// Version of the language. Files of version 1 load for ever.
+        version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
+        /// The camera.
+        camera: Camera = Camera::default();
+        /// The picture's size.
+        image: Image = Image::default();
+        /// How to render.
+        render: Render = Render::default();
+        /// Film and lens effects.
+        effects: Effects = Effects::default();
+        /// Radiance of everything that no object covers.
+        background: Color = [0.0; 3] => Rule::light("in W/(sr m^2)");
+        /// Lights. A scene needs one, or a background.
+        lights: Vec<Spanned<Light>> = Vec::new();
+        /// Materials by name, for objects to use.
+        materials: Vec<NamedMaterial> = Vec::new();
+        /// What is to be seen; at least one.
+        objects: Vec<Spanned<Object>> = Vec::new();
+    }
+}
+
+impl Default for SceneDesc {
+    fn default() -> Self {
+        SceneDesc {
+            version: VERSION,
+            camera: Camera::default(),
+            image: Image::default(),
+            render: Render::default(),
+            effects: Effects::default(),
+            background: [0.0; 3],
+            lights: Vec::new(),
+            materials: Vec::new(),
+            objects: Vec::new(),
+            base_dir: PathBuf::new(),
+            sources: Vec::new(),
+        }
+    }
+}

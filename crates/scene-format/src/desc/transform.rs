@@ -1,0 +1,114 @@
+//! The steps of a mesh's way into the scene.
+
+use super::Vec3;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::Item;
+use crate::words::{Words, scene_enum};
+
+/// One step of a mesh's way into the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transform {
+    /// Moves by a vector.
+    Translate(Vec3),
+    /// Scales per axis.
+    Scale {
+        /// Factor per axis; negative mirrors.
+        factor: Vec3,
+        /// Fixed point; `None`: the barycentre (mean of the vertices).
+        about: Option<Vec3>,
+    },
+    /// Rotates by the right-hand rule.
+    Rotate {
+        /// Axis of rotation (any length but zero).
+        axis: Vec3,
+        /// Angle in degrees.
+        degrees: f64,
+        /// Fixed point; `None`: the barycentre (mean of the vertices).
+        about: Option<Vec3>,
+    },
+    /// Moves along y so that the lowest vertex lies at this height.
+    DropTo {
+        /// Height of the lowest vertex.
+        y: f64,
+    },
+}
+
+scene_enum! {
+    /// One step of a mesh's way into the scene.
+    pub(crate) enum TransformWords, "transform" {
+        /// Moves by a vector.
+        Translate(Vec3) => Rule::within("a vector", -1e12, 1e12).unit("in the scene's unit");
+        /// Scales; `Scale(2)` is short for `Scale(factor: 2)`.
+        Scale as "a scaling" bare factor {
+            /// One factor, or one per axis; negative ones mirror.
+            factor: Factor => Rule::within("a factor", -1e9, 1e9);
+            /// Fixed point; `None`: the barycentre (mean of the vertices), in `placements` the origin.
+            about: Option<Vec3> = None => Rule::point();
+        };
+        /// Rotates by the right-hand rule.
+        Rotate as "a rotation" {
+            /// Axis of rotation (any length but zero).
+            axis: Vec3 => Rule::direction();
+            /// Angle in degrees.
+            degrees: f64 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
+            /// Fixed point; `None`: the barycentre (mean of the vertices), in `placements` the origin.
+            about: Option<Vec3> = None => Rule::point();
+        };
+        /// Moves along y so that the lowest vertex lies at this height.
+        DropTo as "a drop" bare y {
+            /// Height of the lowest vertex.
+            y: f64 => Rule::within("a height", -1e12, 1e12).unit("in the scene's unit");
+        };
+    }
+}
+
+/// A factor per axis, written as three numbers or as one for all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Factor(pub Vec3);
+
+impl Words for Factor {
+    const TYPE: Type = Type::OneOf(&[Type::Number, Type::Vector]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.factor(item, at).map(Factor)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        let [x, y, z] = self.0;
+        if x == y && y == z { Form::Number(x) } else { Form::vector(self.0) }
+    }
+}
+
+impl Words for Transform {
+    const TYPE: Type = TransformWords::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        TransformWords::read(reader, item, at).map(|words| match words {
+            TransformWords::Translate(by) => Transform::Translate(by),
+            TransformWords::Scale { factor, about } => Transform::Scale { factor: factor.0, about },
+            TransformWords::Rotate { axis, degrees, about } => Transform::Rotate { axis, degrees, about },
+            TransformWords::DropTo { y } => Transform::DropTo { y },
+        })
+    }
+
+    fn form(&self, all: bool) -> Form {
+        let words = match *self {
+            Transform::Translate(by) => TransformWords::Translate(by),
+            Transform::Scale { factor, about } => TransformWords::Scale { factor: Factor(factor), about },
+            Transform::Rotate { axis, degrees, about } => TransformWords::Rotate { axis, degrees, about },
+            Transform::DropTo { y } => TransformWords::DropTo { y },
+        };
+        let mut form = words.form(all);
+        // Scale(2) says the same as Scale(factor: 2).
+        if let Form::Variant { name: "Scale", content: Some(content) } = &mut form
+            && let Form::Struct { fields, .. } = &mut **content
+            && fields.len() == 1
+            && let Some(only) = fields.pop()
+        {
+            **content = only.value;
+        }
+        form
+    }
+}

@@ -1,0 +1,80 @@
+//! The camera, the picture's size, and how to render.
+
+use super::Vec3;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
+use crate::words::{scene_struct, scene_words};
+
+scene_struct! {
+    /// A pinhole or thin-lens camera.
+    pub struct Camera as "Camera", "the camera" {
+        /// Eye point.
+        position: Spanned<Vec3> = [0.0, 0.0, 5.0] => Rule::point();
+        /// A point in the middle of the picture.
+        look_at: Spanned<Vec3> = [0.0, 0.0, 0.0] => Rule::point();
+        /// The direction that is up in the picture.
+        up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Vertical field of view in degrees.
+        fov: Spanned<f64> = 40.0 => Rule::between("an angle", 0.0, 180.0).unit("in degrees");
+    }
+}
+
+scene_struct! {
+    /// Size of the picture in pixels.
+    pub struct Image as "Image", "the image" {
+        /// Pixels across.
+        width: Spanned<u32> = 512u32 => Rule::within("a whole number", 1.0, 65536.0).unit("in pixels");
+        /// Pixels down.
+        height: Spanned<u32> = 512u32 => Rule::within("a whole number", 1.0, 65536.0).unit("in pixels");
+    }
+}
+
+scene_struct! {
+    /// How to render.
+    pub struct Render as "Render", "`Render`" {
+        /// Camera samples per pixel.
+        samples: Spanned<u32> = 64u32 => Rule::within("a whole number", 1.0, 1_000_000_000.0);
+        /// Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces,
+        /// and one more to a light.
+        max_bounces: Spanned<u32> = 5u32 => Rule::within("a whole number", 0.0, 1_000_000.0);
+        /// Seed of all random choices.
+        seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);
+        /// What finds the hits; the picture is the same, byte for byte.
+        acceleration: Acceleration = Acceleration::Bvh;
+    }
+}
+
+scene_words! {
+    /// What finds the hits.
+    pub enum Acceleration, "acceleration" {
+        /// A bounding volume hierarchy.
+        Bvh,
+        /// One bounding box per mesh, every triangle inside it tested.
+        BoundingBox,
+        /// Every triangle tested for every ray.
+        None,
+    }
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Camera {
+            position: [0.0, 0.0, 5.0].into(),
+            look_at: [0.0, 0.0, 0.0].into(),
+            up: [0.0, 1.0, 0.0].into(),
+            fov: 40.0.into(),
+        }
+    }
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Image { width: 512.into(), height: 512.into() }
+    }
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Render { samples: 64.into(), max_bounces: 5.into(), seed: 0.into(), acceleration: Acceleration::Bvh }
+    }
+}

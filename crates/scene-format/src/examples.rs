@@ -1,0 +1,165 @@
+//! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
+
+use crate::desc::{Acceleration, Light, Material, Object, PixelFilter, Shading, TextureFilter, TextureWrap, ToneMap};
+use crate::desc::{DepthOfField, Pattern, TransformWords};
+use crate::schema::EnumDef;
+
+/// A complete scene that shows one kind of thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Example {
+    /// What it shows: `Material::Diffuse`.
+    pub title: String,
+    /// The scene, in RON.
+    pub ron: String,
+    /// Files that the scene names and that must lie beside it.
+    pub files: &'static [ExampleFile],
+}
+
+/// A file that an example needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExampleFile {
+    /// Its name, relative to the scene.
+    pub name: &'static str,
+    /// What is in it.
+    pub bytes: &'static [u8],
+}
+
+/// A tetrahedron as OFF.
+const TETRAHEDRON: ExampleFile = ExampleFile {
+    name: "tetrahedron.off",
+    bytes: b"OFF\n4 4 0\n-1 -1 -1\n1 1 -1\n1 -1 1\n-1 1 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n",
+};
+
+/// A checkerboard of 2 x 2 texels, 8 bits of grey, as PNG.
+const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
+
+/// The choices of the language, each kind of which has an example.
+pub(crate) const CHOICES: [&EnumDef; 12] = [
+    &PixelFilter::DEF,
+    &DepthOfField::DEF,
+    &ToneMap::DEF,
+    &Acceleration::DEF,
+    &Light::DEF,
+    &Material::DEF,
+    &Pattern::DEF,
+    &TextureFilter::DEF,
+    &TextureWrap::DEF,
+    &Object::DEF,
+    &Shading::DEF,
+    &TransformWords::DEF,
+];
+
+/// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
+const SNIPPETS: [(&str, &str, &str); 33] = [
+    ("PixelFilter", "None", "antialiasing: None"),
+    ("PixelFilter", "Box", "antialiasing: Box"),
+    ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
+    ("PixelFilter", "BlackmanHarris", "antialiasing: BlackmanHarris(radius: 1.5)"),
+    ("DepthOfField", "None", "depth_of_field: None"),
+    ("DepthOfField", "ThinLens", "depth_of_field: ThinLens(aperture: 0.5, focus_distance: 5)"),
+    ("ToneMap", "None", "tone_map: None"),
+    ("ToneMap", "Filmic", "tone_map: Filmic"),
+    ("ToneMap", "AgX", "tone_map: AgX"),
+    ("Acceleration", "Bvh", "acceleration: Bvh"),
+    ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
+    ("Acceleration", "None", "acceleration: None"),
+    ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
+    ("Material", "Diffuse", "Diffuse(albedo: (0.8, 0.3, 0.1))"),
+    ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
+    ("Material", "Transparent", "Transparent(ior: 1.5)"),
+    ("Material", "BlinnPhong", "BlinnPhong(albedo: \"#3344dd\", exponent: 1000, specular: 0.05)"),
+    ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
+    ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
+    ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
+    ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
+    ("TextureWrap", "Clamp", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Clamp))"),
+    ("TextureWrap", "Mirror", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Mirror))"),
+    ("Object", "Sphere", "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))"),
+    (
+        "Object",
+        "Mesh",
+        "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])",
+    ),
+    ("Shading", "Auto", "shading: Auto"),
+    ("Shading", "Smooth", "shading: Smooth"),
+    ("Shading", "Flat", "shading: Flat"),
+    ("TransformWords", "Translate", "Translate((0.5, 0, -1))"),
+    ("TransformWords", "Scale", "Scale((1, 2, 1))"),
+    ("TransformWords", "Rotate", "Rotate(axis: (0, 1, 0), degrees: 30)"),
+    ("TransformWords", "DropTo", "DropTo(y: -1)"),
+    ("Scene", "Scene", ""),
+];
+
+/// The words that show a kind.
+pub(crate) fn snippet(choice: &str, kind: &str) -> Option<&'static str> {
+    SNIPPETS.iter().find(|(c, k, _)| *c == choice && *k == kind).map(|(_, _, words)| *words)
+}
+
+/// An example for every kind of thing in the language, in the order of the reference.
+pub fn examples() -> Vec<Example> {
+    SNIPPETS.iter().map(|&(choice, kind, words)| example(choice, kind, words)).collect()
+}
+
+fn example(choice: &str, kind: &str, words: &str) -> Example {
+    let (mut effects, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
+    let mut light = "SphereLight(center: (3, 4, 5), radius: 1, radiance: 20)".to_owned();
+    let mut object = "Sphere(center: (0, 0, 0), radius: 1)".to_owned();
+    let mut files: &'static [ExampleFile] = &[];
+    let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
+    match choice {
+        "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
+        "Acceleration" => render = format!("{render}, {words}"),
+        "Light" => light = words.to_owned(),
+        "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
+        "Pattern" | "TextureFilter" | "TextureWrap" => {
+            object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
+            files = &[CHECKER];
+        }
+        "Object" => {
+            object = words.to_owned();
+            files = &[TETRAHEDRON];
+        }
+        "Shading" => {
+            object = mesh(words);
+            files = &[TETRAHEDRON];
+        }
+        "TransformWords" => {
+            object = mesh(&format!("transform: [{words}]"));
+            files = &[TETRAHEDRON];
+        }
+        _ => {}
+    }
+    let ron = format!(
+        "Scene(\n    camera: Camera(position: (0, 1, 5)),\n    image: Image(width: 64, height: 64),\n    render: \
+         Render({render}),\n{effects}    background: 0.1,\n    lights: [{light}],\n    objects: [\n        {object},\n        \
+         Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
+    );
+    let choice = choice.trim_end_matches("Words");
+    let title = if choice == kind { kind.to_owned() } else { format!("{choice}::{kind}") };
+    Example { title, ron, files }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Syntax, load_str};
+    use std::path::Path;
+
+    #[test]
+    fn every_kind_has_an_example_that_loads_without_a_warning() {
+        let examples = examples();
+        for choice in CHOICES {
+            for variant in choice.variants {
+                let title = format!("{}::{}", choice.name.trim_end_matches("Words"), variant.name);
+                let example = examples.iter().find(|example| example.title == title);
+                let example = example.unwrap_or_else(|| panic!("{title} has no example"));
+                assert!(example.ron.contains(variant.name), "{title} does not show it:\n{}", example.ron);
+            }
+        }
+        for example in &examples {
+            let loaded = load_str(&example.title, &example.ron, Syntax::Ron, Path::new(""), &[]);
+            let loaded = loaded.unwrap_or_else(|error| panic!("{}: {error:?}\n{}", example.title, example.ron));
+            assert_eq!(loaded.warnings, Vec::new(), "{}", example.title);
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! The first of the five hands: from a file to a [`SceneDesc`].
+
+use crate::codes;
+use crate::desc::SceneDesc;
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::overrides::{self, Override};
+use crate::read;
+use crate::syntax::{Sink, Syntax, ron, toml};
+use crate::tree::{Builder, Text, Tree};
+use std::path::{Path, PathBuf};
+
+/// Scene files may have this many bytes (1 GiB).
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// A scene that loaded.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene, complete and valid.
+    pub scene: SceneDesc,
+    /// What is doubtful about it, in order of position.
+    pub warnings: Diagnostics,
+}
+
+/// Why a scene did not load.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The file could not be read at all.
+    #[error("cannot read the scene file {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The text is wrong: all that is wrong with it (warnings too), in order of position.
+    #[error("the scene has {} {}", errors(diagnostics), if errors(diagnostics) == 1 { "error" } else { "errors" })]
+    Invalid {
+        /// Errors and warnings.
+        diagnostics: Diagnostics,
+        /// The texts that their spans point into.
+        sources: Vec<Source>,
+    },
+}
+
+fn errors(diagnostics: &Diagnostics) -> usize {
+    diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count()
+}
+
+/// Reads a scene file, its syntax told by the extension (else by what it looks like).
+///
+/// # Errors
+/// [`LoadError::Io`] when the file cannot be read, [`LoadError::Invalid`] with every fault of it otherwise. Files that the scene
+/// names (meshes, textures) are not looked at.
+pub fn load(path: &Path) -> Result<Loaded, LoadError> {
+    load_with(path, &[])
+}
+
+/// As [`load`], with fields set from outside.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
+    let io = |source| LoadError::Io { path: path.to_owned(), source };
+    let name = path.display().to_string();
+    let size = std::fs::metadata(path).map_err(io)?.len();
+    if size > MAX_FILE_BYTES {
+        return Err(too_large(name));
+    }
+    let bytes = std::fs::read(path).map_err(io)?;
+    let base_dir = path.parent().unwrap_or(Path::new("")).to_owned();
+    load_bytes(&name, bytes, Syntax::from_path(path), &base_dir, overrides)
+}
+
+/// Reads a scene from bytes (standard input): checks that they are UTF-8, and guesses the syntax when it is not given.
+///
+/// # Errors
+/// [`LoadError::Invalid`] with every fault.
+pub fn load_bytes(
+    name: &str,
+    bytes: Vec<u8>,
+    syntax: Option<Syntax>,
+    base_dir: &Path,
+    overrides: &[Override],
+) -> Result<Loaded, LoadError> {
+    let text = String::from_utf8(bytes).map_err(|error| not_utf8(name, &error))?;
+    load_string(name, text, syntax, base_dir, overrides)
+}
+
+/// Reads a scene from a text. `name` is shown in diagnostics, relative paths start from `base_dir`.
+///
+/// # Errors
+/// [`LoadError::Invalid`] with every fault.
+pub fn load_str(
+    name: &str,
+    text: &str,
+    syntax: Syntax,
+    base_dir: &Path,
+    overrides: &[Override],
+) -> Result<Loaded, LoadError> {
+    load_string(name, text.to_owned(), Some(syntax), base_dir, overrides)
+}
+
+fn load_string(
+    name: &str,
+    text: String,
+    syntax: Option<Syntax>,
+    base_dir: &Path,
+    overrides: &[Override],
+) -> Result<Loaded, LoadError> {
+    if text.len() as u64 > MAX_FILE_BYTES {
+        return Err(too_large(name.to_owned()));
+    }
+    let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
+    let mut sink = Sink::default();
+    let scene = {
+        let mut tree = parse(&text, syntax, &mut sink);
+        overrides::apply(&mut tree, overrides, &mut sink);
+        read::scene(&tree, &mut sink)
+    };
+    let mut sources = vec![Source { name: name.to_owned(), text }];
+    sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
+    let mut diagnostics = sink.diagnostics;
+    diagnostics.sort_by_key(|diagnostic| diagnostic.span);
+    match scene {
+        Some(scene) if sink.errors == 0 => {
+            let scene = SceneDesc {
+                version: scene.version,
+                camera: scene.camera,
+                image: scene.image,
+                render: scene.render,
+                effects: scene.effects,
+                background: scene.background,
+                lights: scene.lights,
+                materials: scene.materials,
+                objects: scene.objects,
+                base_dir: base_dir.to_owned(),
+                sources,
+            };
+            Ok(Loaded { scene, warnings: diagnostics })
+        }
+        _ => Err(LoadError::Invalid { diagnostics, sources }),
+    }
+}
+
+/// The tree of a text, whatever is wrong with it.
+pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
+    let mut builder = Builder::new(0, text.len());
+    let comments = match syntax {
+        Syntax::Ron => ron::parse(text, &mut builder, sink),
+        Syntax::Toml => toml::parse(text, &mut builder, sink),
+    };
+    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, comments }
+}
+
+fn too_large(name: String) -> LoadError {
+    let gib = MAX_FILE_BYTES >> 30;
+    let diagnostic =
+        Diagnostic::error(codes::TOO_LARGE, Span { source: 0, start: 0, end: 0 }, "the scene file is too large")
+            .expected(format!("at most {gib} GiB"))
+            .hint("put many copies of a mesh into a placements file beside the scene");
+    LoadError::Invalid { diagnostics: vec![diagnostic], sources: vec![Source { name, text: String::new() }] }
+}
+
+fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
+    let at = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+    let byte = error.as_bytes().get(at).copied().unwrap_or(0);
+    let span = Span { source: 0, start: at as u32, end: at as u32 + 3 };
+    let diagnostic = Diagnostic::error(
+        codes::NOT_UTF8,
+        span,
+        format!("the file is not UTF-8: byte {at} (0x{byte:02x}) is no character"),
+    )
+    .expected("a text file in UTF-8")
+    .hint("save it as UTF-8 in your editor");
+    LoadError::Invalid { diagnostics: vec![diagnostic], sources: vec![Source { name: name.to_owned(), text }] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::desc::{Emission, Light, MaterialRef, Object, Transform};
+
+    const RON: &str = r#"Scene(
+        camera: Camera(position: (0, 0, 55), fov: 60),
+        lights: [SphereLight(center: [-10, 20, 40], radius: 5, intensity: 3974)],
+        materials: { "glass": Transparent(ior: 1.52) },
+        objects: [
+            Sphere(center: (20, 30, -20), radius: 10, material: "glass"),
+            Mesh(file: "cat.obj", transform: [Scale(0.8), DropTo(y: -20)]),
+        ],
+    )"#;
+
+    const TOML: &str = r#"
+        [camera]
+        position = [0, 0, 55]
+        fov = 60
+        [materials]
+        glass = { Transparent = { ior = 1.52 } }
+        [[lights]]
+        SphereLight = { center = [-10, 20, 40], radius = 5, intensity = 3974 }
+        [[objects]]
+        Sphere = { center = [20, 30, -20], radius = 10, material = "glass" }
+        [[objects]]
+        [objects.Mesh]
+        file = "cat.obj"
+        transform = [{ Scale = 0.8 }, { DropTo = { y = -20 } }]
+    "#;
+
+    fn read(text: &str, syntax: Syntax) -> SceneDesc {
+        load_str("scene", text, syntax, Path::new("."), &[]).expect("the scene is right").scene
+    }
+
+    #[test]
+    fn both_syntaxes_give_the_same_scene() {
+        let (ron, toml) = (read(RON, Syntax::Ron), read(TOML, Syntax::Toml));
+        assert_eq!(SceneDesc { sources: Vec::new(), ..ron.clone() }, SceneDesc { sources: Vec::new(), ..toml });
+        assert_eq!(ron.camera.fov.value, 60.0);
+        let Light::SphereLight(light) = &ron.lights[0].value;
+        assert_eq!(light.emission.value, Emission::Intensity([3974.0; 3]));
+        let Object::Mesh(mesh) = &ron.objects[1].value else { panic!("the second object is a mesh") };
+        assert_eq!(mesh.material, MaterialRef::Default);
+        assert_eq!(mesh.transform[0].value, Transform::Scale { factor: [0.8; 3], about: None });
+    }
+
+    #[test]
+    fn spans_point_at_the_very_value() {
+        let scene = read(RON, Syntax::Ron);
+        let span = scene.camera.fov.span;
+        assert_eq!(&RON[span.start as usize..span.end as usize], "60");
+    }
+
+    #[test]
+    fn a_missing_file_is_no_diagnostic() {
+        let error = load(Path::new("no/such/scene.ron")).expect_err("there is no such file");
+        assert!(matches!(error, LoadError::Io { .. }));
+        assert!(error.to_string().starts_with("cannot read the scene file no/such/scene.ron"), "{error}");
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_reported_where_they_stand() {
+        let bytes = b"Scene(objects: [\xff])".to_vec();
+        let error = load_bytes("s.ron", bytes, Some(Syntax::Ron), Path::new("."), &[]).expect_err("not UTF-8");
+        let LoadError::Invalid { diagnostics, .. } = error else { panic!("a diagnostic") };
+        assert_eq!((diagnostics[0].code, diagnostics[0].span.start), (codes::NOT_UTF8, 16));
+    }
+
+    #[test]
+    fn a_set_edits_the_tree_and_its_value_points_into_the_argument() {
+        let sets = ["camera.fov=45", "objects[0].radius=2", "effects.exposure=1", "materials.glass.ior=1.33"];
+        let sets = sets.map(Override::from);
+        let scene = load_str("s", RON, Syntax::Ron, Path::new("."), &sets).expect("right").scene;
+        assert_eq!(scene.camera.fov.value, 45.0);
+        assert_eq!(scene.camera.fov.span, Span { source: 1, start: 11, end: 13 });
+        assert_eq!(scene.effects.exposure.value, 1.0);
+        let Object::Sphere(sphere) = &scene.objects[0].value else { panic!("a sphere") };
+        assert_eq!(sphere.radius.value, 2.0);
+        assert_eq!(scene.sources[2].text, "objects[0].radius=2");
+    }
+}

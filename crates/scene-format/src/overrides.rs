@@ -1,0 +1,445 @@
+//! `--set path=value`: edits of the tree before it is checked, so that the same checks apply and the carets point into the
+//! argument.
+#![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
+
+use crate::codes;
+use crate::desc::Scene;
+use crate::diagnostic::Diagnostic;
+use crate::read::shortened;
+use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
+use crate::suggest;
+use crate::syntax::{Sink, Syntax, ron, span};
+use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
+use crate::words::Words;
+
+/// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value is written
+/// in RON, whatever the scene file is written in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    /// The argument as it was given.
+    pub argument: String,
+}
+
+impl<T: Into<String>> From<T> for Override {
+    fn from(argument: T) -> Self {
+        Override { argument: argument.into() }
+    }
+}
+
+/// One step of a path: where it stands in the argument, and what it says.
+#[derive(Clone, Debug)]
+struct Step<'a> {
+    start: usize,
+    end: usize,
+    what: What<'a>,
+}
+
+#[derive(Clone, Debug)]
+enum What<'a> {
+    Name(&'a str),
+    Index(usize),
+}
+
+/// More overrides than this are not taken.
+const MAX_OVERRIDES: usize = u16::MAX as usize - 1;
+
+/// Edits the tree, one override after the other.
+pub(crate) fn apply<'s>(tree: &mut Tree<'s>, overrides: &'s [Override], sink: &mut Sink) {
+    for (index, set) in overrides.iter().take(MAX_OVERRIDES).enumerate() {
+        let source = index as u16 + 1;
+        tree.texts.push(Text { text: &set.argument, syntax: Syntax::Ron });
+        if let Err(fault) = apply_one(tree, &set.argument, source, sink) {
+            sink.push(fault);
+        }
+    }
+}
+
+fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) -> Result<(), Diagnostic> {
+    let equals = end_of_path(argument).ok_or_else(|| {
+        Diagnostic::error(
+            codes::BAD_SET_SYNTAX,
+            span(source, 0, argument.len()),
+            "this argument of --set has no `=` between path and value",
+        )
+        .expected("path=value, as in --set camera.fov=40")
+        .hint("put quotes around it in the shell if it has spaces or brackets: --set 'camera.fov=40'")
+    })?;
+    let steps = steps(&argument[..equals], source)?;
+    let mut builder = Builder { nodes: Vec::new(), source };
+    let faults = sink.errors;
+    if argument[equals + 1..].trim().is_empty() {
+        return Err(Diagnostic::error(
+            codes::BAD_SET_SYNTAX,
+            span(source, equals, equals + 1),
+            "there is no value after `=`",
+        )
+        .expected("path=value, as in --set camera.fov=40"));
+    }
+    ron::parse_from(argument, equals + 1, &mut builder, sink);
+    if sink.errors > faults {
+        return Ok(());
+    }
+    if tree.nodes.is_empty() {
+        // An empty file: it has no root to put the field into.
+        tree.nodes.push(Node { start: 0, end: 0, size: 1, source: 0, kind: Kind::Struct });
+    }
+    Setter { source, value: builder.nodes }.set(tree, &steps)
+}
+
+/// The first `=` outside quotes and brackets.
+fn end_of_path(argument: &str) -> Option<usize> {
+    let mut quoted = false;
+    for (at, byte) in argument.bytes().enumerate() {
+        match byte {
+            b'"' => quoted = !quoted,
+            b'=' if !quoted => return Some(at),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Splits `objects[2].radius`, `materials."my glass".ior`, `materials["my glass"]`.
+fn steps(path: &str, source: u16) -> Result<Vec<Step<'_>>, Diagnostic> {
+    let bad = |start: usize, end: usize, message: &str| {
+        Err(Diagnostic::error(codes::BAD_SET_SYNTAX, span(source, start, end), message)
+            .expected("names joined by points, and numbers in brackets: objects[2].radius"))
+    };
+    let mut steps = Vec::new();
+    let mut at = 0;
+    loop {
+        at += path[at..].len() - path[at..].trim_start().len();
+        let rest = &path[at..];
+        if let Some(quoted) = rest.strip_prefix('"') {
+            let Some(length) = quoted.find('"') else { return bad(at, path.len(), "this quote is never closed") };
+            steps.push(Step { start: at, end: at + length + 2, what: What::Name(&quoted[..length]) });
+            at += length + 2;
+        } else if let Some(inner) = rest.strip_prefix('[') {
+            let Some(length) = inner.find(']') else { return bad(at, path.len(), "this bracket is never closed") };
+            let index = inner[..length].trim();
+            let end = at + length + 2;
+            let what = match (index.strip_prefix('"').and_then(|i| i.strip_suffix('"')), index.parse()) {
+                (Some(name), _) => What::Name(name),
+                (None, Ok(index)) => What::Index(index),
+                _ => return bad(at, end, "in brackets stands the number of an item, counted from 0"),
+            };
+            steps.push(Step { start: at, end, what });
+            at = end;
+        } else {
+            let length = rest.find(['.', '[']).unwrap_or(rest.len());
+            let name = rest[..length].trim_end();
+            if name.is_empty() {
+                return bad(at.min(path.len()), path.len().max(at), "a name is missing in this path");
+            }
+            steps.push(Step { start: at, end: at + name.len(), what: What::Name(name) });
+            at += length;
+        }
+        match path[at..].bytes().next() {
+            None => return Ok(steps),
+            Some(b'.') => at += 1,
+            Some(b'[') => {}
+            Some(_) if path[at..].trim().is_empty() => return Ok(steps),
+            Some(_) => return bad(at, path.len(), "a point or a bracket is missing in this path"),
+        }
+    }
+}
+
+/// What the edit of the tape will be.
+enum Edited {
+    /// The node at this index is replaced.
+    Replace(usize),
+    /// A field with this path of names is added to the node at this index.
+    Add(usize, Vec<(usize, usize)>),
+}
+
+struct Setter {
+    source: u16,
+    value: Vec<Node>,
+}
+
+impl Setter {
+    fn set(self, tree: &mut Tree<'_>, steps: &[Step<'_>]) -> Result<(), Diagnostic> {
+        let edited = {
+            let Some(root) = tree.root() else { return Ok(()) };
+            self.find(root, Scene::TYPE, steps, "the scene")?
+        };
+        let Some(edited) = edited else { return Ok(()) };
+        match edited {
+            Edited::Replace(index) => {
+                let end = index + tree.nodes[index].size as usize;
+                splice(tree, index, index..end, self.value);
+            }
+            Edited::Add(index, names) => {
+                let mut nodes = Vec::new();
+                let mut opened = Vec::new();
+                for (depth, &(start, end)) in names.iter().enumerate() {
+                    nodes.push(self.node(Kind::Key, start, end));
+                    if depth + 1 < names.len() {
+                        opened.push(nodes.len());
+                        nodes.push(self.node(Kind::Map, start, end));
+                    }
+                }
+                nodes.extend(self.value);
+                let total = nodes.len();
+                for index in opened {
+                    nodes[index].size = (total - index) as u32;
+                }
+                let end = index + tree.nodes[index].size as usize;
+                if matches!(tree.nodes[index].kind, Kind::Tuple) {
+                    tree.nodes[index].kind = Kind::Struct;
+                }
+                splice(tree, index, end..end, nodes);
+            }
+        }
+        Ok(())
+    }
+
+    fn node(&self, kind: Kind, start: usize, end: usize) -> Node {
+        Node { start: start as u32, end: end as u32, size: 1, source: self.source, kind }
+    }
+
+    /// Goes down the tree and the schema together. `Ok(None)`: the tree is broken there, which has been reported.
+    fn find(
+        &self,
+        item: Item<'_, '_>,
+        kind: Type,
+        steps: &[Step<'_>],
+        noun: &str,
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let Some((step, rest)) = steps.split_first() else { return Ok(Some(Edited::Replace(item.index()))) };
+        if item.kind() == Kind::Broken {
+            return Ok(None);
+        }
+        match (kind, &step.what) {
+            (Type::Struct(def), What::Name(name)) => self.find_field(item, def, name, step, rest),
+            (Type::Enum(def), What::Name(name)) => self.find_variant(item, def, name, step, steps, rest),
+            (Type::OneOf(kinds), _) => {
+                let fitting = kinds.iter().find(|kind| fits(item, kind));
+                match fitting {
+                    Some(&kind) if !matches!(kind, Type::Text | Type::File) => self.find(item, kind, steps, noun),
+                    Some(_) => Err(self
+                        .fault(
+                            codes::BAD_SET_PATH,
+                            step,
+                            format!("{noun} is {} and has no parts", crate::read::describe(item)),
+                        )
+                        .hint(match item.kind() {
+                            Kind::Text if kinds.iter().any(|kind| matches!(kind, Type::Text)) => {
+                                format!("set the material of that name: materials.{}", shortened(&item.text()))
+                            }
+                            _ => "set it as a whole".to_owned(),
+                        })),
+                    None => Err(self.no_parts(item, step, noun)),
+                }
+            }
+            (Type::Optional(inner), _) => self.find(item.without_some(), *inner, steps, noun),
+            (Type::Map(inner), What::Name(name)) => {
+                let found = item.fields().find(|(key, _)| key.text() == *name);
+                if let Some((_, value)) = found {
+                    return self.find(value, *inner, rest, &format!("the material \"{name}\""));
+                }
+                let keys: Vec<String> = item.fields().map(|(key, _)| key.text().into_owned()).collect();
+                let words: Vec<&str> = keys.iter().map(String::as_str).collect();
+                let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no material \"{name}\""));
+                fault.expected = match words.len() {
+                    0 => "nothing: `materials` is empty".to_owned(),
+                    1..=8 => format!("one of {}", suggest::list(&words)),
+                    count => format!("one of the {count} names in `materials`"),
+                };
+                fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
+                Err(fault)
+            }
+            (Type::List(inner), What::Index(index)) => {
+                if !matches!(item.kind(), Kind::List) {
+                    return Err(self.no_parts(item, step, noun));
+                }
+                match item.children().nth(*index) {
+                    Some(child) => self.find(child, *inner, rest, &format!("item {index} of {noun}")),
+                    None => {
+                        let count = item.children().count();
+                        let expected = match count {
+                            0 => "nothing: the list is empty".to_owned(),
+                            1 => "0: the list has one item".to_owned(),
+                            count => format!("0 to {}: the list has {count} items", count - 1),
+                        };
+                        Err(self
+                            .fault(
+                                codes::BAD_SET_INDEX,
+                                step,
+                                format!("there is no item {index} in {}", crate::read::plain(noun)),
+                            )
+                            .expected(expected))
+                    }
+                }
+            }
+            (Type::List(_), What::Name(_)) => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("{noun} is a list; its items have numbers"))
+                .expected("the number of an item in brackets, counted from 0: [0]")),
+            _ => Err(self.no_parts(item, step, noun)),
+        }
+    }
+
+    fn find_field(
+        &self,
+        item: Item<'_, '_>,
+        def: &'static StructDef,
+        name: &str,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let Some(field) = def.field(name) else {
+            let names: Vec<&str> = def.fields.iter().map(|field| field.name).collect();
+            let mut fault = self
+                .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
+                .expected(format!("one of {}", suggest::list(&names)));
+            fault.did_you_mean(suggest::nearest(name, names.iter().copied()), str::to_owned);
+            return Err(fault);
+        };
+        if !matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Tuple) {
+            return Err(self.no_parts(item, step, def.noun));
+        }
+        let found = item.fields().find(|(key, _)| key.text() == name).map(|(_, value)| value).or_else(|| {
+            // Scale(2): the value without a name.
+            (def.bare == Some(name) && item.kind() == Kind::Tuple).then(|| item.children().next()).flatten()
+        });
+        if let Some(value) = found {
+            return self.find(value, field.kind, rest, field.noun);
+        }
+        if def.exactly_one.contains(&name) && rest.is_empty() {
+            // `power` in the place of `intensity`.
+            let other = item.fields().find(|(key, _)| def.exactly_one.contains(&&*key.text()));
+            if let Some((key, _)) = other {
+                return Err(self
+                    .fault(
+                        codes::BAD_SET_PATH,
+                        step,
+                        format!("the scene says how bright this light is by `{}`, not by `{name}`", key.text()),
+                    )
+                    .hint(format!("set `{}`", key.text())));
+            }
+        }
+        // Not written yet: the field comes with all the names that lead to it.
+        let mut names = vec![(step.start, step.end)];
+        self.check_path(field.kind, rest, field.noun, &mut names)?;
+        Ok(Some(Edited::Add(item.index(), names)))
+    }
+
+    /// Follows names that the tree does not have yet.
+    fn check_path(
+        &self,
+        kind: Type,
+        steps: &[Step<'_>],
+        noun: &str,
+        names: &mut Vec<(usize, usize)>,
+    ) -> Result<(), Diagnostic> {
+        let Some((step, rest)) = steps.split_first() else { return Ok(()) };
+        match (kind, &step.what) {
+            (Type::Struct(def), What::Name(name)) => {
+                let Some(field) = def.field(name) else {
+                    let words: Vec<&str> = def.fields.iter().map(|field| field.name).collect();
+                    let mut fault = self
+                        .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
+                        .expected(format!("one of {}", suggest::list(&words)));
+                    fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
+                    return Err(fault);
+                };
+                names.push((step.start, step.end));
+                self.check_path(field.kind, rest, field.noun, names)
+            }
+            (Type::Enum(def), What::Name(name)) => match variant_of(def, name) {
+                Some((variant, named)) => {
+                    if named {
+                        names.push((step.start, step.end));
+                        return match &variant.content {
+                            Content::Struct(fields) => self.check_path(Type::Struct(fields), rest, fields.noun, names),
+                            _ => Ok(()),
+                        };
+                    }
+                    Err(self
+                        .fault(
+                            codes::BAD_SET_PATH,
+                            step,
+                            format!("{} is not written in the scene", crate::read::plain(noun)),
+                        )
+                        .hint(format!("set it as a whole, or say its kind: {}.{name}", variant.name)))
+                }
+                None => Err(self
+                    .fault(codes::BAD_SET_PATH, step, format!("no {} has a field `{}`", def.noun, shortened(name)))
+                    .expected(crate::read::choices(def, Syntax::Ron))),
+            },
+            (Type::Map(_) | Type::List(_), _) => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
+                .hint("set it as a whole")),
+            _ => Err(self.fault(codes::BAD_SET_PATH, step, format!("{} has no parts", crate::read::plain(noun)))),
+        }
+    }
+
+    fn find_variant(
+        &self,
+        item: Item<'_, '_>,
+        def: &'static EnumDef,
+        name: &str,
+        step: &Step<'_>,
+        steps: &[Step<'_>],
+        rest: &[Step<'_>],
+    ) -> Result<Option<Edited>, Diagnostic> {
+        // Name(..) or { Name = .. }: the steps go through the name of the kind.
+        let (written, inner) = match item.kind() {
+            Kind::Struct | Kind::Tuple => (item.name().map(str::to_owned), Some(item)),
+            Kind::Map => match item.fields().next() {
+                Some((key, value)) => (Some(key.text().into_owned()), Some(value)),
+                None => (None, None),
+            },
+            _ => (Some(item.text().into_owned()), None),
+        };
+        let Some(variant) = written.as_deref().and_then(|written| def.variant(written)) else {
+            return Err(self.no_parts(item, step, def.noun));
+        };
+        let steps = if variant.name == name { rest } else { steps };
+        match (&variant.content, inner) {
+            (_, Some(inner)) if steps.is_empty() => Ok(Some(Edited::Replace(inner.index()))),
+            (Content::Struct(fields), Some(inner)) => self.find(inner, Type::Struct(fields), steps, fields.noun),
+            (Content::Value(at), Some(inner)) => self.find(inner, at.kind, steps, at.noun),
+            _ => Err(self.no_parts(item, step, def.noun)),
+        }
+    }
+
+    fn no_parts(&self, item: Item<'_, '_>, step: &Step<'_>, noun: &str) -> Diagnostic {
+        self.fault(
+            codes::BAD_SET_PATH,
+            step,
+            format!("{} is {} and has no such part", crate::read::plain(noun), crate::read::describe(item)),
+        )
+        .hint("set it as a whole")
+    }
+
+    fn fault(&self, code: &'static str, step: &Step<'_>, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(code, span(self.source, step.start, step.end), message)
+    }
+}
+
+/// The variant of this name (`true`), or the first one with a field of this name.
+fn variant_of(def: &'static EnumDef, name: &str) -> Option<(&'static VariantDef, bool)> {
+    if let Some(variant) = def.variant(name) {
+        return Some((variant, true));
+    }
+    let with_field = def.variants.iter().find(|variant| match &variant.content {
+        Content::Struct(fields) => fields.field(name).is_some(),
+        _ => false,
+    });
+    with_field.map(|variant| (variant, false))
+}
+
+/// Replaces a range of the tape and mends the sizes of all nodes around it; `inside` lies in the innermost of them.
+fn splice(tree: &mut Tree<'_>, inside: usize, range: std::ops::Range<usize>, nodes: Vec<Node>) {
+    let (old, new) = (range.len(), nodes.len());
+    let replaced = old > 0;
+    for index in 0..=inside {
+        let node = &mut tree.nodes[index];
+        let contains = index + node.size as usize > inside && (index < inside || !replaced);
+        if contains {
+            node.size = (node.size as usize + new - old) as u32;
+        }
+    }
+    tree.nodes.splice(range, nodes);
+}

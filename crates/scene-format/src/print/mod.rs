@@ -1,0 +1,49 @@
+//! Forms as text, in either syntax: short values on one line, long ones one entry a line, comments where they belong.
+
+mod ron;
+mod toml;
+
+pub(crate) use ron::{ron, ron_value};
+pub(crate) use toml::{toml, toml_value};
+
+use crate::form::{Entry, Form};
+
+/// Lines are filled up to this many characters.
+const WIDTH: usize = 100;
+
+/// A number as both syntaxes read it: the shortest digits that give the same value.
+pub(crate) fn number(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-5..1e16).contains(&size) { format!("{value:e}") } else { format!("{value}") }
+}
+
+/// A text between double quotes; `unicode` writes the escape of a control character.
+fn quoted(text: &str, unicode: impl Fn(char) -> String) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => out.push_str(&unicode(c)),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// Whether comments stand inside a value.
+fn has_comments(form: &Form) -> bool {
+    let inside = |entries: &[Entry]| {
+        entries.iter().any(|entry| !entry.before.is_empty() || entry.after.is_some() || has_comments(&entry.value))
+    };
+    match form {
+        Form::List(entries) | Form::Map(entries) | Form::Struct { fields: entries, .. } => inside(entries),
+        Form::Variant { content: Some(content), .. } => has_comments(content),
+        _ => false,
+    }
+}

@@ -1,0 +1,488 @@
+//! From the tree to the typed description, with all faults in one run.
+//!
+//! The types' readers (made by the macros of `words`) call the methods here; each method goes by the schema, reports what is
+//! wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said twice.
+
+mod check;
+mod value;
+mod variant;
+mod vector;
+
+pub(crate) use check::scene;
+pub(crate) use value::expected;
+pub(crate) use variant::choices;
+
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::schema::{FieldDef, StructDef};
+use crate::suggest;
+use crate::syntax::{Sink, Syntax};
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// Words that later versions of the language will give a meaning.
+const RESERVED: [&str; 6] = ["include", "vars", "repeat", "keyframes", "for", "let"];
+
+/// Where a value stands: a step of a field path.
+#[derive(Clone, Debug)]
+enum Step {
+    Field(&'static str),
+    Index(usize),
+    Key(String),
+}
+
+/// Reads values and collects what is wrong with them.
+pub(crate) struct Reader<'r> {
+    sink: &'r mut Sink,
+    path: Vec<Step>,
+    /// The names of all materials that are written, also of those that could not be read.
+    materials: Materials,
+}
+
+/// Names of materials, and whether an object uses them.
+#[derive(Debug, Default)]
+struct Materials {
+    names: Vec<Spanned<String>>,
+    used: Vec<bool>,
+    index: HashMap<String, usize>,
+    /// Part of `materials` could not be read: names may be missing.
+    damaged: bool,
+    /// Uses of names that are not there.
+    unknown: usize,
+}
+
+/// Fields of one struct, by their number in the schema.
+pub(crate) struct Fields<'t, 's> {
+    def: &'static StructDef,
+    slots: [Option<Item<'t, 's>>; MAX_FIELDS],
+    next: usize,
+}
+
+/// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
+const LOOK_AT: usize = 64;
+/// No struct of the language has more fields.
+const MAX_FIELDS: usize = 12;
+
+impl<'r> Reader<'r> {
+    pub fn new(sink: &'r mut Sink) -> Reader<'r> {
+        Reader { sink, path: Vec::new(), materials: Materials::default() }
+    }
+
+    pub(crate) fn path(&self) -> String {
+        let mut out = String::new();
+        for step in &self.path {
+            let _ = match step {
+                Step::Field(name) if out.is_empty() => write!(out, "{name}"),
+                Step::Field(name) => write!(out, ".{name}"),
+                Step::Index(index) => write!(out, "[{index}]"),
+                Step::Key(key) if is_plain(key) => write!(out, ".{key}"),
+                Step::Key(key) => write!(out, "[\"{key}\"]"),
+            };
+        }
+        out
+    }
+
+    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        let path = self.path();
+        self.sink.push(diagnostic.at_path(path));
+    }
+
+    /// Finds the fields of a struct; reports unknown, double and missing ones.
+    pub fn fields<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static StructDef) -> Option<Fields<'t, 's>> {
+        if let Some(name) = item.name()
+            && name != def.name
+        {
+            self.wrong_name(item, name, def);
+            return None;
+        }
+        self.fields_unnamed(item, def)
+    }
+
+    fn wrong_name(&mut self, item: Item<'_, '_>, name: &str, def: &'static StructDef) {
+        let message = format!("{} is called `{}` here, not `{name}`", article_free(def.noun), def.name);
+        let mut fault = Diagnostic::error(codes::UNKNOWN_VARIANT, item.head(), message)
+            .expected(format!("{}(..), or brackets without a name", def.name));
+        fault.edit = Some(Edit { span: item.head(), replacement: def.name.to_owned() });
+        fault.hint = format!("write `{}`", def.name);
+        self.report(fault);
+    }
+
+    /// As [`Reader::fields`], for an item whose name has been seen to.
+    pub(crate) fn fields_unnamed<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        def: &'static StructDef,
+    ) -> Option<Fields<'t, 's>> {
+        debug_assert!(def.fields.len() <= MAX_FIELDS);
+        let mut fields = Fields { def, slots: [None; MAX_FIELDS], next: 0 };
+        match item.kind() {
+            Kind::Broken => return None,
+            Kind::Struct | Kind::Map => {}
+            Kind::Tuple if item.is_damaged() && def.bare.is_none() => return None,
+            Kind::Tuple => {
+                let mut children = item.solid_children();
+                match (children.next(), children.next(), def.bare) {
+                    (None, ..) => {}
+                    (Some(only), None, Some(bare)) => {
+                        let slot = def.fields.iter().position(|field| field.name == bare)?;
+                        fields.slots[slot] = Some(only);
+                    }
+                    (Some(first), ..) => {
+                        self.report(
+                            Diagnostic::error(
+                                codes::MISSING_NAME,
+                                first.head(),
+                                format!("the values of {} are written with their names", def.noun),
+                            )
+                            .expected(field_list(def))
+                            .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
+                        );
+                        return None;
+                    }
+                }
+            }
+            _ => {
+                let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
+                let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
+                let expected = match item.syntax() {
+                    _ if header => "a table".to_owned(),
+                    Syntax::Ron => format!("{}({})", def.name, field_words(def)),
+                    Syntax::Toml => format!("{{ {} }}", field_words(def).replace(": ..", " = ..")),
+                };
+                return self.wrong_kind(item, def.noun, &expected, edit);
+            }
+        }
+        let mut guess = 0;
+        for (key, value) in item.fields() {
+            if self.sink.is_full() {
+                break;
+            }
+            let name = key.text();
+            let slot = match def.fields.get(guess) {
+                Some(field) if field.name == name => Some(guess),
+                _ => def.fields.iter().position(|field| field.name == name),
+            };
+            match slot {
+                // Where the schema is, for editors.
+                None if name == "$schema" && def.name == "Scene" => {}
+                None => self.unknown_field(key, &name, item, def),
+                Some(slot) => {
+                    guess = slot + 1;
+                    if let Some(first) = fields.slots[slot] {
+                        self.path.push(Step::Field(def.fields[slot].name));
+                        self.duplicate(key, &name, first);
+                        self.path.pop();
+                    } else {
+                        fields.slots[slot] = Some(value);
+                    }
+                }
+            }
+        }
+        if !item.is_damaged() {
+            self.missing_fields(item, def, &fields);
+        }
+        Some(fields)
+    }
+
+    fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {
+        for (field, slot) in def.fields.iter().zip(&fields.slots) {
+            if slot.is_none() && field.default.is_none() && !self.mistyped(item, def, field.name) {
+                let mut fault = Diagnostic::error(
+                    codes::MISSING_FIELD,
+                    item.head(),
+                    format!("{} needs the field `{}`", def.noun, field.name),
+                )
+                .expected(value::expected_for(field, item));
+                let sign = if item.syntax() == Syntax::Ron { ": .." } else { " = .." };
+                fault.hint = format!("add `{}{sign}`", field.name);
+                self.path.push(Step::Field(field.name));
+                self.report(fault);
+                self.path.pop();
+            }
+        }
+        if def.exactly_one.is_empty() {
+            return;
+        }
+        let written = || {
+            let all = def.fields.iter().zip(&fields.slots);
+            all.filter(|(field, slot)| slot.is_some() && def.exactly_one.contains(&field.name))
+        };
+        let choice = suggest::list(def.exactly_one);
+        match written().count() {
+            1 => {}
+            0 => {
+                if !def.exactly_one.iter().any(|name| self.mistyped(item, def, name)) {
+                    self.report(
+                        Diagnostic::error(
+                            codes::EXACTLY_ONE,
+                            item.head(),
+                            format!("{} needs one of {choice}", def.noun),
+                        )
+                        .expected(format!("exactly one of {choice}"))
+                        .hint(format!("add `{}`", def.exactly_one[0])),
+                    );
+                }
+            }
+            _ => {
+                let mut slots: Vec<_> =
+                    written().filter_map(|(field, slot)| slot.map(|item| (item.head(), field.name))).collect();
+                slots.sort();
+                let [(at, first), (span, second), ..] = slots[..] else { return };
+                self.report(
+                    Diagnostic::error(
+                        codes::EXACTLY_ONE,
+                        span,
+                        format!("{} has both `{first}` and `{second}`", def.noun),
+                    )
+                    .expected(format!("exactly one of {choice}"))
+                    .hint("remove all but one")
+                    .label(at, format!("`{first}` is written here")),
+                );
+            }
+        }
+    }
+
+    /// Whether an unknown field of the item looks like `name`: then it is not missing, it is mistyped.
+    fn mistyped(&self, item: Item<'_, '_>, def: &'static StructDef, name: &str) -> bool {
+        item.fields().take(LOOK_AT).any(|(key, _)| {
+            let key = key.text();
+            def.field(&key).is_none() && meant(&key, item, def) == Some(name)
+        })
+    }
+
+    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, item: Item<'_, '_>, def: &'static StructDef) {
+        if RESERVED.contains(&name) {
+            self.report(
+                Diagnostic::error(
+                    codes::RESERVED_WORD,
+                    key.span(),
+                    format!("`{name}` is kept for later versions of the language"),
+                )
+                .expected(field_list(def)),
+            );
+            return;
+        }
+        let mut fault =
+            Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
+                .expected(field_list(def));
+        let quoted = key.lexeme().starts_with(['"', '\'']);
+        fault.did_you_mean(meant(name, item, def), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
+        if fault.hint.is_empty()
+            && let Some(other) = synonym(name, def)
+        {
+            fault.did_you_mean(Some(other), str::to_owned);
+        }
+        self.report(fault);
+    }
+
+    fn duplicate(&mut self, key: Item<'_, '_>, name: &str, first: Item<'_, '_>) {
+        self.report(
+            Diagnostic::error(codes::DUPLICATE_FIELD, key.span(), format!("`{name}` is written twice"))
+                .hint("remove one of the two")
+                .label(first.head(), "the first value is here"),
+        );
+    }
+
+    /// Reads the next field of the schema.
+    pub fn field<T: Words>(&mut self, fields: &mut Fields<'_, '_>, default: Option<fn() -> T>) -> Option<T> {
+        let at = fields.def.fields.get(fields.next)?;
+        let item = fields.slots[fields.next];
+        fields.next += 1;
+        match item {
+            Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),
+            Some(item) => {
+                self.path.push(Step::Field(at.name));
+                let value = T::read(self, item, at);
+                self.path.pop();
+                // What is wrong has been said: go on with the default, to see the rest.
+                value.or_else(|| default.map(|default| default()))
+            }
+            None => default.map(|default| default()),
+        }
+    }
+
+    /// Reads the items of a list; those that are wrong are left out.
+    pub(crate) fn list<T: Words>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vec<T>> {
+        if item.kind() != Kind::List {
+            return self.not_a_list(item, at);
+        }
+        let mut list = Vec::new();
+        for (index, child) in item.children().enumerate() {
+            if self.sink.is_full() {
+                break;
+            }
+            if child.kind() == Kind::Broken {
+                continue;
+            }
+            self.path.push(Step::Index(index));
+            list.extend(T::read(self, child, at));
+            self.path.pop();
+        }
+        Some(list)
+    }
+
+    fn not_a_list<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
+        let lexeme = item.lexeme();
+        let header = item.syntax() == Syntax::Toml && item.kind() == Kind::Map && lexeme.starts_with('[');
+        let edit = match item.kind() {
+            _ if header => Some(format!("[{lexeme}]")),
+            Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
+                Some(format!("[{lexeme}]"))
+            }
+            Kind::Tuple => lexeme.get(1..lexeme.len() - 1).map(|inner| format!("[{inner}]")),
+            _ => None,
+        };
+        // A table under a TOML header is not between brackets that could be edited.
+        let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[']));
+        self.wrong_kind(item, at.noun, "a list: [a, b, c]", edit)
+    }
+
+    /// Reports a value of the wrong kind for a field.
+    pub(crate) fn wrong_type<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef, expected: &str) -> Option<T> {
+        self.wrong_kind(item, at.noun, expected, None)
+    }
+
+    pub(crate) fn wrong_kind<T>(
+        &mut self,
+        item: Item<'_, '_>,
+        noun: &str,
+        expected: &str,
+        edit: Option<String>,
+    ) -> Option<T> {
+        if item.kind() == Kind::Broken {
+            return None;
+        }
+        let mut fault =
+            Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("{} cannot be {}", plain(noun), describe(item)))
+                .expected(expected);
+        if let Some(replacement) = edit {
+            fault.hint = if replacement.chars().count() > SHOWN && replacement.starts_with('[') {
+                "put square brackets around it".to_owned()
+            } else {
+                format!("write {}", shortened(&replacement))
+            };
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        }
+        self.report(fault);
+        None
+    }
+}
+
+/// A value in words, for "cannot be ..".
+pub(crate) fn describe(item: Item<'_, '_>) -> String {
+    match item.kind() {
+        Kind::Broken => "this".to_owned(),
+        Kind::Bool => format!("`{}`", item.lexeme()),
+        Kind::Integer | Kind::Float => format!("the number {}", shortened(item.lexeme())),
+        Kind::Text => format!("the text {}", shortened(item.lexeme())),
+        Kind::Char => "a single character".to_owned(),
+        Kind::Date => "a date or time".to_owned(),
+        Kind::Word => format!("the word `{}`", shortened(item.lexeme())),
+        Kind::Key => "a name".to_owned(),
+        Kind::List => match item.children().count() {
+            0 => "an empty list".to_owned(),
+            1 => "a list of one item".to_owned(),
+            count => format!("a list of {count} items"),
+        },
+        Kind::Tuple | Kind::Struct if item.name().is_some() => {
+            format!("`{}(..)`", shortened(item.name().unwrap_or_default()))
+        }
+        Kind::Tuple => match item.children().count() {
+            0 => "an empty pair of brackets".to_owned(),
+            1 => "one value in brackets".to_owned(),
+            count => format!("{count} values in brackets"),
+        },
+        Kind::Struct => "a group of fields".to_owned(),
+        Kind::Map => "a table of fields".to_owned(),
+    }
+}
+
+/// So many characters of something long are shown.
+const SHOWN: usize = 40;
+
+/// The first characters of something that may be long.
+pub(crate) fn shortened(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    if line.len() == text.len() && line.chars().count() <= SHOWN {
+        return line.to_owned();
+    }
+    let head: String = line.chars().take(SHOWN - 2).collect();
+    format!("{head}..")
+}
+
+/// ``the `focus_distance` of a thin lens``: names that are no words are set off.
+pub(crate) fn plain(noun: &str) -> String {
+    let words: Vec<String> =
+        noun.split(' ').map(|word| if word.contains('_') { format!("`{word}`") } else { word.to_owned() }).collect();
+    words.join(" ")
+}
+
+/// `this sphere` from `a sphere`; `the camera` stays.
+fn article_free(noun: &str) -> String {
+    match noun.split_once(' ') {
+        Some(("a" | "an", rest)) => format!("this {rest}"),
+        _ => noun.to_owned(),
+    }
+}
+
+pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
+    def.fields.iter().map(|field| field.name)
+}
+
+/// The field that an unknown name stands for: one that is not written yet, if one of those is near.
+fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'static str> {
+    let written = |field: &&str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == *field);
+    suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
+}
+
+fn field_list(def: &'static StructDef) -> String {
+    let names: Vec<&str> = names(def).collect();
+    match names.as_slice() {
+        [only] => format!("the field `{only}`"),
+        names => format!("one of {}", suggest::list(names)),
+    }
+}
+
+/// `center: .., radius: ..`: the fields that must be written, or the first one.
+fn field_words(def: &'static StructDef) -> String {
+    if def.name == "Scene" {
+        return "objects: [..]".to_owned();
+    }
+    let mut words: Vec<String> =
+        def.fields.iter().filter(|field| field.default.is_none()).map(|field| format!("{}: ..", field.name)).collect();
+    if words.is_empty() {
+        words.extend(def.fields.first().map(|field| format!("{}: ..", field.name)));
+    }
+    words.join(", ")
+}
+
+fn is_plain(key: &str) -> bool {
+    !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
+/// What other programs call a field of ours.
+fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    const SYNONYMS: [(&str, &[&str]); 16] = [
+        ("position", &["eye", "origin", "from", "pos", "location"]),
+        ("look_at", &["target", "lookat", "to"]),
+        ("center", &["centre", "position", "pos", "origin"]),
+        ("radius", &["r", "size"]),
+        ("fov", &["field_of_view", "angle", "vfov"]),
+        ("width", &["w", "x"]),
+        ("height", &["h", "y"]),
+        ("samples", &["spp", "samples_per_pixel"]),
+        ("max_bounces", &["max_depth", "depth", "bounces"]),
+        ("albedo", &["color", "colour", "diffuse", "base_color", "reflectance"]),
+        ("reflectance", &["color", "colour", "albedo"]),
+        ("ior", &["index", "eta", "refractive_index"]),
+        ("file", &["path", "filename", "mesh", "src"]),
+        ("degrees", &["angle", "deg"]),
+        ("exponent", &["shininess", "alpha", "glossiness"]),
+        ("transform", &["transforms"]),
+    ];
+    let lower = name.to_ascii_lowercase();
+    let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
+    found.map(|(field, _)| *field)
+}

@@ -1,0 +1,333 @@
+//! Numbers, texts, paths and lists.
+
+use super::{Reader, plain, shortened};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::form::Form;
+use crate::schema::{FieldDef, Type};
+use crate::suggest;
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+use std::path::PathBuf;
+
+/// What a field takes, in words and in the item's syntax: `a length > 0, in the scene's unit`.
+pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
+    let words = expected(at);
+    match item.syntax() {
+        Syntax::Ron => words,
+        Syntax::Toml => words
+            .replace("(x, y, z)", "[x, y, z]")
+            .replace("(r, g, b)", "[r, g, b]")
+            .replace("Texture(..)", "{ Texture = .. }")
+            .replace("or None", "or \"None\""),
+    }
+}
+
+/// What a field takes, in the words of RON.
+pub(crate) fn expected(at: &FieldDef) -> String {
+    let rule = &at.rule;
+    let words = rule.range.words();
+    let out = match (at.kind, rule.what) {
+        (Type::Bool, _) => "true or false".to_owned(),
+        (Type::Number | Type::Integer, "") => "a number".to_owned(),
+        (Type::Number | Type::Integer, what) => what.to_owned(),
+        (Type::Text, _) => "a name between quotes".to_owned(),
+        (Type::File, _) => "the name of a file, between quotes, relative to the scene file".to_owned(),
+        (Type::Vector, "") => "three numbers: (x, y, z)".to_owned(),
+        (Type::Vector, what) => format!("{what}: (x, y, z)"),
+        (Type::Color | Type::Optional(Type::Color), _) => {
+            let channels = if words.is_empty() { "channels" } else { "channels " };
+            return with_unit(
+                format!("a colour with {channels}{words}: (r, g, b), one number for grey, or \"#rrggbb\""),
+                at,
+            );
+        }
+        (Type::List(_), _) => "a list: [a, b, c]".to_owned(),
+        (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
+        (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
+        (Type::Struct(def), _) => def.noun.to_owned(),
+        (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
+        (Type::OneOf([Type::Color, ..]), _) => {
+            return format!(
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or Texture(..)"
+            );
+        }
+        (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
+        (Type::OneOf(_), _) => "a value".to_owned(),
+    };
+    let out = if words.is_empty() { out } else { format!("{out} {words}") };
+    with_unit(out, at)
+}
+
+fn with_unit(words: String, at: &FieldDef) -> String {
+    if at.rule.unit.is_empty() { words } else { format!("{words}, {}", at.rule.unit) }
+}
+
+impl Reader<'_> {
+    /// A number, in range or not.
+    pub(crate) fn number(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<f64> {
+        if let Some(value) = item.number() {
+            return Some(value);
+        }
+        let mut edit = None;
+        if item.kind() == Kind::Text {
+            let text = item.text();
+            let trimmed = text.trim();
+            edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|_| trimmed.to_owned());
+        } else if let Kind::Tuple | Kind::List = item.kind() {
+            let mut children = item.children();
+            if let (Some(only), None) = (children.next(), children.next()) {
+                edit = only.number().map(|_| only.lexeme().to_owned());
+            }
+        }
+        self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
+    }
+
+    /// Reports a number that is not finite or not in the field's range; `channel` says which of several it is.
+    pub(crate) fn check(
+        &mut self,
+        value: f64,
+        item: Item<'_, '_>,
+        at: &'static FieldDef,
+        channel: &str,
+    ) -> Option<f64> {
+        let range = &at.rule.range;
+        if range.contains(value) && value.is_finite() {
+            return Some(value);
+        }
+        let noun = if channel.is_empty() { plain(at.noun) } else { format!("{channel} of {}", plain(at.noun)) };
+        let (code, message) = if !value.is_finite() {
+            (codes::NOT_FINITE, format!("{noun} must be a finite number"))
+        } else if range.is_length() && value <= 0.0 {
+            (codes::NOT_POSITIVE, format!("{noun} must be positive"))
+        } else if range.is_length() && value < range.low {
+            (codes::OUT_OF_RANGE, format!("{noun} is too small to reckon with"))
+        } else if range.low == 0.0 && !range.above_low && value < 0.0 {
+            (codes::NEGATIVE, format!("{noun} must not be negative"))
+        } else if value.abs() > crate::schema::MAX_LENGTH && range.high >= crate::schema::MAX_LENGTH {
+            (codes::OUT_OF_RANGE, format!("{noun} is too large to reckon with"))
+        } else if value < range.low || range.above_low && value == range.low {
+            let bound = if range.above_low { "more than" } else { "at least" };
+            (codes::OUT_OF_RANGE, format!("{noun} must be {bound} {}", range.low))
+        } else {
+            let bound = if range.below_high { "less than" } else { "at most" };
+            (codes::OUT_OF_RANGE, format!("{noun} must be {bound} {}", range.high))
+        };
+        let mut fault = Diagnostic::error(code, item.span(), message).expected(expected_for(at, item));
+        if code == codes::OUT_OF_RANGE && (value.abs() > range.high.abs() && range.high >= crate::schema::MAX_LENGTH) {
+            fault.hint = "numbers so large leave the range of the arithmetic; choose a larger unit".to_owned();
+        } else if range.is_length() && value > 0.0 && value < range.low {
+            fault.hint = "numbers so small leave the range of the arithmetic; choose a smaller unit".to_owned();
+        } else if range.high == 1.0 && value > 1.0 && value <= 255.0 && at.rule.color {
+            fault.hint = if value > 2.0 && value.fract() == 0.0 {
+                "channels go from 0 to 1; write \"#rrggbb\" for values up to 255".to_owned()
+            } else {
+                "a surface cannot reflect more than it gets".to_owned()
+            };
+        }
+        self.report(fault);
+        None
+    }
+}
+
+impl Words for f64 {
+    const TYPE: Type = Type::Number;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let value = reader.number(item, at)?;
+        reader.check(value, item, at, "")
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Number(*self)
+    }
+}
+
+impl Words for u32 {
+    const TYPE: Type = Type::Integer;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let value = reader.number(item, at)?;
+        if item.kind() == Kind::Float && value.is_finite() {
+            let mut fault =
+                Diagnostic::error(codes::NOT_WHOLE, item.span(), format!("{} must be a whole number", plain(at.noun)))
+                    .expected(expected_for(at, item));
+            if value.fract() == 0.0 && at.rule.range.contains(value) {
+                fault.hint = format!("write {value}");
+                fault.edit = Some(Edit { span: item.span(), replacement: format!("{value}") });
+            }
+            reader.report(fault);
+            return None;
+        }
+        let value = reader.check(value, item, at, "")?;
+        // The ranges of whole numbers end within u32.
+        Some(value as u32)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Integer(u64::from(*self))
+    }
+}
+
+impl Words for bool {
+    const TYPE: Type = Type::Bool;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.kind() == Kind::Bool {
+            return Some(item.lexeme() == "true");
+        }
+        let text = item.text().to_ascii_lowercase();
+        let edit = match text.as_str() {
+            "true" | "yes" | "on" | "1" => Some("true".to_owned()),
+            "false" | "no" | "off" | "0" => Some("false".to_owned()),
+            _ => suggest::nearest(&text, ["true", "false"]).map(str::to_owned),
+        };
+        reader.wrong_kind(item, at.noun, &expected_for(at, item), edit)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Bool(*self)
+    }
+}
+
+impl Words for String {
+    const TYPE: Type = Type::Text;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.kind() != Kind::Text {
+            let word = matches!(item.kind(), Kind::Word).then(|| format!("\"{}\"", item.lexeme()));
+            return reader.wrong_kind(item, at.noun, &expected_for(at, item), word);
+        }
+        let text = item.text();
+        if text.trim().is_empty() {
+            reader.report(
+                Diagnostic::error(codes::EMPTY_TEXT, item.span(), format!("{} is empty", plain(at.noun)))
+                    .expected(expected_for(at, item)),
+            );
+            return None;
+        }
+        Some(text.into_owned())
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Text(self.clone())
+    }
+}
+
+impl Words for PathBuf {
+    const TYPE: Type = Type::File;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        String::read(reader, item, at).map(PathBuf::from)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Text(self.to_string_lossy().into_owned())
+    }
+}
+
+impl<T: Words> Words for Spanned<T> {
+    const TYPE: Type = T::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let value = T::read(reader, item, at)?;
+        Some(Spanned { value, span: item.span() })
+    }
+
+    fn form(&self, all: bool) -> Form {
+        self.value.form(all)
+    }
+}
+
+impl<T: Words> Words for Vec<T> {
+    const TYPE: Type = Type::List(&T::TYPE);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.list(item, at)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        Form::list(self.iter().map(|item| item.form(all)))
+    }
+}
+
+/// Values that may be `None`.
+macro_rules! optional {
+    ($($ty:ty),+) => {$(
+        impl Words for Option<$ty> {
+            const TYPE: Type = Type::Optional(&<$ty as Words>::TYPE);
+
+            fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+                if item.is_word("None") {
+                    return Some(None);
+                }
+                <$ty>::read(reader, item.without_some(), at).map(Some)
+            }
+
+            fn form(&self, all: bool) -> Form {
+                self.as_ref().map_or(Form::word("None"), |value| value.form(all))
+            }
+        }
+    )+};
+}
+
+optional!(crate::desc::Vec3, Spanned<crate::desc::Color>);
+
+impl Reader<'_> {
+    /// The name of a material; whether it is known is looked up when all are read.
+    pub(crate) fn material_name(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Spanned<String>> {
+        let name = <Spanned<String>>::read(self, item, at)?;
+        self.use_name(&name, item.syntax());
+        Some(name)
+    }
+}
+
+/// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
+pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
+    let digits =
+        text.strip_prefix('#').filter(|digits| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
+    let value = u32::from_str_radix(digits, 16).ok()?;
+    Some([value >> 16, value >> 8, value].map(|channel| linear_from_srgb(f64::from(channel & 0xff) / 255.0)))
+}
+
+/// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.
+fn linear_from_srgb(encoded: f64) -> f64 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
+}
+
+impl Reader<'_> {
+    pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
+        let text = item.text();
+        if let Some(color) = hex_color(&text) {
+            return Some(color);
+        }
+        let mut fault = Diagnostic::error(
+            codes::BAD_COLOR,
+            item.span(),
+            format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
+        )
+        .expected(expected_for(at, item));
+        let digits = text.trim().trim_start_matches('#');
+        let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        let mended = match digits.len() {
+            6 if hex => Some(digits.to_owned()),
+            3 if hex => Some(digits.chars().flat_map(|c| [c, c]).collect()),
+            _ => None,
+        };
+        if let Some(digits) = mended {
+            fault.hint = format!("did you mean \"#{digits}\"?");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{digits}\"") });
+        } else if decode::number(&text).is_finite() {
+            fault.hint = "write the number without quotes".to_owned();
+            fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
+        } else {
+            fault.hint = match item.syntax() {
+                Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),
+                Syntax::Toml => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
+            };
+        }
+        self.report(fault);
+        None
+    }
+}

@@ -1,0 +1,292 @@
+//! Choices: `Name`, `Name(..)` in RON; `"Name"`, `{ Name = .. }` in TOML.
+
+use super::{Fields, Reader, describe, plain};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::schema::{Content, EnumDef, Type, VariantDef};
+use crate::suggest;
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+
+/// A variant that was found, with what stands in its brackets.
+pub(crate) struct Chosen<'t, 's> {
+    pub variant: &'static VariantDef,
+    body: Body<'t, 's>,
+    item: Item<'t, 's>,
+}
+
+enum Body<'t, 's> {
+    /// A bare word.
+    None,
+    /// `Name(..)`: the item itself.
+    Brackets(Item<'t, 's>),
+    /// `{ Name = value }`: the value.
+    Value(Item<'t, 's>),
+}
+
+impl Reader<'_> {
+    /// Finds out which variant is written.
+    pub fn variant<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static EnumDef) -> Option<Chosen<'t, 's>> {
+        let (name, span, body) = match item.kind() {
+            Kind::Broken => return None,
+            Kind::Word => (item.lexeme().into(), item.span(), Body::None),
+            Kind::Text => {
+                let name = item.text();
+                if item.syntax() == Syntax::Ron {
+                    return self.quoted_variant(item, &name, def);
+                }
+                (name, item.span(), Body::None)
+            }
+            Kind::Struct | Kind::Tuple if item.name().is_some() => {
+                (item.name().unwrap_or_default().into(), item.head(), Body::Brackets(item))
+            }
+            Kind::Map => {
+                let mut fields = item.fields();
+                match (fields.next(), fields.next()) {
+                    (Some((key, value)), None) => (key.text(), key.span(), Body::Value(value)),
+                    (Some((key, _)), Some((second, _))) if def.variant(&key.text()).is_some() => {
+                        self.report(
+                            Diagnostic::error(
+                                codes::UNKNOWN_FIELD,
+                                second.span(),
+                                format!("beside `{}` nothing else can stand here", key.text()),
+                            )
+                            .expected(format!("one {}; its fields stand inside its own braces", def.noun))
+                            .label(key.span(), format!("this is the {}", def.noun)),
+                        );
+                        return None;
+                    }
+                    (None, _) if item.is_damaged() => return None,
+                    _ => return self.no_variant(item, def),
+                }
+            }
+            _ => return self.no_variant(item, def),
+        };
+        // { albedo = 1 }: the fields of a kind without its name.
+        let is_field =
+            |variant: &VariantDef| matches!(variant.content, Content::Struct(def) if def.field(&name).is_some());
+        if matches!(body, Body::Value(_)) && def.variant(&name).is_none() && def.variants.iter().any(is_field) {
+            return self.no_variant(item, def);
+        }
+        match def.variant(&name) {
+            Some(variant) => Some(Chosen { variant, body, item }),
+            None => {
+                self.unknown_variant(span, &name, def, item.syntax());
+                None
+            }
+        }
+    }
+
+    fn no_variant<T>(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Option<T> {
+        if item.is_damaged() && item.children().count() <= 1 || item.kind() == Kind::List && item.holds_damage() {
+            return None;
+        }
+        let mut fault = Diagnostic::error(
+            codes::WRONG_TYPE,
+            item.head(),
+            format!("a {} cannot be {}", def.noun, describe(item))
+                .replace("a acc", "an acc")
+                .replace("a obj", "an obj"),
+        )
+        .expected(choices(def, item.syntax()));
+        if matches!(item.kind(), Kind::Struct | Kind::Map) {
+            // The fields alone, without the name of the kind: say which kind has them.
+            let fits = def.variants.iter().filter(|variant| {
+                matches!(variant.content, Content::Struct(fields)
+                    if item.fields().next().is_some()
+                    && item.fields().all(|(key, _)| fields.field(&key.text()).is_some())
+                    && fields.fields.iter().all(|field| field.default.is_some()
+                        || item.fields().any(|(key, _)| key.text() == field.name)))
+            });
+            let fits: Vec<&str> = fits.map(|variant| variant.name).collect();
+            if let [only] = fits.as_slice() {
+                let (start, lexeme) = (item.span().start, item.lexeme());
+                if item.syntax() == Syntax::Ron && lexeme.starts_with('(') {
+                    fault.hint = format!("write `{only}` before the bracket");
+                    fault.edit =
+                        Some(Edit { span: Span { end: start, ..item.span() }, replacement: (*only).to_owned() });
+                } else if lexeme.starts_with('{') {
+                    fault.hint = format!("write `{{ {only} = {{ .. }} }}`");
+                    fault.edit = Some(Edit { span: item.span(), replacement: format!("{{ {only} = {lexeme} }}") });
+                } else {
+                    fault.hint = format!("put the fields into a table `{only}`");
+                }
+            }
+        }
+        self.report(fault);
+        None
+    }
+
+    fn unknown_variant(&mut self, span: Span, name: &str, def: &'static EnumDef, syntax: Syntax) {
+        let mut fault = Diagnostic::error(
+            codes::UNKNOWN_VARIANT,
+            span,
+            format!("`{}` is not a kind of {}", super::shortened(name), def.noun),
+        )
+        .expected(choices(def, syntax));
+        let quoted = syntax == Syntax::Toml && span.end - span.start == name.len() as u32 + 2;
+        fault.did_you_mean(suggest::nearest(name, def.variants.iter().map(|variant| variant.name)), |word| {
+            if quoted { format!("\"{word}\"") } else { word.to_owned() }
+        });
+        self.report(fault);
+    }
+
+    fn quoted_variant<T>(&mut self, item: Item<'_, '_>, name: &str, def: &'static EnumDef) -> Option<T> {
+        let known = suggest::nearest(name, def.variants.iter().map(|variant| variant.name));
+        let Some(word) = known else { return self.no_variant(item, def) };
+        let message = format!("the kind of {} is written without quotes", def.noun);
+        let mut fault =
+            Diagnostic::error(codes::WRONG_TYPE, item.span(), message).expected(choices(def, item.syntax()));
+        let unit = def.variant(word).is_some_and(|variant| matches!(variant.content, Content::Unit));
+        if unit {
+            fault.hint = format!("write {word}");
+            fault.edit = Some(Edit { span: item.span(), replacement: word.to_owned() });
+        } else {
+            fault.hint = format!("write {word}(..)");
+        }
+        self.report(fault);
+        None
+    }
+
+    /// Makes sure that a variant without values has none.
+    pub fn unit(&mut self, chosen: &Chosen<'_, '_>) -> Option<()> {
+        let (Body::Brackets(item) | Body::Value(item)) = chosen.body else { return Some(()) };
+        if item.kind() == Kind::Broken {
+            return None;
+        }
+        let name = chosen.variant.name;
+        let span = chosen.item.span();
+        let replacement = if chosen.item.syntax() == Syntax::Ron { name.to_owned() } else { format!("\"{name}\"") };
+        let mut fault =
+            Diagnostic::error(codes::WRONG_TYPE, chosen.item.head(), format!("`{name}` stands alone, without values"))
+                .expected(replacement.clone())
+                .hint(format!("write {replacement}"));
+        if chosen.item.kind() != Kind::Map || chosen.item.lexeme().starts_with('{') {
+            fault.edit = Some(Edit { span, replacement });
+        }
+        self.report(fault);
+        None
+    }
+
+    /// The one value of a variant: its fields, or what stands in its brackets.
+    pub fn content<T: Words>(&mut self, chosen: &Chosen<'_, '_>) -> Option<T> {
+        let at = match &chosen.variant.content {
+            Content::Value(at) => at,
+            _ => &NO_FIELD,
+        };
+        if let Type::Struct(_) = T::TYPE {
+            return match chosen.body {
+                Body::None => self.needs_brackets(chosen),
+                Body::Brackets(item) | Body::Value(item) => T::read(self, item, at),
+            };
+        }
+        match chosen.body {
+            Body::None => self.needs_brackets(chosen),
+            Body::Value(value) => T::read(self, value, at),
+            Body::Brackets(item) => {
+                let mut children = item.solid_children();
+                match (children.next(), children.next()) {
+                    (None, None) if item.is_damaged() => None,
+                    (Some(only), None) if item.kind() == Kind::Tuple => T::read(self, only, at),
+                    (Some(_), Some(_)) if item.kind() == Kind::Tuple => {
+                        // Translate(1, 2, 3): the vector's own brackets are missing.
+                        let lexeme = item.lexeme();
+                        let inner = lexeme.get(chosen.variant.name.len()..).unwrap_or("").trim();
+                        let replacement = format!("{}({inner})", chosen.variant.name);
+                        let mut fault = Diagnostic::error(
+                            codes::WRONG_COUNT,
+                            item.head(),
+                            format!("{} is one vector, with brackets of its own", plain(at.noun)),
+                        )
+                        .expected(format!("{}((x, y, z))", chosen.variant.name))
+                        .hint(format!("write {}", super::shortened(&replacement)));
+                        fault.edit = Some(Edit { span: item.span(), replacement });
+                        self.report(fault);
+                        None
+                    }
+                    _ => self.wrong_kind(item, at.noun, &super::value::expected_for(at, item), None),
+                }
+            }
+        }
+    }
+
+    fn needs_brackets<T>(&mut self, chosen: &Chosen<'_, '_>) -> Option<T> {
+        let name = chosen.variant.name;
+        let (expected, complete) = match (&chosen.variant.content, chosen.item.syntax()) {
+            (Content::Struct(def), Syntax::Ron) => {
+                (format!("{name}({})", super::field_words(def)), def.fields.iter().all(|f| f.default.is_some()))
+            }
+            (Content::Struct(def), Syntax::Toml) => (
+                format!("{{ {name} = {{ {} }} }}", super::field_words(def).replace(": ..", " = ..")),
+                def.fields.iter().all(|f| f.default.is_some()),
+            ),
+            (_, Syntax::Ron) => (format!("{name}(..)"), false),
+            (_, Syntax::Toml) => (format!("{{ {name} = .. }}"), false),
+        };
+        let needs = match chosen.item.syntax() {
+            Syntax::Ron => format!("`{name}` needs brackets after it"),
+            Syntax::Toml => format!("`{name}` needs a table of its fields"),
+        };
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, chosen.item.span(), needs).expected(expected);
+        if complete {
+            let replacement = match chosen.item.syntax() {
+                Syntax::Ron => format!("{name}()"),
+                Syntax::Toml => format!("{{ {name} = {{}} }}"),
+            };
+            fault.hint = format!("write {replacement} for the defaults");
+            fault.edit = Some(Edit { span: chosen.item.span(), replacement });
+        }
+        self.report(fault);
+        None
+    }
+
+    /// The fields of a variant.
+    pub fn variant_fields<'t, 's>(&mut self, chosen: &Chosen<'t, 's>) -> Option<Fields<'t, 's>> {
+        let Content::Struct(def) = chosen.variant.content else { return None };
+        match chosen.body {
+            Body::None => self.needs_brackets(chosen),
+            Body::Brackets(item) => self.fields_unnamed(item, def),
+            Body::Value(item) => {
+                if let Some(bare) = def.bare
+                    && !matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Broken)
+                {
+                    let slot = def.fields.iter().position(|field| field.name == bare)?;
+                    let mut fields = Fields { def, slots: [None; super::MAX_FIELDS], next: 0 };
+                    fields.slots[slot] = Some(item);
+                    return Some(fields);
+                }
+                self.fields(item, def)
+            }
+        }
+    }
+}
+
+/// Stands for the field of a value that is not in one.
+static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
+    name: "",
+    noun: "this",
+    doc: &[],
+    kind: Type::Bool,
+    rule: crate::schema::Rule::ANY,
+    default: None,
+};
+
+/// All that a choice may be, as it is written.
+pub(crate) fn choices(def: &'static EnumDef, syntax: Syntax) -> String {
+    let words: Vec<String> = def
+        .variants
+        .iter()
+        .map(|variant| match (&variant.content, syntax) {
+            (Content::Unit, Syntax::Ron) => variant.name.to_owned(),
+            (Content::Unit, Syntax::Toml) => format!("\"{}\"", variant.name),
+            (_, Syntax::Ron) => format!("{}(..)", variant.name),
+            (_, Syntax::Toml) => format!("{{ {} = .. }}", variant.name),
+        })
+        .collect();
+    match words.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+        None => String::new(),
+    }
+}

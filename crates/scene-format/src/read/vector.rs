@@ -1,0 +1,116 @@
+//! Vectors, colours and factors: three numbers, or what stands for three.
+
+use super::value::expected_for;
+use super::{Reader, plain};
+use crate::codes;
+use crate::desc::Vec3;
+use crate::diagnostic::Diagnostic;
+use crate::form::Form;
+use crate::schema::{FieldDef, Type};
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+
+/// Names of the three numbers of a vector.
+const AXES: [&str; 3] = ["the x coordinate", "the y coordinate", "the z coordinate"];
+/// Names of the three numbers of a colour.
+const CHANNELS: [&str; 3] = ["the red channel", "the green channel", "the blue channel"];
+
+impl Reader<'_> {
+    /// Three numbers in brackets of either kind, each in the field's range.
+    fn three(&mut self, item: Item<'_, '_>, at: &'static FieldDef, names: [&str; 3]) -> Option<Vec3> {
+        let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
+        if !is_vector {
+            return self.wrong_type(item, at, &expected_for(at, item));
+        }
+        let mut value = [0.0; 3];
+        let mut count = 0;
+        let mut good = true;
+        for child in item.children() {
+            if child.kind() == Kind::Broken {
+                good = false;
+            } else if let (Some(slot), Some(name)) = (value.get_mut(count), names.get(count)) {
+                // Numbers of the wrong kind are reported one by one.
+                let number = self.number(child, at).and_then(|number| self.check(number, child, at, name));
+                match number {
+                    Some(number) => *slot = number,
+                    None => good = false,
+                }
+            }
+            count += 1;
+        }
+        if count == 3 {
+            return good.then_some(value);
+        }
+        if !item.is_damaged() {
+            let numbers = match count {
+                0 => "none".to_owned(),
+                1 => "one".to_owned(),
+                count => count.to_string(),
+            };
+            self.report(
+                Diagnostic::error(
+                    codes::WRONG_COUNT,
+                    item.head(),
+                    format!("{} has three numbers, not {numbers}", plain(at.noun)),
+                )
+                .expected(expected_for(at, item)),
+            );
+        }
+        None
+    }
+
+    /// A factor per axis, or one for all; none may be zero.
+    pub(crate) fn factor(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vec3> {
+        let factor = match item.kind() {
+            Kind::List | Kind::Tuple => self.three(item, at, AXES)?,
+            _ => {
+                let number = self.number(item, at)?;
+                [self.check(number, item, at, "")?; 3]
+            }
+        };
+        if factor.iter().any(|f| f.abs() < crate::schema::MIN_LENGTH) {
+            self.report(
+                Diagnostic::error(codes::SINGULAR_TRANSFORM, item.head(), "a scale of zero leaves nothing of the mesh")
+                    .expected("factors other than zero; negative ones mirror"),
+            );
+            return None;
+        }
+        Some(factor)
+    }
+}
+
+impl Words for Vec3 {
+    const TYPE: Type = Type::Vector;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        // Colours and points are the same Rust type; what they are in the language stands in the rule.
+        if at.rule.color {
+            return match item.kind() {
+                Kind::Integer | Kind::Float => {
+                    let grey = reader.number(item, at)?;
+                    Some([reader.check(grey, item, at, "")?; 3])
+                }
+                Kind::Text => reader.text_color(item, at),
+                _ => reader.three(item, at, CHANNELS),
+            };
+        }
+        let vector = reader.three(item, at, AXES)?;
+        let length2: f64 = vector.iter().map(|v| v * v).sum();
+        if at.rule.direction && length2 == 0.0 {
+            reader.report(
+                Diagnostic::error(
+                    codes::ZERO_DIRECTION,
+                    item.head(),
+                    format!("{} has no length, so it points nowhere", plain(at.noun)),
+                )
+                .expected(expected_for(at, item)),
+            );
+            return None;
+        }
+        Some(vector)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::vector(*self)
+    }
+}

@@ -1,0 +1,192 @@
+//! The reference of the scene language and of its diagnostics, as Markdown: made from the same schema that the reader goes by.
+
+use crate::codes::CODES;
+use crate::desc::Scene;
+use crate::examples::{CHOICES, snippet};
+use crate::form::Form;
+use crate::print::{ron_value, toml_value};
+use crate::read::expected;
+use crate::schema::{Content, EnumDef, FieldDef, StructDef, Type, prose};
+use std::fmt::Write;
+
+const INTRODUCTION: &str = "\
+# The scene language
+
+This file is generated from the types in `crates/scene-format/src/desc`; a test fails when it differs
+(`UPDATE_EXPECT=1 cargo test -p scene-format` writes it anew).
+
+A scene is one file, in RON (`.ron`) or TOML (`.toml`), with the same words in both:
+
+```ron
+Scene(
+    lights: [SphereLight(center: (3, 4, 5), radius: 1, radiance: 20)],
+    materials: { \"red\": Diffuse(albedo: (0.8, 0.1, 0.1)) },
+    objects: [Sphere(center: (0, 0, 0), radius: 1, material: \"red\")],
+)
+```
+
+```toml
+[materials]
+red = { Diffuse = { albedo = [0.8, 0.1, 0.1] } }
+
+[[lights]]
+SphereLight = { center = [3, 4, 5], radius = 1, radiance = 20 }
+
+[[objects]]
+Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }
+```
+
+- Numbers: `3`, `-0.25`, `1.5e3`, `1_000`; a whole number may stand where any number may.
+- Vectors: `(x, y, z)` or `[x, y, z]`; in TOML `[x, y, z]`.
+- Colours: `(r, g, b)` linear RGB, one number for grey, or `\"#rrggbb\"` (sRGB).
+- Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML; kinds without fields are `Name` and `\"Name\"`.
+- Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
+- Comments: `//` and `/* */` in RON, `#` in TOML.
+- The words `include`, `vars`, `repeat` and `keyframes` are kept for later versions.
+- `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
+  `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`.
+";
+
+/// `docs/scene-reference.md`: every field, kind, default, unit and range.
+pub fn reference() -> String {
+    let mut out = INTRODUCTION.to_owned();
+    let mut done = Vec::new();
+    section(&mut out, &Scene::DEF, &mut done);
+    out
+}
+
+/// `docs/diagnostics.md`: every code with its explanation.
+pub fn diagnostics_reference() -> String {
+    let mut out = "\
+# Diagnostics
+
+This file is generated from `crates/scene-format/src/codes.rs`; a test fails when it differs
+(`UPDATE_EXPECT=1 cargo test -p scene-format` writes it anew). `tracer explain E0301` prints one of these.
+
+`E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files; `W` warnings. A code never changes its meaning.
+"
+    .to_owned();
+    for code in CODES {
+        let text: String =
+            code.text.lines().map(|line| format!("{}\n", line.strip_prefix(' ').unwrap_or(line))).collect();
+        let _ = write!(out, "\n## {}: {}\n\n{text}", code.code, code.title);
+    }
+    out
+}
+
+fn section(out: &mut String, def: &'static StructDef, done: &mut Vec<&'static str>) {
+    if done.contains(&def.name) {
+        return;
+    }
+    done.push(def.name);
+    let _ = write!(out, "\n## {}\n\n{}\n", def.name, prose(def.doc));
+    table(out, def);
+    for field in def.fields {
+        parts(out, field.kind, done);
+    }
+}
+
+/// The sections of what a field's type is made of.
+fn parts(out: &mut String, kind: Type, done: &mut Vec<&'static str>) {
+    match kind {
+        Type::Struct(def) => section(out, def, done),
+        Type::Enum(def) => choice(out, def, done),
+        Type::List(inner) | Type::Map(inner) | Type::Optional(inner) => parts(out, *inner, done),
+        Type::OneOf(kinds) => kinds.iter().for_each(|kind| parts(out, *kind, done)),
+        _ => {}
+    }
+}
+
+fn choice(out: &mut String, def: &'static EnumDef, done: &mut Vec<&'static str>) {
+    if done.contains(&def.name) {
+        return;
+    }
+    done.push(def.name);
+    let _ = write!(out, "\n## {}\n\n{}\n", title(def.name), prose(def.doc));
+    debug_assert!(CHOICES.iter().any(|choice| choice.name == def.name), "{} is not among the choices", def.name);
+    for variant in def.variants {
+        let _ = write!(out, "\n### {}\n\n{}\n", variant.name, prose(variant.doc));
+        if let Some(words) = snippet(def.name, variant.name) {
+            let _ = write!(out, "\n```ron\n{words}\n```\n");
+        }
+        match &variant.content {
+            Content::Unit => {}
+            Content::Value(at) => {
+                let _ = write!(out, "\nValue: {}.\n", expected(at));
+            }
+            Content::Struct(fields) => {
+                done.push(fields.name);
+                table(out, fields);
+            }
+        }
+    }
+    for variant in def.variants {
+        if let Content::Struct(fields) = &variant.content {
+            fields.fields.iter().for_each(|field| parts(out, field.kind, done));
+        }
+    }
+}
+
+fn title(name: &'static str) -> &'static str {
+    match name {
+        "TransformWords" => "Transform",
+        "Pattern" => "Texture",
+        "PixelFilter" => "Antialiasing",
+        name => name,
+    }
+}
+
+fn table(out: &mut String, def: &'static StructDef) {
+    out.push_str("\n| field | value | default | meaning |\n|---|---|---|---|\n");
+    for field in def.fields {
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} |",
+            field.name,
+            value(field).replace('|', "\\|"),
+            default(field, def),
+            prose(field.doc)
+        );
+    }
+    if !def.exactly_one.is_empty() {
+        let _ = write!(out, "\nExactly one of {} is written.\n", crate::suggest::list(def.exactly_one));
+    }
+}
+
+fn value(field: &FieldDef) -> String {
+    match field.kind {
+        Type::Struct(def) => link(def.name),
+        Type::Enum(def) => link(title(def.name)),
+        Type::List(Type::Enum(def)) => format!("list of {}", link(title(def.name))),
+        Type::Map(Type::Enum(def)) => format!("{{ \"name\": {} }}", link(def.name)),
+        Type::OneOf([Type::Text, Type::Enum(def)]) => format!("a name from `materials`, or a {}", link(def.name)),
+        Type::OneOf([Type::List(_), Type::File]) => {
+            format!("list of lists of {}, or a file name", link("Transform"))
+        }
+        _ => expected(field),
+    }
+}
+
+fn link(name: &str) -> String {
+    format!("[{name}](#{})", name.to_lowercase())
+}
+
+fn default(field: &FieldDef, def: &'static StructDef) -> String {
+    if def.name == "Scene" && field.name == "objects" {
+        return "at least one".to_owned();
+    }
+    match field.default.map(|default| default()) {
+        None => "must be written".to_owned(),
+        Some(Form::Absent) => "see right".to_owned(),
+        _ if def.exactly_one.contains(&field.name) => "one of them".to_owned(),
+        Some(Form::Struct { .. }) => "its defaults".to_owned(),
+        Some(form) => {
+            let (ron, toml) = (ron_value(&form), toml_value(&form));
+            if ron == toml || matches!(form, Form::Vector(_)) {
+                format!("`{ron}`")
+            } else {
+                format!("`{ron}`, in TOML `{toml}`")
+            }
+        }
+    }
+}

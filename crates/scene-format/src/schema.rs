@@ -1,0 +1,261 @@
+//! The schema: types, fields, defaults, units and ranges as data. The macros of `words` make it from the Rust types and their doc
+//! comments; the reader, the writer, the JSON Schema and the reference all go by it.
+
+use crate::form::Form;
+use crate::tree::{Item, Kind};
+
+/// What a value of the language is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Type {
+    Bool,
+    Number,
+    Integer,
+    /// A name.
+    Text,
+    /// A path, relative to the scene file.
+    File,
+    /// Three numbers.
+    Vector,
+    /// Three numbers, one for grey, or `"#rrggbb"`.
+    Color,
+    List(&'static Type),
+    /// Names with values.
+    Map(&'static Type),
+    Struct(&'static StructDef),
+    Enum(&'static EnumDef),
+    /// `None` or a value.
+    Optional(&'static Type),
+    /// One of several, told apart by how they are written.
+    OneOf(&'static [Type]),
+}
+
+/// A group of named fields.
+#[derive(Debug)]
+pub(crate) struct StructDef {
+    /// `Sphere`
+    pub name: &'static str,
+    /// `a sphere`
+    pub noun: &'static str,
+    pub doc: &'static [&'static str],
+    pub fields: &'static [FieldDef],
+    /// The field that a single value without a name stands for: `Scale(2)`.
+    pub bare: Option<&'static str>,
+    /// Exactly one of these fields is written.
+    pub exactly_one: &'static [&'static str],
+}
+
+/// A named field.
+#[derive(Debug)]
+pub(crate) struct FieldDef {
+    pub name: &'static str,
+    /// `the radius of a sphere`
+    pub noun: &'static str,
+    pub doc: &'static [&'static str],
+    pub kind: Type,
+    pub rule: Rule,
+    /// `None`: the field must be written.
+    pub default: Option<fn() -> Form>,
+}
+
+/// A choice.
+#[derive(Debug)]
+pub(crate) struct EnumDef {
+    pub name: &'static str,
+    /// `material`
+    pub noun: &'static str,
+    pub doc: &'static [&'static str],
+    pub variants: &'static [VariantDef],
+}
+
+/// One of several kinds.
+#[derive(Debug)]
+pub(crate) struct VariantDef {
+    pub name: &'static str,
+    pub doc: &'static [&'static str],
+    pub content: Content,
+}
+
+/// What stands in the brackets after a variant's name.
+#[derive(Debug)]
+pub(crate) enum Content {
+    /// Nothing, and no brackets.
+    Unit,
+    /// One value.
+    Value(FieldDef),
+    /// Fields.
+    Struct(&'static StructDef),
+}
+
+impl Type {
+    /// Points and colours are one Rust type; the rule of a field says which of the two it holds.
+    pub const fn of_field(self, rule: &Rule) -> Type {
+        match self {
+            Type::Vector if rule.color => Type::Color,
+            Type::Optional(Type::Vector) if rule.color => Type::Optional(&Type::Color),
+            other => other,
+        }
+    }
+}
+
+impl StructDef {
+    pub fn field(&self, name: &str) -> Option<&'static FieldDef> {
+        self.fields.iter().find(|field| field.name == name)
+    }
+}
+
+impl EnumDef {
+    pub fn variant(&self, name: &str) -> Option<&'static VariantDef> {
+        self.variants.iter().find(|variant| variant.name == name)
+    }
+}
+
+/// Which numbers a field takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Range {
+    pub low: f64,
+    pub high: f64,
+    /// Whether `low` itself is out.
+    pub above_low: bool,
+    /// Whether `high` itself is out.
+    pub below_high: bool,
+}
+
+/// What is asked of a value beyond its type.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rule {
+    pub range: Range,
+    /// `a length`
+    pub what: &'static str,
+    /// `in the scene's unit`
+    pub unit: &'static str,
+    /// A vector that must not be zero.
+    pub direction: bool,
+    /// Three numbers that are a colour, and so may be written in other ways.
+    pub color: bool,
+}
+
+/// Coordinates and lengths beyond this are refused: products of them would leave the range of 32-bit floats.
+pub(crate) const MAX_LENGTH: f64 = 1e12;
+/// Lengths below this are refused, for the same reason.
+pub(crate) const MIN_LENGTH: f64 = 1e-12;
+/// Light beyond this is refused, for the same reason.
+pub(crate) const MAX_LIGHT: f64 = 1e20;
+
+impl Rule {
+    pub const ANY: Rule = Rule {
+        range: Range { low: f64::NEG_INFINITY, high: f64::INFINITY, above_low: false, below_high: false },
+        what: "",
+        unit: "",
+        direction: false,
+        color: false,
+    };
+
+    /// A value from `low` to `high`, both allowed.
+    pub const fn within(what: &'static str, low: f64, high: f64) -> Rule {
+        Rule { range: Range { low, high, above_low: false, below_high: false }, what, ..Rule::ANY }
+    }
+
+    /// A value between `low` and `high`, neither allowed.
+    pub const fn between(what: &'static str, low: f64, high: f64) -> Rule {
+        Rule { range: Range { low, high, above_low: true, below_high: true }, what, ..Rule::ANY }
+    }
+
+    /// A coordinate of a point.
+    pub const fn point() -> Rule {
+        Rule::within("a point", -MAX_LENGTH, MAX_LENGTH).unit("in the scene's unit")
+    }
+
+    /// A direction of any length but zero.
+    pub const fn direction() -> Rule {
+        Rule { direction: true, ..Rule::within("a direction of any length but zero", -MAX_LENGTH, MAX_LENGTH) }
+    }
+
+    /// A length more than zero.
+    pub const fn length(what: &'static str) -> Rule {
+        let range = Range { low: MIN_LENGTH, high: MAX_LENGTH, above_low: false, below_high: false };
+        Rule { range, what, unit: "in the scene's unit", ..Rule::ANY }
+    }
+
+    /// A share of light, 0 to 1 per channel.
+    pub const fn share() -> Rule {
+        Rule { color: true, ..Rule::within("a colour", 0.0, 1.0) }
+    }
+
+    /// Light, per channel.
+    pub const fn light(unit: &'static str) -> Rule {
+        Rule { color: true, unit, ..Rule::within("a colour", 0.0, MAX_LIGHT) }
+    }
+
+    pub const fn unit(self, unit: &'static str) -> Rule {
+        Rule { unit, ..self }
+    }
+}
+
+impl Range {
+    pub fn contains(&self, value: f64) -> bool {
+        let low = if self.above_low { value > self.low } else { value >= self.low };
+        let high = if self.below_high { value < self.high } else { value <= self.high };
+        low && high
+    }
+
+    /// Whether this is a length: anything more than zero that can be reckoned with.
+    pub fn is_length(&self) -> bool {
+        self.low == MIN_LENGTH
+    }
+
+    /// `> 0`, `from 0 to 1`, `between 0 and 180`; empty when all numbers are in it.
+    pub fn words(&self) -> String {
+        let huge = self.high >= MAX_LENGTH;
+        if self.is_length() || self.above_low && huge {
+            "> 0".to_owned()
+        } else if self.low.is_finite() && self.low > -MAX_LENGTH && huge {
+            format!(">= {}", self.low)
+        } else if huge {
+            String::new()
+        } else if self.low == self.high {
+            format!("{}", self.low)
+        } else if self.above_low && self.below_high {
+            format!("between {} and {}, both excluded", self.low, self.high)
+        } else if self.above_low {
+            format!("> {}, at most {}", self.low, self.high)
+        } else {
+            format!("from {} to {}", grouped(self.low), grouped(self.high))
+        }
+    }
+}
+
+/// Whether a value is written as this kind is.
+pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
+    let compound = matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some();
+    match kind {
+        Type::Text | Type::File => item.kind() == Kind::Text,
+        Type::Enum(_) | Type::Struct(_) => compound,
+        Type::List(_) => item.kind() == Kind::List,
+        Type::Color => !compound,
+        Type::Number | Type::Integer => matches!(item.kind(), Kind::Integer | Kind::Float),
+        Type::Vector => matches!(item.kind(), Kind::List | Kind::Tuple) && !compound,
+        _ => !compound && item.kind() != Kind::Text,
+    }
+}
+
+/// A number, with its digits in groups of three when there are many.
+fn grouped(value: f64) -> String {
+    let digits = format!("{value}");
+    if value.fract() != 0.0 || value.abs() < 1e5 {
+        return digits;
+    }
+    let (sign, digits) = digits.split_at(usize::from(value < 0.0));
+    let mut out = sign.to_owned();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            out.push('_');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// Doc comments as one paragraph.
+pub(crate) fn prose(doc: &[&str]) -> String {
+    doc.iter().map(|line| line.trim()).collect::<Vec<&str>>().join(" ")
+}

@@ -1,0 +1,140 @@
+//! From a lexeme to its value: numbers, quoted texts, keys.
+
+use std::borrow::Cow;
+use toml_parser::Source;
+use toml_parser::decoder::Encoding;
+
+/// The value of a number that a lexer accepted, in either syntax; whole numbers too large for `f64` round.
+pub(crate) fn number(lexeme: &str) -> f64 {
+    if let Ok(value) = lexeme.parse::<f64>() {
+        return value;
+    }
+    let plain: String = lexeme.chars().filter(|&c| c != '_').collect();
+    let (sign, digits) = match plain.strip_prefix('-') {
+        Some(rest) => (-1.0, rest),
+        None => (1.0, plain.strip_prefix('+').unwrap_or(&plain)),
+    };
+    let radix = match digits.get(..2) {
+        Some("0x") => 16,
+        Some("0o") => 8,
+        Some("0b") => 2,
+        _ => return plain.parse().unwrap_or(f64::NAN),
+    };
+    let value = digits[2..]
+        .chars()
+        .fold(0.0, |value: f64, digit| value * f64::from(radix) + f64::from(digit.to_digit(radix).unwrap_or(0)));
+    sign * value
+}
+
+/// A RON key, text, raw text or character: without quotes and with escapes resolved.
+pub(crate) fn ron_text(lexeme: &str) -> Cow<'_, str> {
+    if let Some(raw) = lexeme.strip_prefix('r').filter(|raw| raw.starts_with(['#', '"'])) {
+        let hashes = raw.len() - raw.trim_start_matches('#').len();
+        let inner = raw.get(hashes + 1..raw.len().saturating_sub(hashes + 1));
+        return match inner {
+            Some(inner) if raw[hashes..].starts_with('"') => Cow::Borrowed(inner),
+            _ => Cow::Borrowed(raw.trim_start_matches('#')),
+        };
+    }
+    let Some(quote) = lexeme.chars().next().filter(|c| matches!(c, '"' | '\'')) else {
+        return Cow::Borrowed(lexeme);
+    };
+    let inner = &lexeme[1..];
+    let inner = inner.strip_suffix(quote).unwrap_or(inner);
+    if inner.contains('\\') { Cow::Owned(resolve_escapes(inner, &mut |_, _| {})) } else { Cow::Borrowed(inner) }
+}
+
+/// Resolves the escapes of RON; `fault(start, end)` hears of each one that means nothing, by bytes in `inner`.
+pub(crate) fn resolve_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) -> String {
+    let mut out = String::with_capacity(inner.len());
+    let mut rest = inner;
+    while let Some(at) = rest.find('\\') {
+        out.push_str(&rest[..at]);
+        let start = inner.len() - rest.len() + at;
+        let escape = &rest[at + 1..];
+        let (length, value) = match escape.bytes().next() {
+            Some(b'n') => (1, Some('\n')),
+            Some(b'r') => (1, Some('\r')),
+            Some(b't') => (1, Some('\t')),
+            Some(b'0') => (1, Some('\0')),
+            Some(b'\\') => (1, Some('\\')),
+            Some(b'"') => (1, Some('"')),
+            Some(b'\'') => (1, Some('\'')),
+            Some(b'x') => {
+                let digits = escape.get(1..3).filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()));
+                match digits {
+                    Some(digits) => (3, u32::from_str_radix(digits, 16).ok().and_then(char::from_u32)),
+                    None => (1, None),
+                }
+            }
+            Some(b'u') => match escape.get(1..).and_then(|e| e.strip_prefix('{')).and_then(|e| e.split_once('}')) {
+                Some((digits, _)) if digits.len() <= 6 => {
+                    (digits.len() + 3, u32::from_str_radix(digits, 16).ok().and_then(char::from_u32))
+                }
+                _ => (1, None),
+            },
+            Some(_) => (escape.chars().next().map_or(0, char::len_utf8), None),
+            None => (0, None),
+        };
+        match value {
+            Some(value) => out.push(value),
+            None => fault(start, start + 1 + length),
+        }
+        rest = escape.get(length..).unwrap_or("");
+    }
+    out.push_str(rest);
+    out
+}
+
+/// The encoding of a quoted TOML lexeme.
+pub(crate) fn toml_encoding(lexeme: &str) -> Option<Encoding> {
+    if lexeme.starts_with("\"\"\"") {
+        Some(Encoding::MlBasicString)
+    } else if lexeme.starts_with("'''") {
+        Some(Encoding::MlLiteralString)
+    } else if lexeme.starts_with('"') {
+        Some(Encoding::BasicString)
+    } else if lexeme.starts_with('\'') {
+        Some(Encoding::LiteralString)
+    } else {
+        None
+    }
+}
+
+/// A TOML text without its quotes.
+pub(crate) fn toml_text(lexeme: &str) -> Cow<'_, str> {
+    if let Some(inner) = simple(lexeme) {
+        return Cow::Borrowed(inner);
+    }
+    let mut out = Cow::Borrowed("");
+    let span = toml_parser::Span::new_unchecked(0, lexeme.len());
+    let raw = toml_parser::Raw::new_unchecked(lexeme, toml_encoding(lexeme), span);
+    let _kind = raw.decode_scalar(&mut out, &mut ());
+    out
+}
+
+/// A TOML key, bare or quoted.
+pub(crate) fn toml_key(lexeme: &str) -> Cow<'_, str> {
+    match toml_encoding(lexeme) {
+        None => Cow::Borrowed(lexeme),
+        Some(_) if simple(lexeme).is_some() => Cow::Borrowed(simple(lexeme).unwrap_or_default()),
+        encoding => {
+            let mut out = Cow::Borrowed("");
+            if let Some(raw) = Source::new(lexeme).get(toml_parser::Span::new_unchecked(0, lexeme.len())) {
+                let raw = toml_parser::Raw::new_unchecked(
+                    raw.as_str(),
+                    encoding,
+                    toml_parser::Span::new_unchecked(0, lexeme.len()),
+                );
+                raw.decode_key(&mut out, &mut ());
+            }
+            out
+        }
+    }
+}
+
+/// The inside of a one-line text without escapes.
+fn simple(lexeme: &str) -> Option<&str> {
+    let inner = lexeme.strip_prefix('"')?.strip_suffix('"')?;
+    (!inner.contains(['\\', '"'])).then_some(inner)
+}

@@ -1,0 +1,121 @@
+//! The two syntaxes and how they become a [`Tree`](crate::tree::Tree).
+
+mod brackets;
+pub(crate) mod decode;
+pub(crate) mod ron;
+mod ron_extensions;
+mod ron_literal;
+mod ron_scan;
+pub(crate) mod toml;
+mod toml_literal;
+mod toml_tables;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::tree::Kind;
+use std::path::Path;
+
+/// Brackets inside brackets deeper than this are refused, so that no file can overflow the stack.
+pub(crate) const MAX_DEPTH: usize = 128;
+
+/// The language of a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Syntax {
+    /// Rusty Object Notation: `Scene(camera: Camera(fov: 40))`.
+    Ron,
+    /// Tom's Obvious Minimal Language: `[camera]`, `fov = 40`.
+    Toml,
+}
+
+impl Syntax {
+    /// By the file name's extension: `.toml` is TOML, `.ron` is RON; `None` for others.
+    pub fn from_path(path: &Path) -> Option<Syntax> {
+        let extension = path.extension()?.to_str()?;
+        if extension.eq_ignore_ascii_case("toml") {
+            Some(Syntax::Toml)
+        } else if extension.eq_ignore_ascii_case("ron") {
+            Some(Syntax::Ron)
+        } else {
+            None
+        }
+    }
+
+    /// By what the text looks like, for texts without a file name: TOML when the first thing in it is `key =` or `[header`.
+    pub fn guess(text: &str) -> Syntax {
+        for line in text.trim_start_matches('\u{feff}').lines().map(str::trim) {
+            if line.is_empty() || line.starts_with('#') && !line.starts_with("#!") {
+                continue;
+            }
+            let key = line.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '"' | '\'' | ' ')));
+            let is_toml = line.starts_with('[') || key.is_some_and(|at| at > 0 && line[at..].starts_with('='));
+            return if is_toml { Syntax::Toml } else { Syntax::Ron };
+        }
+        Syntax::Ron
+    }
+
+    /// `RON` or `TOML`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Syntax::Ron => "RON",
+            Syntax::Toml => "TOML",
+        }
+    }
+}
+
+/// Collects the diagnostics of one run, up to a limit that keeps memory in proportion to the file.
+#[derive(Debug, Default)]
+pub(crate) struct Sink {
+    pub diagnostics: Vec<Diagnostic>,
+    pub errors: usize,
+    full: bool,
+}
+
+/// More faults than this are not listed: nobody reads them, and a file of rubbish must not fill the memory.
+const MAX_DIAGNOSTICS: usize = 1000;
+
+impl Sink {
+    /// Whether no more is taken: readers stop then.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if diagnostic.severity == crate::Severity::Error {
+            self.errors += 1;
+        }
+        if self.diagnostics.len() < MAX_DIAGNOSTICS {
+            self.diagnostics.push(diagnostic);
+        } else if !self.full {
+            self.full = true;
+            let span = diagnostic.span;
+            self.diagnostics.push(
+                Diagnostic::error(
+                    crate::codes::TOO_MANY,
+                    span,
+                    format!("more than {MAX_DIAGNOSTICS} faults; the rest is not listed"),
+                )
+                .hint("mend the first ones and run again"),
+            );
+        }
+    }
+}
+
+/// What stands on the line from a byte on, as far as a look ahead goes: a file in one line must not take quadratic time.
+fn line_ahead(text: &str, at: usize) -> &str {
+    const LOOK_AHEAD: usize = 300;
+    let mut end = text.len().min(at + LOOK_AHEAD);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let ahead = text.get(at..end).unwrap_or("");
+    ahead.split('\n').next().unwrap_or("")
+}
+
+/// Whether TOML reads this lexeme as a number.
+pub(crate) fn is_toml_number(lexeme: &str) -> bool {
+    matches!(toml_literal::scalar_kind(lexeme), Some(Kind::Integer | Kind::Float))
+}
+
+/// A span of `usize` bytes in source `source`.
+pub(crate) fn span(source: u16, start: usize, end: usize) -> Span {
+    Span { source: u32::from(source), start: start as u32, end: end as u32 }
+}

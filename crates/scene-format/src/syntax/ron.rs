@@ -1,0 +1,596 @@
+//! RON into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or bracket.
+
+use super::brackets::{self, Fate, Open};
+use super::{MAX_DEPTH, Sink};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::tree::{Builder, Kind, Node};
+
+/// Reads one text into `builder`; returns the comments.
+pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<Span> {
+    let (comments, nodes, faults) = attempt(text, builder.source, Trust::Brackets);
+    let (mut comments, mut nodes, mut faults) = (comments, nodes, faults);
+    if faults.diagnostics.iter().any(|fault| matches!(fault.code, codes::UNCLOSED_BRACKET | codes::STRAY_BRACKET)) {
+        // Brackets do not match: where the lines are indented, that may say better what was meant.
+        let second = attempt(text, builder.source, Trust::Indentation);
+        if second.2.errors <= faults.errors {
+            (comments, nodes, faults) = second;
+        }
+    }
+    builder.nodes = nodes;
+    faults.diagnostics.into_iter().for_each(|fault| sink.push(fault));
+    comments
+}
+
+fn attempt(text: &str, source: u16, trust: Trust) -> (Vec<Span>, Vec<Node>, Sink) {
+    let mut builder = Builder::new(source, text.len());
+    let mut sink = Sink::default();
+    let mut parser = Parser::new(text, 0, trust, &mut builder, &mut sink);
+    parser.document();
+    (parser.comments, builder.nodes, sink)
+}
+
+/// Reads a value that stands at `start..` of `text` (an argument of `--set`).
+pub(crate) fn parse_from(text: &str, start: usize, builder: &mut Builder, sink: &mut Sink) {
+    let mut parser = Parser::new(text, start, Trust::Brackets, builder, sink);
+    parser.trivia();
+    parser.value();
+    parser.end_of_text();
+}
+
+/// What tells where a bracket that is never closed should have ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Trust {
+    /// Closing brackets alone.
+    Brackets,
+    /// Also lines that are indented no deeper than the line where the bracket was opened.
+    Indentation,
+}
+
+pub(super) struct Parser<'p> {
+    pub text: &'p str,
+    pub at: usize,
+    pub builder: &'p mut Builder,
+    pub sink: &'p mut Sink,
+    pub comments: Vec<Span>,
+    /// Brackets that are open, outermost first.
+    pub open: Vec<Open>,
+    /// Whether an open bracket was reported at the end of the file.
+    pub at_end_reported: bool,
+    /// The comma after the entry was read already, inside a bracket that was never closed.
+    separated: bool,
+    trust: Trust,
+    /// Where the current line begins, and how far its first word is indented.
+    pub line: usize,
+    pub indent: usize,
+}
+
+/// What the entries of a bracket have been so far.
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Unknown,
+    Named,
+    Positional,
+    /// Both, which has been reported.
+    Mixed,
+}
+
+impl<'p> Parser<'p> {
+    fn new(text: &'p str, at: usize, trust: Trust, builder: &'p mut Builder, sink: &'p mut Sink) -> Parser<'p> {
+        Parser {
+            text,
+            at,
+            builder,
+            sink,
+            comments: Vec::new(),
+            open: Vec::new(),
+            at_end_reported: false,
+            separated: false,
+            trust,
+            line: 0,
+            indent: 0,
+        }
+    }
+
+    fn document(&mut self) {
+        if self.text.starts_with('\u{feff}') {
+            self.at = 3;
+        }
+        self.trivia();
+        while self.rest().starts_with("#!") {
+            self.extensions();
+            self.trivia();
+        }
+        if self.at == self.text.len() {
+            return; // An empty file: the reader says what a scene needs.
+        }
+        self.value();
+        self.end_of_text();
+    }
+
+    fn end_of_text(&mut self) {
+        self.trivia();
+        if self.at < self.text.len() {
+            let start = self.at;
+            let end = start + self.rest().trim_end().lines().next().map_or(1, |line| line.trim_end().len());
+            if matches!(self.peek(), Some(b')' | b']' | b'}')) {
+                self.sink.push(brackets::stray(self.builder.source, start));
+                return;
+            }
+            let found = self.span(start, end);
+            self.sink.push(
+                Diagnostic::error(codes::TEXT_AFTER_END, found, "the scene ended before this")
+                    .expected("the end of the file, after the bracket that closes the scene")
+                    .hint("remove what follows, or the bracket that ended the scene too early"),
+            );
+        }
+    }
+
+    /// One value; always exactly one node (with its children), `Broken` where nothing could be read.
+    pub(super) fn value(&mut self) {
+        let start = self.at;
+        match self.peek() {
+            None | Some(b',' | b')' | b']' | b'}') => {
+                let found = self.span(start, start);
+                self.sink.push(
+                    Diagnostic::error(codes::MISSING_VALUE, found, "a value is missing here")
+                        .hint("write a value, or remove the name before it to get the default"),
+                );
+                self.builder.leaf(Kind::Broken, start, start);
+            }
+            Some(b'(') => self.bracket(start, b'('),
+            Some(b'[') => self.bracket(start, b'['),
+            Some(b'{') => self.bracket(start, b'{'),
+            Some(b'"') => self.text_literal(),
+            Some(b'\'') => self.char_literal(),
+            Some(b'0'..=b'9' | b'+' | b'-' | b'.') => self.number_literal(),
+            Some(b'r') if self.is_raw_text() => self.raw_text_literal(),
+            _ => {
+                let length = self.word_length();
+                if length == 0 {
+                    return self.unexpected();
+                }
+                let word = &self.text[start..start + length];
+                self.at += length;
+                match word {
+                    "true" | "false" => self.builder.leaf(Kind::Bool, start, self.at),
+                    "inf" | "NaN" | "nan" | "infinity" => self.builder.leaf(Kind::Float, start, self.at),
+                    _ => {
+                        let resume = self.at;
+                        self.trivia();
+                        if self.peek() == Some(b'(') {
+                            self.bracket(start, b'(');
+                        } else {
+                            self.at = resume;
+                            self.word(start);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// A bare word, or a text that has no quotes: `cat.obj`.
+    fn word(&mut self, start: usize) {
+        let end = self.at;
+        if !matches!(self.peek(), Some(b'.' | b'"' | b'/' | b'\\' | b'-')) || self.rest().starts_with("//") {
+            return self.builder.leaf(Kind::Word, start, end);
+        }
+        let rest = &self.text[start..];
+        let length = rest.find([',', ')', ']', '}', ' ', '\t', '\r', '\n']).unwrap_or(rest.len());
+        self.at = start + length;
+        let text = rest[..length].trim_end_matches('"');
+        let found = self.span(start, self.at);
+        let mut fault =
+            Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
+                .hint(format!("write \"{text}\""));
+        fault.edit = Some(Edit { span: found, replacement: format!("\"{text}\"") });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
+    }
+
+    fn unexpected(&mut self) {
+        let start = self.at;
+        let character = self.rest().chars().next().unwrap_or(' ');
+        let found = self.span(start, start + character.len_utf8());
+        let mut fault = Diagnostic::error(
+            codes::UNEXPECTED_CHARACTER,
+            found,
+            format!("a value cannot begin with `{}`", character.escape_debug()),
+        )
+        .expected("a number, a \"text\", a word, or one of ( [ {");
+        if matches!(character, '“' | '”' | '„' | '‘' | '’' | '«') {
+            fault = fault.hint("write texts between straight quotes: \"text\"");
+            let inner = &self.rest()[character.len_utf8()..];
+            if let Some(length) = inner.find(['“', '”', '’', '»', ',', '\n', '"'])
+                && let Some(close) = inner[length..].chars().next().filter(|c| !matches!(c, ',' | '\n' | '"'))
+            {
+                let end = start + character.len_utf8() + length + close.len_utf8();
+                fault.span = self.span(start, end);
+                fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &inner[..length]) });
+            }
+        } else if character == '#' {
+            fault = fault.hint("comments begin with `//`; colours are texts: \"#rrggbb\"");
+        } else if matches!(character, '=' | ':' | ';') {
+            fault = fault.hint("remove it");
+        }
+        self.sink.push(fault);
+        self.skip_broken();
+        self.builder.leaf(Kind::Broken, start, self.at);
+    }
+
+    /// `( .. )`, `[ .. ]` or `{ .. }`; `start` is where the name before it begins.
+    fn bracket(&mut self, start: usize, bracket: u8) {
+        let node = self.builder.open(start);
+        let opened = self.at;
+        if self.open.len() >= MAX_DEPTH {
+            let found = self.span(opened, opened + 1);
+            self.sink.push(
+                Diagnostic::error(codes::TOO_DEEP, found, format!("brackets stand more than {MAX_DEPTH} deep"))
+                    .hint("a scene needs no more than ten"),
+            );
+            self.skip_brackets();
+            self.builder.close(node, Kind::Broken, self.at);
+            return;
+        }
+        self.at += 1;
+        self.open.push(Open { bracket, at: opened, line: self.line, indent: self.indent });
+        let mut shape = if bracket == b'{' { Shape::Named } else { Shape::Unknown };
+        loop {
+            if self.sink.is_full() {
+                self.at = self.text.len();
+            }
+            self.trivia();
+            match self.peek() {
+                Some(close @ (b')' | b']' | b'}')) => match self.fate(close) {
+                    Fate::Closes => {
+                        self.at += 1;
+                        break;
+                    }
+                    Fate::Typo => {
+                        if let Some(&open) = self.open.last() {
+                            self.sink.push(brackets::wrong_closer(self.builder.source, open, self.at, close));
+                        }
+                        self.at += 1;
+                        break;
+                    }
+                    Fate::ClosesOuter => {
+                        self.report_unclosed(Some(self.at));
+                        self.builder.leaf(Kind::Broken, self.at, self.at);
+                        break;
+                    }
+                    Fate::Stray => {
+                        self.sink.push(brackets::stray(self.builder.source, self.at));
+                        self.at += 1;
+                        self.trivia();
+                        if self.peek() == Some(b',') {
+                            self.at += 1;
+                        }
+                    }
+                },
+                None => {
+                    self.report_unclosed(None);
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    break;
+                }
+                Some(b',') => {
+                    let found = self.span(self.at, self.at + 1);
+                    let mut fault =
+                        Diagnostic::error(codes::MISSING_VALUE, found, "there is nothing before this comma")
+                            .hint("remove one of the two commas");
+                    fault.edit = Some(Edit { span: found, replacement: String::new() });
+                    self.sink.push(fault);
+                    self.at += 1;
+                }
+                Some(_) if self.line_ends_bracket() => {
+                    self.separated = true;
+                    self.report_unclosed(Some(self.at));
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    break;
+                }
+                Some(_) => {
+                    if !self.entry(bracket, &mut shape) {
+                        break;
+                    }
+                    self.separator();
+                }
+            }
+        }
+        self.open.pop();
+        let kind = match (bracket, shape) {
+            (b'[', _) => Kind::List,
+            (b'{', _) => Kind::Map,
+            (_, Shape::Named | Shape::Mixed) => Kind::Struct,
+            _ => Kind::Tuple,
+        };
+        self.builder.close(node, kind, self.at);
+    }
+
+    fn fate(&self, close: u8) -> Fate {
+        let fate = brackets::fate(self.text, &self.open, self.at, close);
+        // A bracket in the middle of a line whose own brackets are all closed is one too many.
+        let stray = self.trust == Trust::Indentation
+            && fate == Fate::ClosesOuter
+            && self.open.last().is_some_and(|open| open.line < self.line)
+            && self.at > self.line + self.indent;
+        if stray { Fate::Stray } else { fate }
+    }
+
+    /// Whether a new line begins here that is indented no deeper than the one that opened the innermost bracket.
+    fn line_ends_bracket(&self) -> bool {
+        self.trust == Trust::Indentation
+            && self.at == self.line + self.indent
+            && self.open.last().is_some_and(|open| open.line < self.line && self.indent <= open.indent)
+    }
+
+    /// One entry of a bracket. `false`: the bracket was found to be unclosed, and what comes belongs to an outer one.
+    fn entry(&mut self, bracket: u8, shape: &mut Shape) -> bool {
+        if bracket == b'{' {
+            self.map_entry();
+            return true;
+        }
+        let named = self.field_ahead();
+        match (bracket, *shape, named) {
+            (b'[', _, Some(_)) => {
+                let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
+                if in_fields && *shape == Shape::Positional {
+                    self.separated = true;
+                    self.report_unclosed(Some(self.at));
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    return false;
+                }
+                self.named_in_list();
+            }
+            (b'[', ..) => {
+                *shape = Shape::Positional;
+                self.value();
+            }
+            (_, Shape::Mixed, _) => {
+                self.builder.leaf(Kind::Broken, self.at, self.at);
+                self.skip_broken();
+            }
+            (_, _, Some(length)) => {
+                if *shape == Shape::Positional {
+                    *shape = Shape::Mixed;
+                    let found = self.span(self.at, self.at + length);
+                    self.sink.push(
+                        Diagnostic::error(
+                            codes::MIXED_FIELDS,
+                            found,
+                            "named and unnamed values stand in one pair of brackets",
+                        )
+                        .hint("write the name of each value, `name: value`, or of none"),
+                    );
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    self.skip_broken();
+                } else {
+                    *shape = Shape::Named;
+                    self.field(length);
+                }
+            }
+            (_, Shape::Named, None) => {
+                if self.next_item_ahead() {
+                    self.separated = true;
+                    self.report_unclosed(Some(self.at));
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    return false;
+                }
+                self.value_without_name();
+            }
+            (_, _, None) => {
+                *shape = Shape::Positional;
+                self.value();
+            }
+        }
+        true
+    }
+
+    /// `name: value`, with `=` for `:` reported.
+    fn field(&mut self, length: usize) {
+        self.builder.leaf(Kind::Key, self.at, self.at + length);
+        self.at += length;
+        self.trivia();
+        if self.peek() == Some(b'=') {
+            let found = self.span(self.at, self.at + 1);
+            let mut fault =
+                Diagnostic::error(codes::MISSING_COLON, found, "a field and its value are joined by `:`, not `=`")
+                    .expected("name: value")
+                    .hint("write `:`");
+            fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+            self.sink.push(fault);
+        }
+        self.at += 1;
+        self.trivia();
+        self.value();
+    }
+
+    /// The innermost bracket was not closed before `noticed` (`None`: before the end of the file).
+    fn report_unclosed(&mut self, noticed: Option<usize>) {
+        let Some(&open) = self.open.last() else { return };
+        // At the end of the file the innermost open bracket stands for all that are open.
+        if noticed.is_none() && self.at_end_reported {
+            return;
+        }
+        self.at_end_reported |= noticed.is_none();
+        self.sink.push(brackets::unclosed(self.builder.source, open, noticed));
+    }
+
+    fn value_without_name(&mut self) {
+        let start = self.at;
+        let errors = self.sink.errors;
+        let mark = self.builder.nodes.len();
+        self.value();
+        let end = self.at;
+        self.builder.nodes.truncate(mark);
+        self.builder.leaf(Kind::Broken, start, end);
+        if self.sink.errors == errors {
+            let line = self.text[start..end].lines().next().unwrap_or("").trim_end().len();
+            let found = self.span(start, start + line.max(1));
+            self.sink.push(
+                Diagnostic::error(codes::MISSING_NAME, found, "this value has no field name")
+                    .expected("name: value, as in the fields before it")
+                    .hint("write the name of the field and `:` before the value"),
+            );
+        }
+    }
+
+    fn named_in_list(&mut self) {
+        let start = self.at;
+        let length = self.word_length();
+        let found = self.span(start, start + length);
+        self.sink.push(
+            Diagnostic::error(codes::MIXED_FIELDS, found, "the items of a list have no names")
+                .expected("[a, b, c]")
+                .hint("fields stand in round brackets: (name: value)"),
+        );
+        self.builder.leaf(Kind::Broken, start, start + length);
+        self.skip_broken();
+    }
+
+    /// `"key": value` in `{ .. }`.
+    fn map_entry(&mut self) {
+        let start = self.at;
+        let length = self.word_length();
+        if self.peek() == Some(b'"') || self.is_raw_text() {
+            let mark = self.builder.nodes.len();
+            if self.peek() == Some(b'"') {
+                self.text_literal()
+            } else {
+                self.raw_text_literal()
+            }
+            if let Some(node) = self.builder.nodes.get_mut(mark)
+                && node.kind == Kind::Text
+            {
+                node.kind = Kind::Key;
+            }
+        } else if length > 0 {
+            let found = self.span(start, start + length);
+            let word = &self.text[start..start + length];
+            self.at += length;
+            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between quotes")
+                .expected("{ \"name\": value }")
+                .hint(format!("write \"{word}\""));
+            fault.edit = Some(Edit { span: found, replacement: format!("\"{word}\"") });
+            self.sink.push(fault);
+            self.builder.leaf(Kind::Key, start, self.at);
+        } else {
+            let mark = self.builder.nodes.len();
+            let errors = self.sink.errors;
+            self.value();
+            self.builder.nodes.truncate(mark);
+            self.builder.leaf(Kind::Broken, start, self.at);
+            if self.sink.errors == errors {
+                let found = self.span(start, self.at);
+                self.sink.push(
+                    Diagnostic::error(codes::KEY_NOT_QUOTED, found, "a name in { } is a text between quotes")
+                        .expected("{ \"name\": value }"),
+                );
+            }
+            self.skip_broken();
+            return;
+        }
+        self.trivia();
+        match self.peek() {
+            Some(b':') => self.at += 1,
+            other => {
+                let equals = other == Some(b'=');
+                let found = if equals { self.span(self.at, self.at + 1) } else { self.span(start, self.at) };
+                let mut fault =
+                    Diagnostic::error(codes::MISSING_COLON, found, "a name and its value are joined by `:`")
+                        .expected("{ \"name\": value }")
+                        .hint("write `:` and the value");
+                if equals {
+                    fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+                    self.at += 1;
+                }
+                self.sink.push(fault);
+                if !equals {
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    self.skip_broken();
+                    return;
+                }
+            }
+        }
+        self.trivia();
+        self.value();
+    }
+
+    /// The comma after an entry, or the end of the bracket.
+    fn separator(&mut self) {
+        if std::mem::take(&mut self.separated) {
+            return;
+        }
+        let end = self.at;
+        self.trivia();
+        match self.peek() {
+            Some(b',') => self.at += 1,
+            None | Some(b')' | b']' | b'}') => {}
+            Some(_) => {
+                let found = self.span(end, end);
+                let semicolon = self.peek() == Some(b';');
+                let mut fault = if semicolon {
+                    let found = self.span(self.at, self.at + 1);
+                    self.at += 1;
+                    let mut fault = Diagnostic::error(codes::MISSING_COMMA, found, "values are parted by commas");
+                    fault.edit = Some(Edit { span: found, replacement: ",".to_owned() });
+                    fault
+                } else {
+                    let mut fault = Diagnostic::error(codes::MISSING_COMMA, found, "a comma is missing here");
+                    fault.edit = Some(Edit { span: found, replacement: ",".to_owned() });
+                    fault
+                };
+                fault.hint = "write `,` between two values".to_owned();
+                self.sink.push(fault);
+                if !semicolon && !self.entry_ahead() {
+                    self.skip_broken();
+                    if self.peek() == Some(b',') {
+                        self.at += 1;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a value can begin here.
+    fn entry_ahead(&self) -> bool {
+        match self.peek() {
+            Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'"' | b'\'' | b'(' | b'[' | b'{') => true,
+            _ => self.word_length() > 0,
+        }
+    }
+
+    /// `name:` (or `name =`) ahead: the length of the name.
+    fn field_ahead(&mut self) -> Option<usize> {
+        let start = self.at;
+        let mut length = self.word_length();
+        if length == 0 && self.peek() == Some(b'"') {
+            // `("name": value)`: the name of a field in quotes, taken as the field.
+            let close = self.rest()[1..].find(['"', '\n'])?;
+            length = close + 2;
+        }
+        if length == 0 {
+            return None;
+        }
+        let mut at = start + length;
+        let bytes = self.text.as_bytes();
+        while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\r' | b'\n')) {
+            at += 1;
+        }
+        if matches!(bytes.get(at), Some(b'/')) {
+            self.at += length;
+            let comments = self.comments.len();
+            self.trivia();
+            at = self.at;
+            self.comments.truncate(comments);
+            self.at = start;
+        }
+        matches!(bytes.get(at), Some(b':' | b'=')).then_some(length)
+    }
+
+    /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
+    fn next_item_ahead(&self) -> bool {
+        let length = self.word_length();
+        let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
+        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
+    }
+}

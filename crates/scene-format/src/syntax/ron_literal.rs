@@ -1,0 +1,205 @@
+//! Numbers, texts and characters of RON.
+
+use super::decode;
+use super::ron::Parser;
+use crate::codes;
+use crate::diagnostic::Diagnostic;
+use crate::tree::Kind;
+
+impl Parser<'_> {
+    pub(super) fn number_literal(&mut self) {
+        let start = self.at;
+        let bytes = self.text.as_bytes();
+        let mut at = start;
+        if matches!(bytes[at], b'+' | b'-') {
+            at += 1;
+        }
+        let digits = at;
+        while let Some(&byte) = bytes.get(at) {
+            let sign_of_exponent = matches!(byte, b'+' | b'-')
+                && matches!(bytes[at - 1], b'e' | b'E')
+                && at > digits
+                && !bytes[digits..].starts_with(b"0x");
+            if byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.') || sign_of_exponent || !byte.is_ascii() {
+                at += 1;
+            } else {
+                break;
+            }
+        }
+        let mut mended = None;
+        if at == digits && digits > start {
+            // `- 5`: a sign with a space before its digits.
+            let rest = &self.text[at..];
+            let space = rest.len() - rest.trim_start_matches([' ', '\t']).len();
+            let digits = rest[space..].bytes().take_while(|b| b.is_ascii_digit() || *b == b'.').count();
+            if digits > 0 {
+                at += space + digits;
+                mended = Some(format!("{}{}", &self.text[start..start + 1], &rest[space..space + digits]));
+            }
+        }
+        self.at = at;
+        let lexeme = &self.text[start..at];
+        match number_kind(lexeme) {
+            Some(kind) => self.builder.leaf(kind, start, at),
+            None => {
+                let found = self.span(start, at.max(start + 1));
+                let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
+                    .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
+                if lexeme.matches('.').count() > 1 {
+                    fault = fault.hint("a number has one decimal point; values are parted by commas");
+                } else if let Some(mended) = mended {
+                    fault = fault.hint(format!("write {mended}, without a space"));
+                    fault.edit = Some(crate::diagnostic::Edit { span: found, replacement: mended });
+                } else if lexeme.len() == 1 {
+                    fault = fault.hint("write the digits after the sign, without a space");
+                } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
+                    fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+                }
+                self.sink.push(fault);
+                self.builder.leaf(Kind::Broken, start, at);
+            }
+        }
+    }
+
+    pub(super) fn is_raw_text(&self) -> bool {
+        let rest = self.rest();
+        rest.strip_prefix('r').is_some_and(|raw| {
+            let quote = raw.trim_start_matches('#');
+            quote.starts_with('"')
+        })
+    }
+
+    pub(super) fn raw_text_literal(&mut self) {
+        let start = self.at;
+        let raw = &self.rest()[1..];
+        let hashes = raw.len() - raw.trim_start_matches('#').len();
+        let close = format!("\"{}", "#".repeat(hashes));
+        match raw.get(hashes + 1..).and_then(|inner| inner.find(&close)) {
+            Some(length) => {
+                if let Some(newline) = raw[hashes + 1..hashes + 1 + length].rfind('\n') {
+                    self.line = start + 1 + hashes + 1 + newline + 1;
+                }
+                self.at = start + 1 + hashes + 1 + length + close.len();
+                self.builder.leaf(Kind::Text, start, self.at);
+            }
+            None => {
+                let found = self.span(start, start + hashes + 2);
+                self.sink.push(
+                    Diagnostic::error(codes::UNCLOSED_TEXT, found, "this raw text is never closed")
+                        .expected(format!("{close} at its end")),
+                );
+                self.at = self.text.len();
+                self.at_end_reported = true;
+                self.builder.leaf(Kind::Broken, start, self.at);
+            }
+        }
+    }
+
+    pub(super) fn text_literal(&mut self) {
+        let start = self.at;
+        let bytes = self.text.as_bytes();
+        let mut at = start + 1;
+        let mut escapes = false;
+        loop {
+            match bytes.get(at) {
+                Some(b'"') => break,
+                Some(b'\\') => {
+                    escapes = true;
+                    at += 2;
+                }
+                None | Some(b'\n') => return self.unclosed_text(),
+                Some(_) => at += 1,
+            }
+        }
+        self.at = at + 1;
+        if escapes {
+            let inner = &self.text[start + 1..at];
+            let mut faults = Vec::new();
+            decode::resolve_escapes(inner, &mut |from, to| faults.push((from, to)));
+            if !faults.is_empty() {
+                for (from, to) in faults {
+                    let found = self.span(start + 1 + from, start + 1 + to);
+                    let escape = inner.get(from..to).unwrap_or("\\");
+                    self.sink.push(
+                        Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
+                            .expected("\\\\ \\\" \\n \\t \\r \\0 \\x41 or \\u{e9}")
+                            .hint("write a backslash as `\\\\`; in paths `/` does everywhere"),
+                    );
+                }
+                self.builder.leaf(Kind::Broken, start, self.at);
+                return;
+            }
+        }
+        self.builder.leaf(Kind::Text, start, self.at);
+    }
+
+    /// A text that its line does not close. It is taken to end before the next comma or bracket.
+    fn unclosed_text(&mut self) {
+        let start = self.at;
+        let line = self.rest().split('\n').next().unwrap_or("").trim_end();
+        let length = line[1..].find([',', ')', ']', '}']).map_or(line.len(), |end| end + 1);
+        let found = self.span(start, start + 1);
+        self.sink.push(
+            Diagnostic::error(codes::UNCLOSED_TEXT, found, "this text is never closed")
+                .expected("\" at its end, on the same line")
+                .hint("write `\"` where the text ends"),
+        );
+        self.at = start + length;
+        self.builder.leaf(Kind::Broken, start, self.at);
+    }
+
+    pub(super) fn char_literal(&mut self) {
+        let start = self.at;
+        let line = super::line_ahead(self.text, self.at);
+        let escaped = usize::from(line[1..].starts_with('\\'));
+        let first = line[1..].chars().nth(escaped).map_or(0, |c| escaped + c.len_utf8());
+        match line.get(1 + first..).and_then(|rest| rest.find('\'')) {
+            Some(more) => {
+                self.at = start + 1 + first + more + 1;
+                self.builder.leaf(Kind::Char, start, self.at);
+            }
+            None => {
+                let found = self.span(start, start + 1);
+                self.sink.push(
+                    Diagnostic::error(codes::UNCLOSED_TEXT, found, "this quote is never closed")
+                        .expected("a text between double quotes"),
+                );
+                self.at += 1;
+                self.skip_broken();
+                self.builder.leaf(Kind::Broken, start, self.at);
+            }
+        }
+    }
+}
+
+/// Whether a lexeme is a number in RON, and of which kind.
+pub(super) fn number_kind(lexeme: &str) -> Option<Kind> {
+    let unsigned = lexeme.strip_prefix(['+', '-']).unwrap_or(lexeme);
+    if matches!(unsigned, "inf" | "NaN" | "nan" | "infinity") {
+        return Some(Kind::Float);
+    }
+    for (prefix, radix) in [("0x", 16), ("0o", 8), ("0b", 2)] {
+        if let Some(digits) = unsigned.strip_prefix(prefix) {
+            let valid = digits.chars().any(|c| c != '_') && digits.chars().all(|c| c == '_' || c.is_digit(radix));
+            return valid.then_some(Kind::Integer);
+        }
+    }
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (unsigned, None),
+    };
+    let is_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'_');
+    let has_digit = |text: &str| text.bytes().any(|b| b.is_ascii_digit());
+    if let Some(exponent) = exponent {
+        let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+        if !is_digits(digits) || !has_digit(digits) {
+            return None;
+        }
+    }
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let starts_well = !mantissa.starts_with('_') && !fraction.starts_with('_');
+    if !starts_well || !is_digits(whole) || !is_digits(fraction) || !(has_digit(whole) || has_digit(fraction)) {
+        return None;
+    }
+    Some(if exponent.is_some() || mantissa.contains('.') { Kind::Float } else { Kind::Integer })
+}

@@ -1,0 +1,213 @@
+//! Characters of RON: white space, comments, words, and the ways past what cannot be read.
+
+use super::ron::Parser;
+use super::span;
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+
+impl Parser<'_> {
+    /// Goes to the next comma or closing bracket of this level.
+    pub(super) fn skip_broken(&mut self) {
+        let mut depth = 0usize;
+        let begin = self.at;
+        while let Some(byte) = self.peek() {
+            match byte {
+                b',' if depth == 0 => break,
+                b')' | b']' | b'}' if depth == 0 => break,
+                b'(' | b'[' | b'{' => depth += 1,
+                b')' | b']' | b'}' => depth -= 1,
+                b'"' => {
+                    self.skip_text();
+                    continue;
+                }
+                // A fault inside an item does not reach over the next line's item.
+                b'\n' if depth == 0 && self.at > begin => {
+                    let line = self.rest()[1..].trim_start();
+                    if line.starts_with(|c: char| c.is_alphabetic() || c == '_') {
+                        break;
+                    }
+                }
+                _ => {}
+            }
+            self.bump();
+        }
+    }
+
+    /// Goes past the bracket that opens here, however deep it is.
+    pub(super) fn skip_brackets(&mut self) {
+        let mut depth = 0usize;
+        while let Some(byte) = self.peek() {
+            match byte {
+                b'(' | b'[' | b'{' => depth += 1,
+                b')' | b']' | b'}' => {
+                    depth -= 1;
+                    if depth == 0 {
+                        self.at += 1;
+                        return;
+                    }
+                }
+                b'"' => {
+                    self.skip_text();
+                    continue;
+                }
+                _ => {}
+            }
+            self.bump();
+        }
+    }
+
+    fn skip_text(&mut self) {
+        let bytes = self.text.as_bytes();
+        let mut at = self.at + 1;
+        while let Some(&byte) = bytes.get(at) {
+            match byte {
+                b'\\' if at + 1 < bytes.len() && bytes[at + 1].is_ascii() => at += 1,
+                b'"' => {
+                    self.at = at + 1;
+                    return;
+                }
+                b'\n' => break,
+                _ => {}
+            }
+            at += 1;
+        }
+        self.at = at.min(bytes.len());
+    }
+
+    /// White space and comments.
+    pub(super) fn trivia(&mut self) {
+        self.white_space();
+        if self.indent == usize::MAX {
+            self.indent = self.at - self.line;
+        }
+    }
+
+    fn white_space(&mut self) {
+        let bytes = self.text.as_bytes();
+        loop {
+            match bytes.get(self.at) {
+                Some(b'\n') => {
+                    self.at += 1;
+                    self.line = self.at;
+                    // Until the line's first word is met.
+                    self.indent = usize::MAX;
+                }
+                Some(b' ' | b'\t' | b'\r') => self.at += 1,
+                Some(b'#') if !self.is_hex_color() && !self.rest().starts_with("#!") => self.foreign_comment(),
+                Some(b'/') if bytes.get(self.at + 1) == Some(&b'/') => {
+                    let length = self.rest().find('\n').unwrap_or(self.rest().len());
+                    let length = self.rest()[..length].trim_end().len();
+                    self.comment(length);
+                }
+                Some(b'/') if bytes.get(self.at + 1) == Some(&b'*') => match self.block_comment() {
+                    Some(length) => self.comment(length),
+                    None => {
+                        let found = self.span(self.at, self.at + 2);
+                        self.sink.push(
+                            Diagnostic::error(codes::UNCLOSED_TEXT, found, "this comment is never closed")
+                                .expected("*/ at its end"),
+                        );
+                        self.at = self.text.len();
+                        // What is open now cannot be closed any more.
+                        self.at_end_reported = true;
+                    }
+                },
+                Some(byte) if !byte.is_ascii() => match self.rest().chars().next() {
+                    Some(c) if c.is_whitespace() => self.at += c.len_utf8(),
+                    _ => return,
+                },
+                _ => return,
+            }
+        }
+    }
+
+    /// `#ff8800` without quotes.
+    fn is_hex_color(&self) -> bool {
+        let digits = self.rest().bytes().skip(1).take_while(u8::is_ascii_hexdigit).count();
+        digits == 6
+    }
+
+    /// `# ..`, as comments are written elsewhere.
+    fn foreign_comment(&mut self) {
+        let found = self.span(self.at, self.at + 1);
+        let mut fault =
+            Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "comments begin with `//` in RON, not `#`")
+                .hint("write `//`");
+        fault.edit = Some(Edit { span: found, replacement: "//".to_owned() });
+        self.sink.push(fault);
+        self.at += self.rest().find('\n').unwrap_or(self.rest().len());
+    }
+
+    fn comment(&mut self, length: usize) {
+        if let Some(newline) = self.text[self.at..self.at + length].rfind('\n') {
+            self.line = self.at + newline + 1;
+            self.indent = usize::MAX;
+        }
+        let found = self.span(self.at, self.at + length);
+        self.comments.push(found);
+        self.at += length;
+    }
+
+    /// Length of a block comment, which may hold others; `None` when it is never closed.
+    fn block_comment(&self) -> Option<usize> {
+        let bytes = self.rest().as_bytes();
+        let (mut at, mut depth) = (2, 1usize);
+        while depth > 0 {
+            match (bytes.get(at)?, bytes.get(at + 1)) {
+                (b'*', Some(b'/')) => {
+                    depth -= 1;
+                    at += 2;
+                }
+                (b'/', Some(b'*')) => {
+                    depth += 1;
+                    at += 2;
+                }
+                _ => at += 1,
+            }
+        }
+        Some(at)
+    }
+
+    pub(super) fn peek(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.at).copied()
+    }
+
+    pub(super) fn rest(&self) -> &str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    /// One character on.
+    pub(super) fn bump(&mut self) {
+        self.at += self.rest().chars().next().map_or(1, char::len_utf8);
+    }
+
+    /// Length of the word that begins here, 0 when none does.
+    pub(super) fn word_length(&self) -> usize {
+        let bytes = self.text.as_bytes();
+        let mut at = self.at;
+        match bytes.get(at) {
+            Some(b'a'..=b'z' | b'A'..=b'Z' | b'_') => at += 1,
+            Some(byte) if !byte.is_ascii() => {
+                let rest = self.rest();
+                return rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+            }
+            _ => return 0,
+        }
+        while let Some(byte) = bytes.get(at) {
+            match byte {
+                b'a'..=b'z' | b'A'..=b'Z' | b'_' | b'0'..=b'9' => at += 1,
+                byte if !byte.is_ascii() => {
+                    let rest = &self.text[at..];
+                    at += rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+                    break;
+                }
+                _ => break,
+            }
+        }
+        at - self.at
+    }
+
+    pub(super) fn span(&self, start: usize, end: usize) -> Span {
+        span(self.builder.source, start, end)
+    }
+}

@@ -1,0 +1,121 @@
+//! From a [`SceneDesc`] back to text, and to a hash that says whether two scenes say the same.
+
+use crate::desc::{Scene, SceneDesc};
+use crate::form::{Entry, Form};
+use crate::print;
+use crate::syntax::Syntax;
+use crate::words::Words;
+use sha2::{Digest, Sha256};
+
+/// Whether fields that have their default are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defaults {
+    /// Only what differs from the default.
+    Hidden,
+    /// Every field: the scene as the program sees it.
+    Shown,
+}
+
+/// A scene as RON.
+pub fn to_ron(scene: &SceneDesc, defaults: Defaults) -> String {
+    print::ron(&form(scene, defaults), &[], &[])
+}
+
+/// A scene as TOML.
+pub fn to_toml(scene: &SceneDesc, defaults: Defaults) -> String {
+    print::toml(&form(scene, defaults), &[], &[])
+}
+
+/// A scene in either syntax.
+pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String {
+    match syntax {
+        Syntax::Ron => to_ron(scene, defaults),
+        Syntax::Toml => to_toml(scene, defaults),
+    }
+}
+
+fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
+    let words = Scene {
+        version: scene.version,
+        camera: scene.camera.clone(),
+        image: scene.image.clone(),
+        render: scene.render.clone(),
+        effects: scene.effects.clone(),
+        background: scene.background,
+        lights: scene.lights.clone(),
+        materials: scene.materials.clone(),
+        objects: scene.objects.clone(),
+    };
+    let mut form = words.form(defaults == Defaults::Shown);
+    if let Form::Struct { fields, .. } = &mut form {
+        // The version is said even when it is the default: it is what makes old files load for ever.
+        if fields.first().is_none_or(|field| field.name != "version") {
+            fields.insert(0, Entry::new("version", Form::Integer(u64::from(scene.version))));
+        }
+    }
+    form
+}
+
+/// SHA-256 over what the scene says: every field with its value, defaults included; not how it is written, nor where.
+///
+/// Two scenes have the same hash when they have the same fields with the same numbers, whatever the syntax, the order of
+/// materials and of fields, the comments, or the form of the numbers. Files that a scene names count by their names alone.
+pub fn hash(scene: &SceneDesc) -> [u8; 32] {
+    let mut hasher = Sha256::new();
+    hasher.update(b"tracer scene 1");
+    feed(&mut hasher, &form(scene, Defaults::Shown));
+    hasher.finalize().into()
+}
+
+/// [`hash`] as 64 hexadecimal digits.
+pub fn hash_hex(scene: &SceneDesc) -> String {
+    hash(scene).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Feeds a value: a tag for its kind, its length where it has one, its content.
+fn feed(hasher: &mut Sha256, form: &Form) {
+    let mut tagged = |tag: u8, bytes: &[u8]| {
+        hasher.update([tag]);
+        hasher.update((bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
+    match form {
+        Form::Absent => tagged(b'-', &[]),
+        Form::Bool(value) => tagged(b'b', &[u8::from(*value)]),
+        // Minus zero is zero.
+        Form::Number(value) => tagged(b'n', &(value + 0.0).to_bits().to_le_bytes()),
+        Form::Integer(value) => tagged(b'i', &value.to_le_bytes()),
+        Form::Lexeme(text) => tagged(b'l', text.as_bytes()),
+        Form::Text(text) => tagged(b't', text.as_bytes()),
+        Form::Vector(numbers) => {
+            tagged(b'v', &[]);
+            numbers.iter().for_each(|number| feed(hasher, number));
+        }
+        Form::List(entries) => {
+            tagged(b'[', &(entries.len() as u64).to_le_bytes());
+            entries.iter().for_each(|entry| feed(hasher, &entry.value));
+        }
+        Form::Map(entries) => {
+            tagged(b'{', &(entries.len() as u64).to_le_bytes());
+            let mut sorted: Vec<&Entry> = entries.iter().collect();
+            sorted.sort_by(|a, b| a.name.cmp(&b.name));
+            feed_fields(hasher, &sorted);
+        }
+        Form::Struct { name, fields } => {
+            tagged(b'(', name.as_bytes());
+            tagged(b'#', &(fields.len() as u64).to_le_bytes());
+            feed_fields(hasher, &fields.iter().collect::<Vec<&Entry>>());
+        }
+        Form::Variant { name, content } => {
+            tagged(b'|', name.as_bytes());
+            feed(hasher, content.as_deref().unwrap_or(&Form::Absent));
+        }
+    }
+}
+
+fn feed_fields(hasher: &mut Sha256, fields: &[&Entry]) {
+    for field in fields {
+        feed(hasher, &Form::Text(field.name.clone()));
+        feed(hasher, &field.value);
+    }
+}

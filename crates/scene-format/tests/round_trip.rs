@@ -1,0 +1,350 @@
+//! Whatever is written is read again as the same scene; what RON's own crate reads has the same values.
+
+mod common;
+
+use common::{FULL_RON, FULL_TOML, Random, load};
+use scene_format::desc::*;
+use scene_format::{Defaults, SceneDesc, Syntax, convert, examples, hash, hash_hex, to_text};
+use std::path::PathBuf;
+
+fn number(random: &mut Random, low: f64, high: f64) -> f64 {
+    match random.below(6) {
+        0 => (low + (high - low) * random.unit()).round().clamp(low, high),
+        1 if low <= 0.0 && high >= 0.0 => 0.0,
+        // Very small and very large ones, where decimal digits are hard to get right.
+        2 if high > 1e6 => 10f64.powi(random.below(20) as i32 - 10).clamp(low, high),
+        _ => low + (high - low) * random.unit(),
+    }
+}
+
+fn length(random: &mut Random) -> f64 {
+    number(random, 1e-9, 1e9).max(1e-9)
+}
+
+fn vector(random: &mut Random) -> Vec3 {
+    [(); 3].map(|()| number(random, -1e6, 1e6))
+}
+
+fn share(random: &mut Random) -> Color {
+    if random.below(3) == 0 { [random.unit(); 3] } else { [(); 3].map(|()| random.unit()) }
+}
+
+fn text(random: &mut Random) -> String {
+    const LETTERS: [&str; 12] = ["a", "Z", "0", "_", "-", " ", "é", "赤", "\"", "\\", "\t", "\u{1}"];
+    let letters: String = (0..1 + random.below(8)).map(|_| *random.pick(&LETTERS)).collect();
+    format!("n{letters}")
+}
+
+fn albedo(random: &mut Random) -> Albedo {
+    if random.below(3) > 0 {
+        return Albedo::Color(share(random).into());
+    }
+    Albedo::Texture(Texture {
+        file: PathBuf::from(text(random)).into(),
+        filter: *random.pick(&[TextureFilter::Bilinear, TextureFilter::Nearest]),
+        wrap: *random.pick(&[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]),
+    })
+}
+
+fn material(random: &mut Random) -> Material {
+    match random.below(4) {
+        0 => Material::Diffuse { albedo: albedo(random) },
+        1 => Material::Mirror { reflectance: share(random).into() },
+        2 => Material::Transparent { ior: number(random, 1.0, 3.0).into(), transmittance: share(random).into() },
+        _ => Material::BlinnPhong {
+            albedo: albedo(random),
+            exponent: number(random, 0.0, 1e5).into(),
+            specular: random.unit().into(),
+            energy_conserving: random.below(2) == 0,
+        },
+    }
+}
+
+fn transform(random: &mut Random) -> Transform {
+    let about = (random.below(2) == 0).then(|| vector(random));
+    match random.below(4) {
+        0 => Transform::Translate(vector(random)),
+        1 => {
+            let uniform = random.below(2) == 0;
+            let factor = [(); 3].map(|()| number(random, 0.1, 10.0) * [1.0, -1.0][random.below(2)]);
+            Transform::Scale { factor: if uniform { [factor[0]; 3] } else { factor }, about }
+        }
+        2 => Transform::Rotate { axis: [1.0, random.unit(), 0.0], degrees: number(random, -360.0, 360.0), about },
+        _ => Transform::DropTo { y: number(random, -1e3, 1e3) },
+    }
+}
+
+fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {
+    (0..random.below(4)).map(|_| transform(random).into()).collect()
+}
+
+/// A valid scene that uses much of the language.
+fn scene(random: &mut Random) -> SceneDesc {
+    let names: Vec<String> = (0..random.below(4)).map(|index| format!("{index}{}", text(random))).collect();
+    let material_ref = |random: &mut Random| match random.below(3) {
+        0 if !names.is_empty() => MaterialRef::Named(random.pick(&names).clone().into()),
+        1 => MaterialRef::Inline(Box::new(material(random).into())),
+        _ => MaterialRef::Default,
+    };
+    let mut objects = Vec::new();
+    for _ in 0..1 + random.below(5) {
+        objects.push(
+            if random.below(2) == 0 {
+                let material = material_ref(random);
+                Object::Sphere(Sphere { center: vector(random).into(), radius: length(random).into(), material })
+            } else {
+                let material = material_ref(random);
+                let placements = match random.below(3) {
+                    0 => Placements::One,
+                    1 => Placements::File(PathBuf::from(text(random)).into()),
+                    _ => Placements::List((0..1 + random.below(3)).map(|_| transforms(random)).collect()),
+                };
+                Object::Mesh(Mesh {
+                    file: PathBuf::from(text(random)).into(),
+                    material,
+                    transform: transforms(random),
+                    placements,
+                    shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
+                })
+            }
+            .into(),
+        );
+    }
+    let light = |random: &mut Random| {
+        let color = share(random).map(|channel| channel * 100.0);
+        let emission = match random.below(3) {
+            0 => Emission::Intensity(color),
+            1 => Emission::Radiance(color),
+            _ => Emission::Power(color),
+        };
+        Light::SphereLight(SphereLight {
+            center: vector(random).into(),
+            radius: length(random).into(),
+            emission: emission.into(),
+        })
+    };
+    let defaults = SceneDesc::default();
+    SceneDesc {
+        camera: Camera {
+            position: [1e7, number(random, -1.0, 1.0), 0.0].into(),
+            look_at: vector(random).into(),
+            fov: number(random, 1.0, 179.0).into(),
+            ..Camera::default()
+        },
+        image: Image { width: (1 + random.below(65536) as u32).into(), ..Image::default() },
+        render: Render {
+            seed: (random.next() as u32).into(),
+            acceleration: *random.pick(&[Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None]),
+            ..Render::default()
+        },
+        effects: Effects {
+            antialiasing: match random.below(4) {
+                0 => PixelFilter::None,
+                1 => PixelFilter::Box,
+                2 => PixelFilter::Gaussian { sigma: number(random, 0.0, 3.0).into() },
+                _ => PixelFilter::BlackmanHarris { radius: number(random, 0.5, 3.0).into() },
+            },
+            depth_of_field: (random.below(2) == 0).then(|| ThinLens {
+                aperture: number(random, 0.0, 10.0).into(),
+                focus_distance: length(random).into(),
+            }),
+            exposure: number(random, -5.0, 5.0).into(),
+            tone_map: *random.pick(&[ToneMap::None, ToneMap::Filmic, ToneMap::AgX]),
+        },
+        background: share(random),
+        lights: (0..random.below(3)).map(|_| light(random).into()).collect(),
+        materials: names
+            .iter()
+            .map(|name| NamedMaterial { name: name.clone().into(), material: material(random) })
+            .collect(),
+        objects,
+        ..defaults
+    }
+}
+
+/// A scene without the texts it came from.
+fn plain(scene: SceneDesc) -> SceneDesc {
+    let mut materials = scene.materials;
+    materials.sort_by(|a, b| a.name.value.cmp(&b.name.value));
+    SceneDesc { sources: Vec::new(), base_dir: PathBuf::new(), materials, ..scene }
+}
+
+fn read(text: &str, syntax: Syntax) -> SceneDesc {
+    match load(text, syntax) {
+        Ok(loaded) => loaded.scene,
+        Err(error) => panic!("{error:?}\n{text}"),
+    }
+}
+
+#[test]
+fn generated_scenes_are_read_as_they_were_written() {
+    let mut random = Random(1);
+    for _ in 0..1500 {
+        let written = scene(&mut random);
+        let expected = plain(written.clone());
+        for syntax in [Syntax::Ron, Syntax::Toml] {
+            for defaults in [Defaults::Hidden, Defaults::Shown] {
+                let text = to_text(&written, syntax, defaults);
+                let back = read(&text, syntax);
+                assert_eq!(hash(&back), hash(&written), "{text}");
+                assert_eq!(plain(back), expected, "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn converted_scenes_say_the_same() {
+    let mut random = Random(2);
+    let mut texts: Vec<(String, Syntax)> =
+        vec![(FULL_RON.to_owned(), Syntax::Ron), (FULL_TOML.to_owned(), Syntax::Toml)];
+    texts.extend(examples().into_iter().map(|example| (example.ron, Syntax::Ron)));
+    texts.extend((0..300).map(|_| (to_text(&scene(&mut random), Syntax::Ron, Defaults::Hidden), Syntax::Ron)));
+    for (text, syntax) in texts {
+        let expected = hash_hex(&read(&text, syntax));
+        let other = if syntax == Syntax::Ron { Syntax::Toml } else { Syntax::Ron };
+        let there = convert("scene", &text, syntax, other).expect("the scene is right");
+        assert_eq!(hash_hex(&read(&there, other)), expected, "{there}");
+        let back = convert("scene", &there, other, syntax).expect("the converted scene is right");
+        assert_eq!(hash_hex(&read(&back, syntax)), expected, "{back}");
+        // Once converted, a text stays as it is.
+        let again = convert("scene", &back, syntax, other).expect("the scene is right");
+        assert_eq!(again, there);
+    }
+}
+
+#[test]
+fn the_two_full_scenes_are_the_same_and_their_hash_stays() {
+    let (ron, toml) = (read(FULL_RON, Syntax::Ron), read(FULL_TOML, Syntax::Toml));
+    assert_eq!(plain(ron.clone()), plain(toml.clone()));
+    assert_eq!(hash_hex(&ron), hash_hex(&toml));
+    // Changes only when the language does: version 1 files keep their hash.
+    assert_eq!(hash_hex(&ron), "ebd1cef358f16747e14dfeaf877ea3d9918effa27f988d6ec1b1426d06ff4964");
+}
+
+#[test]
+fn the_hash_sees_values_and_not_their_form() {
+    let hash = |objects: &str| hash_hex(&read(&format!("Scene(background: 1, objects: [{objects}])"), Syntax::Ron));
+    let one = hash("Sphere(center: (0, 0, 0), radius: 1)");
+    assert_eq!(hash("Sphere(radius: 1.0, center: [0.0, -0.0, 0e5]) /* one */"), one);
+    assert_eq!(hash("Sphere(center: (0, 0, 0), radius: 1_0e-1,)"), one);
+    assert_ne!(hash("Sphere(center: (0, 0, 0), radius: 1.0000000000000002)"), one);
+    assert_ne!(hash("Sphere(center: (0, 0, 0), radius: 1, material: Mirror())"), one);
+}
+
+#[test]
+fn comments_and_the_form_of_values_travel_with_their_items() {
+    let ron = "\
+// The room.
+Scene(
+    // Seen from the door.
+    camera: Camera(fov: 6_0), // wide
+    background: \"#ff8800\",
+    objects: [
+        // The big one.
+        Sphere(center: (0, 0, 0), radius: 1e1), // round
+        Mesh(
+            file: \"cat.obj\", // ours
+            // First to last.
+            transform: [
+                Scale(.5), // half
+            ],
+        ),
+    ],
+    // The end.
+)
+";
+    let toml = convert("room.ron", ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
+    assert_eq!(
+        toml,
+        "\
+# The room.
+background = \"#ff8800\"
+
+# Seen from the door.
+[camera] # wide
+fov = 6_0
+
+# The big one.
+[[objects]] # round
+Sphere = { center = [0, 0, 0], radius = 1e1 }
+
+[[objects]]
+[objects.Mesh]
+file = \"cat.obj\" # ours
+# First to last.
+transform = [
+    { Scale = 0.5 }, # half
+]
+
+# The end.
+"
+    );
+}
+
+#[test]
+fn a_wrong_scene_is_not_converted() {
+    assert!(convert("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron, Syntax::Toml).is_err());
+}
+
+/// What the `ron` crate reads of a sphere, for comparison.
+#[derive(Debug, serde::Deserialize)]
+#[serde(rename = "Scene")]
+struct OracleScene {
+    camera: OracleCamera,
+    objects: Vec<OracleObject>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(rename = "Camera")]
+struct OracleCamera {
+    position: (f64, f64, f64),
+    fov: f64,
+}
+
+#[derive(Debug, serde::Deserialize)]
+enum OracleObject {
+    Sphere { center: (f64, f64, f64), radius: f64, material: String },
+}
+
+#[test]
+fn the_ron_crate_reads_the_same_numbers_and_texts() {
+    let numbers = ["0", "-0.0", "1", "-17", "3.25", "1e3", "-2.5E-3", "1_000", ".5", "7.", "1.7976931348623157e300"];
+    let texts = [r#""a""#, r#""a\"b\\c""#, r##"r#"raw "x""#"##, r#""\u{e9}\x41\n""#, r#""é赤""#];
+    let mut random = Random(3);
+    for _ in 0..500 {
+        let n: Vec<&str> = (0..4).map(|_| *random.pick(&numbers)).collect();
+        let name = *random.pick(&texts);
+        let source = format!(
+            "#![enable(implicit_some)]\n/* a */ Scene( // b\n camera: Camera(position: (1, {}, 5), fov: 4_0.5,), objects: [ \
+             Sphere(center: ({}, {}, {},), radius: 2, material: {name}) , ] )",
+            n[0], n[1], n[2], n[3]
+        );
+        let oracle: OracleScene = ron::from_str(&source).unwrap_or_else(|error| panic!("{error}\n{source}"));
+        let with_material = source.replacen("objects:", &format!("materials: {{ {name}: Mirror() }}, objects:"), 1);
+        let large = n.iter().any(|number| number.contains("e300"));
+        match load(&with_material, Syntax::Ron) {
+            Err(_) => assert!(large, "{with_material}"),
+            Ok(loaded) => {
+                let Object::Sphere(sphere) = &loaded.scene.objects[0].value else { panic!("a sphere") };
+                let OracleObject::Sphere { center, radius, material } = &oracle.objects[0];
+                assert_eq!(sphere.center.value, [center.0, center.1, center.2], "{source}");
+                assert_eq!(sphere.radius.value, *radius);
+                assert_eq!(sphere.material, MaterialRef::Named(material.clone().into()));
+                assert_eq!(loaded.scene.camera.fov.value, oracle.camera.fov);
+                assert_eq!(loaded.scene.camera.position.value[1], oracle.camera.position.1);
+            }
+        }
+    }
+}
+
+/// Every TOML text that loads is TOML for the `toml` crate too, and no other.
+#[test]
+fn the_toml_crate_takes_what_loads() {
+    assert!(toml::from_str::<toml::Value>(FULL_TOML).is_ok());
+    let mut random = Random(4);
+    for _ in 0..300 {
+        let text = to_text(&scene(&mut random), Syntax::Toml, Defaults::Shown);
+        assert!(toml::from_str::<toml::Value>(&text).is_ok(), "{text}");
+    }
+}

@@ -1,0 +1,223 @@
+//! Damaged files: meshes, materials, placements and pictures with random mutations never panic, never take long, and give
+//! either an error or data that keeps every promise of its type.
+//!
+//! `TRACER_MUTANTS=100000` sets the number of mutants of each kind.
+
+use image::ImageEncoder;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tracer_core::mesh::placements::parse_placements;
+use tracer_core::mesh::{MAX_COORDINATE, MeshData, MeshFormat, NO_INDEX, load, parse};
+use tracer_core::texture::{Texels, decode};
+
+const OBJ: &str = "# a box with a dent\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n 1.0\nv 1 1 0\nv 0.5 0.25 0\nv 0 1 0\n\
+    v -1e-3 2.5E2 .5 0.1 0.2 0.3\nvt 0 0\nvt 1 0.5\nvn 0 0 1\nvn 0.1 0.2 0.3\no box\ng a b\ns 1\nusemtl m\n\
+    f 1/1/1 2/2/1 3/1/2 4/2/2 5/1/1\nf -1//-1 -2//-2 \\\r\n -3//-1\nl 1 2\nf 1 2 3 4\nusemtl n\nf 6 5 4\n";
+const OFF: &str = "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0 # c\n0.5 0.25 0\n0 1 0\n-1e-3 2.5E2 .5\n5 0 1 2 3 4\n3 0 1 5 255 0 0\n\
+    4 1 2 3 5\n2 0 1\n";
+const CNOFF: &str = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255 0 1\n1 0 0 0 0 1 0 255 0 255 1 1\n0 1 0 0 0 0 1 2 3 4 0.5 0\n\
+    3 0 1 2\n";
+const MTL: &str = "# m\nnewmtl m\nKa 1 1 1\nKd 0.8 0.7 0.6\nKs 0.5 0.5 0.5\nNs 250\nNi 1.45\nd 1.0\nillum 2\n\
+    map_Kd -s 1 1 1 -clamp on fur.png\nnewmtl n\nd 0.5\nTf 1 1 1\nmap_Bump b.png\n";
+const PLACEMENTS: &str = "# where\n1 2 3\n1,2,3,0.5\n-1 2e3 3 2 0 1 0 45\n\n1 0 0 5 0 1 0 6 0 0 1 7\n";
+
+/// Words that mutations put in: numbers at the limits and statements out of place.
+const WORDS: [&str; 24] = [
+    "nan",
+    "inf",
+    "1e999",
+    "-1e-999",
+    "1e30",
+    "0",
+    "-1",
+    "-0",
+    "1",
+    "99999999999999999999",
+    "4294967295",
+    "4294967296",
+    "2147483648",
+    "-2147483649",
+    "\\\n",
+    "\r\n",
+    "\n",
+    "#",
+    "/",
+    "f 1 2 3 1 2 3",
+    "usemtl m",
+    "v 1 1 1",
+    "OFF",
+    "\u{feff}",
+];
+
+fn mutants() -> usize {
+    std::env::var("TRACER_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(10_000)
+}
+
+/// A linear congruential generator (Knuth's MMIX), its upper bits.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+
+    fn range(&mut self, length: usize) -> std::ops::Range<usize> {
+        let (a, b) = (self.below(length + 1), self.below(length + 1));
+        a.min(b)..a.max(b)
+    }
+
+    fn mutate(&mut self, original: &[u8]) -> Vec<u8> {
+        let mut bytes = original.to_vec();
+        for _ in 0..=self.below(4) {
+            let at = self.below(bytes.len() + 1);
+            match self.below(8) {
+                0 => bytes.truncate(at),
+                1 => drop(bytes.drain(self.range(original.len().min(bytes.len())))),
+                2 => {
+                    let range = self.range(bytes.len());
+                    let part = bytes[range].to_vec();
+                    bytes.splice(at..at, part);
+                }
+                3 | 4 => {
+                    let word = WORDS[self.below(WORDS.len())];
+                    bytes.splice(at..at, word.bytes());
+                }
+                5 => bytes.insert(at, self.below(256) as u8),
+                _ => {
+                    let value = self.below(256) as u8;
+                    if let Some(byte) = bytes.get_mut(at) {
+                        *byte = if value.is_multiple_of(2) { value } else { *byte ^ (1 << (value % 8)) };
+                    }
+                }
+            }
+            bytes.truncate(1 << 16);
+        }
+        bytes
+    }
+}
+
+/// Runs all mutants of one file, and says how many were read without an error: some must, else the test tests nothing.
+fn run(seed: u64, count: usize, original: &[u8], mut test: impl FnMut(&[u8]) -> bool) -> usize {
+    let mut random = Random(seed);
+    let mut good = 0;
+    for number in 0..count {
+        let bytes = random.mutate(original);
+        let start = Instant::now();
+        good += usize::from(test(&bytes));
+        // Files of a few KB: a second is a thousand times what they take.
+        assert!(start.elapsed() < Duration::from_secs(1), "mutant {number}: {:?}", String::from_utf8_lossy(&bytes));
+    }
+    good
+}
+
+/// All that `MeshData` promises.
+fn assert_whole(mesh: &MeshData) {
+    assert!(!mesh.triangles.is_empty());
+    assert!(mesh.positions.iter().flatten().all(|x| x.abs() <= MAX_COORDINATE));
+    assert!(mesh.triangles.iter().flatten().all(|&index| (index as usize) < mesh.positions.len()));
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
+        assert!(a != b && b != c && c != a);
+    }
+    for (indices, count) in [(&mesh.normal_triangles, mesh.normals.len()), (&mesh.uv_triangles, mesh.uvs.len())] {
+        match indices {
+            Some(indices) => {
+                assert_eq!(indices.len(), mesh.triangles.len());
+                assert!(indices.iter().flatten().all(|&index| index == NO_INDEX || (index as usize) < count));
+                assert!(indices.iter().flatten().any(|&index| index != NO_INDEX));
+            }
+            None => assert!(count == 0 || count == mesh.positions.len()),
+        }
+    }
+    let corners = mesh.normal_triangles.as_ref().unwrap_or(&mesh.triangles);
+    for &index in corners.iter().flatten().filter(|&&index| index != NO_INDEX && !mesh.normals.is_empty()) {
+        let length: f64 = mesh.normals[index as usize].iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+        // Three parts, each rounded to f32.
+        assert!((length - 1.0).abs() < 1e-6);
+    }
+    assert!(mesh.uvs.iter().flatten().all(|x| x.is_finite()));
+    assert!(mesh.triangle_material.is_empty() || mesh.triangle_material.len() == mesh.triangles.len());
+    assert!(mesh.triangle_material.iter().all(|&m| m == NO_INDEX || (m as usize) < mesh.materials.len()));
+    assert!(mesh.barycentre().iter().all(|x| x.is_finite()));
+    assert!(mesh.warnings.len() <= 2);
+}
+
+fn mutate_mesh(seed: u64, format: MeshFormat, original: &str) {
+    let count = mutants();
+    let good = run(seed, count, original.as_bytes(), |bytes| match parse(bytes, format, Path::new("none/m")) {
+        Ok(mesh) => {
+            assert_whole(&mesh);
+            true
+        }
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            false
+        }
+    });
+    assert!(good > count / 50 && good < count, "{good} of {count}");
+}
+
+#[test]
+fn mutated_obj_files() {
+    mutate_mesh(1, MeshFormat::Obj, OBJ);
+}
+
+#[test]
+fn mutated_off_files() {
+    mutate_mesh(2, MeshFormat::Off, OFF);
+    mutate_mesh(3, MeshFormat::Off, CNOFF);
+}
+
+#[test]
+fn mutated_mtl_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let obj = folder.path().join("m.obj");
+    std::fs::write(&obj, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\n")
+        .expect("written");
+    // A fifth of the others: each is written to a file.
+    let count = mutants() / 5;
+    let good = run(4, count, MTL.as_bytes(), |bytes| {
+        std::fs::write(folder.path().join("m.mtl"), bytes).expect("written");
+        load(&obj).inspect(assert_whole).is_ok()
+    });
+    assert!(good > count / 50 && good < count, "{good} of {count}");
+}
+
+#[test]
+fn mutated_placements() {
+    let count = mutants();
+    let good = run(5, count, PLACEMENTS.as_bytes(), |bytes| match parse_placements(bytes, Path::new("p")) {
+        Ok(placements) => {
+            assert!(placements.iter().all(|placement| placement.is_finite() && !placement.inverse().is_nan()));
+            !placements.is_empty()
+        }
+        Err(_) => false,
+    });
+    assert!(good > count / 50 && good < count, "{good} of {count}");
+}
+
+#[test]
+fn mutated_pictures() {
+    let pixels: Vec<u8> = (0..16 * 12 * 3).map(|i| (i * 37 % 256) as u8).collect();
+    let (mut png, mut jpeg) = (Vec::new(), Vec::new());
+    let rgb = image::ExtendedColorType::Rgb8;
+    image::codecs::png::PngEncoder::new(&mut png).write_image(&pixels, 16, 12, rgb).expect("encoded");
+    image::codecs::jpeg::JpegEncoder::new(&mut jpeg).write_image(&pixels, 16, 12, rgb).expect("encoded");
+    // Checksums make nearly every change of a PNG an error; a JPEG often decodes to something.
+    for (seed, original, least) in [(6, png, 0), (7, jpeg, 50)] {
+        let count = mutants() / 5;
+        let good = run(seed, count, &original, |bytes| match decode(bytes, Path::new("p")) {
+            Ok(texture) => {
+                let texels = match &texture.texels {
+                    Texels::Srgb8(texels) => texels.len(),
+                    Texels::Linear(texels) => texels.len(),
+                };
+                assert_eq!(texels, texture.width as usize * texture.height as usize);
+                true
+            }
+            Err(_) => false,
+        });
+        assert!(good >= least && good < count, "{good} of {count}");
+    }
+}

@@ -1,0 +1,409 @@
+//! The command line's words.
+
+use crate::commands::Template;
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use scene_format::{Override, Syntax};
+use std::path::PathBuf;
+use tracer_core::Crop;
+
+const EXAMPLES: &str = "\
+Examples:
+  tracer new ball.ron && tracer render ball.ron -o ball.png
+  tracer render scenes/fig4.ron -o fig4.png --samples 100
+
+Exit codes: 0 done, 1 could not be done, 2 wrong scene or command line, 130 interrupted";
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+/// A declarative path tracer: a scene file becomes a picture.
+#[derive(Debug, Parser)]
+#[command(name = "tracer", version, after_help = EXAMPLES, styles = STYLES, max_term_width = 100)]
+#[command(disable_help_subcommand = true, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Colours on standard error
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = When::Auto, hide_possible_values = true)]
+    #[arg(help = "Colours on standard error: auto, always or never")]
+    pub color: When,
+    /// Say what is loaded and how long it takes
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene into pictures
+    Render(RenderArgs),
+    /// Find everything that is wrong with a scene
+    Check(CheckArgs),
+    /// Tell what is in a scene
+    Info(InfoArgs),
+    /// Translate a scene between RON and TOML
+    Convert(ConvertArgs),
+    /// Start a small scene that renders well
+    New(NewArgs),
+    /// Measure how two pictures differ
+    Compare(CompareArgs),
+    /// Time a scene without boxes, with one per mesh, and with a tree of them
+    BenchAcceleration(BenchAccelerationArgs),
+    /// Explain the code of a diagnostic
+    Explain(ExplainArgs),
+    /// Print the JSON Schema of scene files
+    #[command(after_help = SCHEMA_EXAMPLES)]
+    Schema,
+    /// Print a completion script for a shell
+    Completions(CompletionsArgs),
+    /// Print a manual page (roff)
+    Man(ManArgs),
+}
+
+/// Automatic, or as the person says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum When {
+    /// As the terminal and NO_COLOR say.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// How diagnostics are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DiagnosticsForm {
+    /// For people.
+    Text,
+    /// One JSON object a line, for editors.
+    Json,
+}
+
+/// The syntax of a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SyntaxName {
+    /// Rusty Object Notation.
+    Ron,
+    /// Tom's Obvious Minimal Language.
+    Toml,
+}
+
+impl From<SyntaxName> for Syntax {
+    fn from(name: SyntaxName) -> Self {
+        match name {
+            SyntaxName::Ron => Syntax::Ron,
+            SyntaxName::Toml => Syntax::Toml,
+        }
+    }
+}
+
+/// The scene, and how faults of it are told.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// Scene file (.ron, .toml), or - for standard input
+    pub scene: PathBuf,
+    /// Set a field: camera.fov=40, 'materials.glass=Transparent(ior: 1.6)'
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Syntax of the scene [default: by its extension, else by its looks]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    #[arg(help = "ron or toml [default: by the extension, else by the looks]")]
+    pub syntax: Option<SyntaxName>,
+    /// How to print what is wrong: text or json
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text, hide_possible_values = true)]
+    pub diagnostics: DiagnosticsForm,
+}
+
+impl SceneArgs {
+    /// The fields to set.
+    pub fn overrides(&self) -> Vec<Override> {
+        self.set.iter().cloned().map(Override::from).collect()
+    }
+}
+
+const SCHEMA_EXAMPLES: &str = "\
+Examples:
+  tracer schema > scene.schema.json
+  tracer schema | jq .properties.camera";
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  tracer render scenes/fig4.ron -o fig4.png
+  tracer render fig4.ron -o a.exr -o a.png --samples 64 --size 256x256 --set camera.fov=40
+
+Ctrl-C writes the picture so far (exit code 130); a second Ctrl-C leaves at once.";
+
+/// `tracer render`
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub scene: SceneArgs,
+    /// Picture to write: .png .exr .hdr .pfm, or - (repeatable)
+    #[arg(short, long = "output", value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// Kind of picture for `-o -`: png, exr, hdr or pfm
+    #[arg(long, value_name = "KIND")]
+    pub format: Option<String>,
+    /// Bits per channel of a PNG: 8 or 16
+    #[arg(long, value_name = "BITS", value_parser = ["8", "16"], hide_possible_values = true)]
+    pub bits: Option<String>,
+    /// Samples per pixel
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    pub samples: Option<u32>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
+    /// Render only this part: the same bytes as that part of the whole
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    pub crop: Option<Crop>,
+    /// Seed of all random choices
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// Stops to brighten the picture by
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    pub exposure: Option<f64>,
+    /// Threads [default: one per core]; the picture is the same
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Write a report of times, rays and memory as JSON
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Print errors only
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+}
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  tracer check scenes/fig4.ron
+  tracer check scene.toml --diagnostics json
+
+Diagnostics go to standard error; exit code 2 when there is an error.";
+
+/// `tracer check`
+#[derive(Debug, Args)]
+#[command(after_help = CHECK_EXAMPLES)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub scene: SceneArgs,
+}
+
+const INFO_EXAMPLES: &str = "\
+Examples:
+  tracer info scenes/fig4.ron
+  tracer info scene.toml --resolved";
+
+/// `tracer info`
+#[derive(Debug, Args)]
+#[command(after_help = INFO_EXAMPLES)]
+pub struct InfoArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub scene: SceneArgs,
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Print the scene with every default filled in instead
+    #[arg(long, conflicts_with = "json")]
+    pub resolved: bool,
+}
+
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  tracer convert scene.ron -o scene.toml
+  tracer convert - --to ron < scene.toml";
+
+/// `tracer convert`
+#[derive(Debug, Args)]
+#[command(after_help = CONVERT_EXAMPLES)]
+pub struct ConvertArgs {
+    /// Scene file, or - for standard input
+    pub scene: PathBuf,
+    /// Syntax of the scene [default: by the extension, else by the looks]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    pub syntax: Option<SyntaxName>,
+    /// Syntax to translate to [default: by the extension of -o, else the other one]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    pub to: Option<SyntaxName>,
+    /// File to write [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// How to print what is wrong: text or json
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text, hide_possible_values = true)]
+    pub diagnostics: DiagnosticsForm,
+}
+
+const NEW_EXAMPLES: &str = "\
+Examples:
+  tracer new ball.ron
+  tracer new room.toml --template room";
+
+/// `tracer new`
+#[derive(Debug, Args)]
+#[command(after_help = NEW_EXAMPLES)]
+pub struct NewArgs {
+    /// Scene file to make (.ron, .toml)
+    pub scene: PathBuf,
+    /// What to start from
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball)]
+    pub template: Template,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  tracer compare a.png b.png -o difference.png
+  tracer compare new.exr old.exr --fail-above flip-mean=0.01 --fail-above max=0.1
+
+Two EXR, HDR or PFM files are compared in linear radiance, others in display values of 0 to 1.
+Exit codes: 0 within the limits, 1 above one, 2 no pictures or two sizes";
+
+/// `tracer compare`
+#[derive(Debug, Args)]
+#[command(after_help = COMPARE_EXAMPLES)]
+pub struct CompareArgs {
+    /// Picture
+    pub a: PathBuf,
+    /// Picture that it is measured against
+    pub b: PathBuf,
+    /// Write a map of the difference in false colours
+    #[arg(short, long, value_name = "FILE.png")]
+    pub output: Option<PathBuf>,
+    /// Exit code 1 above it: max, rmse, relmse, flip-mean or flip-max (repeatable)
+    #[arg(long, value_name = "METRIC=LIMIT")]
+    pub fail_above: Vec<String>,
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+const BENCH_EXAMPLES: &str = "\
+Examples:
+  tracer bench-acceleration scenes/fig3.ron
+  tracer bench-acceleration scene.ron --size 64x64 --samples 4";
+
+/// `tracer bench-acceleration`
+#[derive(Debug, Args)]
+#[command(after_help = BENCH_EXAMPLES)]
+pub struct BenchAccelerationArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub scene: SceneArgs,
+    /// Samples per pixel
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    pub samples: Option<u32>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
+    /// Threads [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+const EXPLAIN_EXAMPLES: &str = "\
+Examples:
+  tracer explain E0301
+  tracer explain";
+
+/// `tracer explain`
+#[derive(Debug, Args)]
+#[command(after_help = EXPLAIN_EXAMPLES)]
+pub struct ExplainArgs {
+    /// Code, as E0102 [default: list all codes]
+    pub code: Option<String>,
+}
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  tracer completions bash > ~/.local/share/bash-completion/completions/tracer
+  tracer completions fish > ~/.config/fish/completions/tracer.fish";
+
+/// `tracer completions`
+#[derive(Debug, Args)]
+#[command(after_help = COMPLETIONS_EXAMPLES)]
+pub struct CompletionsArgs {
+    /// Shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  tracer man | man -l -
+  tracer man render > tracer-render.1";
+
+/// `tracer man`
+#[derive(Debug, Args)]
+#[command(after_help = MAN_EXAMPLES)]
+pub struct ManArgs {
+    /// Command [default: the page of the program]
+    pub command: Option<String>,
+}
+
+/// A size in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+}
+
+/// The most pixels along a side; the scene language has the same limit.
+const MAX_SIDE: u32 = 65_536;
+
+fn size(text: &str) -> Result<Size, String> {
+    let expected = || format!("expected width and height in pixels, 1 to {MAX_SIDE}, as in 640x480");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(expected)?;
+    let side = |side: &str| side.parse().ok().filter(|n| (1..=MAX_SIDE).contains(n)).ok_or_else(expected);
+    Ok(Size { width: side(width)?, height: side(height)? })
+}
+
+fn crop(text: &str) -> Result<Crop, String> {
+    let expected = "expected four whole numbers: left, top, width and height in pixels, as in 100,50,64,64";
+    let numbers: Vec<u32> =
+        text.split(',').map(|n| n.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected.to_owned())?;
+    match numbers[..] {
+        [x, y, width, height] if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
+        _ => Err(expected.to_owned()),
+    }
+}
+
+fn exposure(text: &str) -> Result<f64, String> {
+    let expected = "expected a number of stops, -64 to 64, as in -0.5";
+    text.parse().ok().filter(|stops: &f64| stops.abs() <= 64.0).ok_or_else(|| expected.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_and_crops_are_read() {
+        assert_eq!(size("640x480"), Ok(Size { width: 640, height: 480 }));
+        for bad in ["", "640", "0x4", "4x0", "4x70000", "-1x4", "4x4x4", "4 x 4"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
+        for bad in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4", "a,b,c,d"] {
+            assert!(crop(bad).is_err(), "{bad}");
+        }
+    }
+}

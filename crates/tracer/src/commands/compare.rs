@@ -1,0 +1,116 @@
+//! `tracer compare`: how two pictures differ, in numbers and in false colours.
+
+use crate::args::CompareArgs;
+use crate::compare::{Difference, Kind, Metric, Picture, PictureError, difference, false_colours};
+use crate::failure::{Failure, exit};
+use crate::write::{Bits, Encoding, Place, Provenance, probe, write};
+use serde_json::json;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
+    let limits = args.fail_above.iter().map(|text| limit(text)).collect::<Result<Vec<Limit>, Failure>>()?;
+    if let Some(path) = &args.output {
+        if !matches!(Encoding::from_path(path, Bits::Eight), Ok(Encoding::Png(_))) {
+            return Err(Failure::wrong(format!("-o {}: the map is a PNG; name it .png", path.display())));
+        }
+        probe(path)?;
+    }
+    let (a, b) = (picture(&args.a)?, picture(&args.b)?);
+    let Some(difference) = difference(&a, &b) else {
+        return Err(Failure::wrong(format!(
+            "{} has {}x{} pixels and {} has {}x{}: only pictures of one size can be compared",
+            args.a.display(),
+            a.width,
+            a.height,
+            args.b.display(),
+            b.width,
+            b.height
+        )));
+    };
+    if let Some(path) = &args.output {
+        let map = false_colours(&difference.flip_map, a.width, a.height);
+        let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let scene_name = format!("FLIP of {} against {}", name(&args.a), name(&args.b));
+        let provenance = Provenance { scene_name, ..Provenance::default() };
+        write(&map, Encoding::Png(Bits::Eight), &Place::File(path.clone()), &provenance)?;
+    }
+    let above: Vec<&Limit> = limits.iter().filter(|limit| limit.metric.of(&difference) > limit.most).collect();
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        writeln!(out, "{:#}", as_json(&difference, &above))?;
+    } else {
+        out.write_all(as_text(&difference, &above).as_bytes())?;
+    }
+    out.flush()?;
+    Ok(ExitCode::from(if above.is_empty() { exit::DONE } else { exit::FAILED }))
+}
+
+/// What `--fail-above` says.
+struct Limit {
+    metric: Metric,
+    most: f64,
+}
+
+fn limit(text: &str) -> Result<Limit, Failure> {
+    let names = Metric::ALL.map(Metric::name).join(", ");
+    let wrong = |what: &str| {
+        Failure::wrong(format!(
+            "--fail-above {text}: {what}; expected METRIC=LIMIT with one of {names}, as in flip-mean=0.01"
+        ))
+    };
+    let (name, most) = text.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+    let metric = Metric::ALL.into_iter().find(|metric| metric.name().eq_ignore_ascii_case(name.trim()));
+    let metric = metric.ok_or_else(|| wrong(&format!("there is no metric `{name}`")))?;
+    let most = most.trim().parse().ok().filter(|most: &f64| *most >= 0.0);
+    Ok(Limit { metric, most: most.ok_or_else(|| wrong("the limit is no number from 0"))? })
+}
+
+fn picture(path: &Path) -> Result<Picture, Failure> {
+    Picture::load(path).map_err(|error| match error {
+        PictureError::Io { .. } => Failure::CouldNot(error.into()),
+        PictureError::Broken { .. } | PictureError::NotFinite { .. } => Failure::Wrong(error.into()),
+    })
+}
+
+fn kind(difference: &Difference) -> &'static str {
+    match difference.kind {
+        Kind::Linear => "linear radiance",
+        Kind::Display => "display values",
+    }
+}
+
+fn as_text(d: &Difference, above: &[&Limit]) -> String {
+    let psnr = if d.psnr.is_finite() { format!("{:.2} dB", d.psnr) } else { "infinite".to_owned() };
+    let mut text = format!(
+        "compared   {}\nmax        {:.6} at ({}, {})\nRMSE       {:.6}\nrelMSE     {:.6}\nPSNR       {psnr}\nFLIP mean  {:.6}\nFLIP max   {:.6}\n",
+        kind(d),
+        d.max,
+        d.max_at.x,
+        d.max_at.y,
+        d.rmse,
+        d.relmse,
+        d.flip_mean,
+        d.flip_max,
+    );
+    for limit in above {
+        text += &format!("{} is above {}\n", limit.metric.name(), limit.most);
+    }
+    text
+}
+
+fn as_json(d: &Difference, above: &[&Limit]) -> serde_json::Value {
+    json!({
+        "compared": kind(d),
+        "max": d.max,
+        "max_at": d.max_at,
+        "rmse": d.rmse,
+        "relmse": d.relmse,
+        // Infinite for equal pictures, which JSON has no word for.
+        "psnr": d.psnr.is_finite().then_some(d.psnr),
+        "flip_mean": d.flip_mean,
+        "flip_max": d.flip_max,
+        "above": above.iter().map(|limit| limit.metric.name()).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,64 @@
+//! `tracer convert`: a scene in the other syntax, comments and all.
+
+use crate::args::ConvertArgs;
+use crate::failure::{Failure, exit};
+use crate::loading::{is_dash, read, told};
+use crate::shell::Shell;
+use crate::write::save;
+use scene_format::{LoadError, Syntax};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure> {
+    let output = args.output.as_deref().filter(|path| !is_dash(path));
+    let by_name = match output {
+        Some(path) => Some(Syntax::from_path(path).ok_or_else(|| {
+            Failure::wrong(format!("-o {} is no name for a scene file; expected .ron or .toml", path.display()))
+        })?),
+        None => None,
+    };
+    let asked = args.to.map(Syntax::from);
+    if let (Some(by_name), Some(asked)) = (by_name, asked)
+        && by_name != asked
+    {
+        return Err(Failure::wrong(format!("--to says {}, but -o names a {} file", asked.name(), by_name.name())));
+    }
+    let (name, bytes) = read(&args.scene)?;
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        // The reader tells where the fault is.
+        Err(error) => {
+            let wrong = scene_format::load_bytes(&name, error.into_bytes(), None, Path::new(""), &[]);
+            return Err(wrong.err().map_or(Failure::WrongScene, |error| told(error, args.diagnostics, shell)));
+        }
+    };
+    let syntax = args.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene));
+    let from = syntax.unwrap_or_else(|| Syntax::guess(&text));
+    let to = asked.or(by_name).unwrap_or(match from {
+        Syntax::Ron => Syntax::Toml,
+        Syntax::Toml => Syntax::Ron,
+    });
+    let converted = scene_format::convert(&name, &text, from, to)
+        .map_err(|error: LoadError| told(error, args.diagnostics, shell))?;
+    match output {
+        Some(path) => {
+            save(path, converted.as_bytes())?;
+            if folder(path) != folder(&args.scene) && !is_dash(&args.scene) {
+                shell.say("warning: paths in a scene start from its folder, and this one moves to another folder");
+            }
+        }
+        None => {
+            let mut out = std::io::stdout().lock();
+            out.write_all(converted.as_bytes())?;
+            out.flush()?;
+        }
+    }
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// The folder of a file, as the system sees it.
+fn folder(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().ok()
+}

@@ -1,0 +1,173 @@
+//! `tracer info`: what is in a scene, and what it takes.
+
+use crate::args::InfoArgs;
+use crate::failure::{Failure, exit};
+use crate::loading::{compile, load};
+use crate::memory::human;
+use crate::shell::Shell;
+use scene_format::desc::Object;
+use scene_format::{Defaults, SceneDesc, Syntax, hash_hex, to_text};
+use serde_json::json;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use tracer_core::scene::Statistics;
+use tracer_core::{Crop, Film, Scene};
+
+pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
+    let desc = load(&args.scene, shell)?;
+    let text = if args.resolved {
+        let syntax = args.scene.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene.scene));
+        to_text(&desc, syntax.unwrap_or(Syntax::Ron), Defaults::Shown)
+    } else {
+        let scene = compile(&desc, args.scene.diagnostics, shell)?;
+        let facts = Facts {
+            name: name(&desc),
+            film: Film::bytes_of(Crop::whole(scene.size)),
+            statistics: scene.statistics(),
+            scene,
+            desc,
+        };
+        if args.json { format!("{:#}\n", facts.as_json()) } else { facts.as_text() }
+    };
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(ExitCode::from(exit::DONE))
+}
+
+fn name(desc: &SceneDesc) -> String {
+    desc.sources.first().map_or("", |source| source.name.as_str()).to_owned()
+}
+
+/// What there is to say.
+struct Facts {
+    name: String,
+    desc: SceneDesc,
+    scene: Scene,
+    statistics: Statistics,
+    film: u64,
+}
+
+impl Facts {
+    fn count(&self, is: impl Fn(&Object) -> bool) -> usize {
+        self.desc.objects.iter().filter(|object| is(&object.value)).count()
+    }
+
+    fn mesh_files(&self) -> Vec<&Path> {
+        let mut files: Vec<&Path> = Vec::new();
+        for object in &self.desc.objects {
+            if let Object::Mesh(mesh) = &object.value
+                && !files.contains(&mesh.file.value.as_path())
+            {
+                files.push(&mesh.file.value);
+            }
+        }
+        files
+    }
+
+    fn as_text(&self) -> String {
+        let s = &self.statistics;
+        let point = |p: [f64; 3]| format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]));
+        let spheres = self.count(|object| matches!(object, Object::Sphere(_)));
+        let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
+        let tree = s.tree.map_or("none needed".to_owned(), |tree| {
+            format!("{} nodes, {} leaves, {} deep, {}", tree.nodes, tree.leaves, tree.depth, human(tree.bytes))
+        });
+        let mut text = String::new();
+        let mut line = |name: &str, value: String| text += &format!("{name:<11}{value}\n");
+        line("scene", self.name.clone());
+        line("picture", format!("{}x{} pixels", self.scene.size[0], self.scene.size[1]));
+        line(
+            "render",
+            format!("{} samples, {} bounces, seed {}", self.scene.samples, self.scene.max_bounces, self.scene.seed),
+        );
+        line("objects", format!("{} ({spheres} spheres, {meshes} meshes)", self.desc.objects.len()));
+        line("lights", s.lights.to_string());
+        line("triangles", format!("{} in {} meshes, placed {} times", s.triangles, s.meshes, s.instances));
+        for file in self.mesh_files() {
+            line("", file.display().to_string());
+        }
+        line("materials", format!("{} ({} by name)", s.materials, self.desc.materials.len()));
+        for named in &self.desc.materials {
+            line("", format!("{:?}", named.name.value));
+        }
+        line("textures", s.textures.to_string());
+        line("bounds", format!("{} to {}", point(s.bounds.min), point(s.bounds.max)));
+        line("tree", tree);
+        line(
+            "memory",
+            format!(
+                "geometry {}, textures {}, tree {}, film {}",
+                human(s.geometry_bytes),
+                human(s.texture_bytes),
+                human(s.tree.map_or(0, |tree| tree.bytes)),
+                human(self.film)
+            ),
+        );
+        line("hash", hash_hex(&self.desc));
+        text
+    }
+
+    fn as_json(&self) -> serde_json::Value {
+        let s = &self.statistics;
+        json!({
+            "scene": self.name,
+            "hash": hash_hex(&self.desc),
+            "picture": { "width": self.scene.size[0], "height": self.scene.size[1] },
+            "render": {
+                "samples": self.scene.samples,
+                "max_bounces": self.scene.max_bounces,
+                "seed": self.scene.seed,
+            },
+            "objects": {
+                "total": self.desc.objects.len(),
+                "spheres": self.count(|object| matches!(object, Object::Sphere(_))),
+                "meshes": self.count(|object| matches!(object, Object::Mesh(_))),
+            },
+            "lights": s.lights,
+            "meshes": s.meshes,
+            "mesh_files": self.mesh_files(),
+            "instances": s.instances,
+            "triangles": s.triangles,
+            "placed_triangles": s.placed_triangles,
+            "materials": s.materials,
+            "material_names": self.desc.materials.iter().map(|named| &named.name.value).collect::<Vec<_>>(),
+            "textures": s.textures,
+            "bounds": { "min": s.bounds.min, "max": s.bounds.max },
+            "tree": s.tree.map(|tree| json!({
+                "nodes": tree.nodes,
+                "leaves": tree.leaves,
+                "depth": tree.depth,
+                "bytes": tree.bytes,
+            })),
+            "memory": {
+                "geometry": s.geometry_bytes,
+                "textures": s.texture_bytes,
+                "tree": s.tree.map_or(0, |tree| tree.bytes),
+                "film": self.film,
+            },
+        })
+    }
+}
+
+/// Four significant digits and no more zeros than needed.
+fn short(x: f64) -> String {
+    let digits = if x == 0.0 { 0 } else { (3 - x.abs().log10().floor() as i32).clamp(0, 12) };
+    let text = format!("{x:.*}", digits as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (x, text) in
+            [(0.0, "0"), (1.0, "1"), (-0.5, "-0.5"), (20050.25, "20050"), (3.14159, "3.142"), (1e-5, "0.00001")]
+        {
+            assert_eq!(short(x), text);
+        }
+    }
+}

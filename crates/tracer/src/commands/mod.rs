@@ -1,0 +1,41 @@
+//! One file per command.
+
+mod bench_acceleration;
+mod check;
+mod compare;
+mod completions;
+mod convert;
+mod explain;
+mod info;
+mod man;
+mod new;
+mod render;
+mod schema;
+
+pub use new::Template;
+
+use crate::args::Command;
+use crate::failure::Failure;
+use crate::shell::Shell;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Does what the command says; `started` is when the program began.
+///
+/// # Errors
+/// Why it was not done.
+pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Render(args) => render::run(args, shell, started),
+        Command::Check(args) => check::run(args, shell),
+        Command::Info(args) => info::run(args, shell),
+        Command::Convert(args) => convert::run(args, shell),
+        Command::New(args) => new::run(args, shell),
+        Command::Compare(args) => compare::run(args),
+        Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),
+        Command::Explain(args) => explain::run(args),
+        Command::Schema => schema::run(),
+        Command::Completions(args) => completions::run(args),
+        Command::Man(args) => man::run(args),
+    }
+}

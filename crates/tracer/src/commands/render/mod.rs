@@ -1,0 +1,293 @@
+//! `tracer render`: a scene becomes pictures, and a report.
+
+mod outputs;
+mod repeat;
+
+use crate::args::RenderArgs;
+use crate::failure::{Failure, exit};
+use crate::loading::{compile, is_dash, load, use_threads};
+use crate::progress::{Watch, rate};
+use crate::report::{
+    FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport, Seconds, Tree,
+    VERSION,
+};
+use crate::shell::Shell;
+use crate::write::{Place, Provenance, Setting, save, write};
+use crate::{interrupt, lanes, memory};
+use outputs::Output;
+use scene_format::SceneDesc;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+use tracer_core::{Crop, Film, RenderOptions, Scene, develop, render};
+
+pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+    let mut clock = Clock { last: started };
+    let outputs = outputs::outputs(args)?;
+    let level = lanes::from_environment()?;
+    use_threads(args.threads)?;
+    outputs::probe(&outputs, args.report.as_deref())?;
+    let desc = described(args, shell)?;
+    let crop = crop(args, &desc)?;
+    check_memory(crop)?;
+    let read = clock.lap();
+
+    let scene = compile(&desc, args.scene.diagnostics, shell)?.with_level(level);
+    let compiled = clock.lap();
+
+    interrupt::listen(*shell)?;
+    let pixels = u64::from(crop.width) * u64::from(crop.height);
+    let watch = Watch::new(shell, pixels * u64::from(scene.samples));
+    let options = RenderOptions {
+        crop: Some(crop),
+        threads: args.threads.map_or(0, usize::from),
+        level: Some(level),
+        ..RenderOptions::default()
+    };
+    let film = render(&scene, &options, &watch);
+    watch.finish();
+    let rendered = clock.lap();
+
+    let (fewest, most) = film.samples().into_inner();
+    let interrupted = fewest < scene.samples;
+    if most == 0 {
+        shell.say("interrupted before the first sample: no picture is written");
+        return Ok(ExitCode::from(exit::INTERRUPTED));
+    }
+    let image = develop(&film, &scene.look);
+    let developed = clock.lap();
+
+    let provenance = provenance(args, &desc, &film);
+    let mut files = Vec::new();
+    for Output { place, encoding } in &outputs {
+        let written = write(&image, *encoding, place, &provenance)?;
+        files.push(FileReport {
+            path: outputs::name(place),
+            format: encoding.name(),
+            bytes: written.bytes,
+            sha256: written.sha256,
+        });
+    }
+    let written = clock.lap();
+    let seconds = Seconds {
+        read,
+        compile: compiled - scene.times.tree,
+        build: scene.times.tree,
+        render: rendered,
+        develop: developed,
+        write: written,
+        total: clock.last.duration_since(started).as_secs_f64(),
+    };
+
+    if film.counters.dropped > 0 {
+        shell.say(&format!(
+            "warning: {} samples were not finite or negative and are left out; repeat with: {}",
+            film.counters.dropped,
+            repeat::command(args, &desc)
+        ));
+    }
+    if let Some(path) = &args.report {
+        let report = report(args, &desc, &scene, &film, seconds, files, interrupted);
+        write_report(path, &report)?;
+    } else if shell.is_watched() {
+        let samples = film.counters.camera_rays as f64 / seconds.render;
+        shell.say(&format!("{} in {:.2} s, {}", names(&outputs), seconds.total, rate(samples)));
+    }
+    if interrupted {
+        let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
+        let asked = scene.samples;
+        shell.say(&format!("interrupted: {} holds {held} of {asked} samples per pixel", names(&outputs)));
+        return Ok(ExitCode::from(exit::INTERRUPTED));
+    }
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// Time in laps, without gaps.
+struct Clock {
+    last: Instant,
+}
+
+impl Clock {
+    /// Seconds since the last lap.
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        let seconds = now.duration_since(self.last).as_secs_f64();
+        self.last = now;
+        seconds
+    }
+}
+
+/// The scene with what the options say.
+fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
+    let mut desc = load(&args.scene, shell)?;
+    if let Some(size) = args.size {
+        desc.image.width = size.width.into();
+        desc.image.height = size.height.into();
+    }
+    if let Some(samples) = args.samples {
+        desc.render.samples = samples.into();
+    }
+    if let Some(seed) = args.seed {
+        desc.render.seed = seed.into();
+    }
+    if let Some(exposure) = args.exposure {
+        desc.effects.exposure = exposure.into();
+    }
+    Ok(desc)
+}
+
+fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
+    let size = [desc.image.width.value, desc.image.height.value];
+    let Some(crop) = args.crop else { return Ok(Crop::whole(size)) };
+    if crop.within(size) == crop {
+        return Ok(crop);
+    }
+    let Crop { x, y, width, height } = crop;
+    Err(Failure::wrong(format!(
+        "--crop {x},{y},{width},{height} does not lie in the picture, which has {}x{} pixels (--size changes that)",
+        size[0], size[1]
+    )))
+}
+
+/// A picture that cannot fit is refused here: later the system would end the program.
+fn check_memory(crop: Crop) -> Result<(), Failure> {
+    // The developed picture, and an encoded one while it is made and written.
+    const BYTES_PER_PIXEL: u64 = 48;
+    let pixels = u64::from(crop.width) * u64::from(crop.height);
+    let needed = Film::bytes_of(crop) + pixels * BYTES_PER_PIXEL;
+    match memory::available() {
+        Some(available) if needed > available => Err(Failure::could_not(format!(
+            "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
+            crop.width,
+            crop.height,
+            memory::human(needed),
+            memory::human(available)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+fn names(outputs: &[Output]) -> String {
+    outputs.iter().map(|output| outputs::name(&output.place)).collect::<Vec<_>>().join(", ")
+}
+
+fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
+    let (fewest, most) = film.samples().into_inner();
+    let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
+    let [width, height] = film.size();
+    let mut settings = vec![
+        Setting { name: "samples", value: samples },
+        Setting { name: "seed", value: film.seed().to_string() },
+        Setting { name: "size", value: format!("{width}x{height}") },
+        Setting { name: "max_bounces", value: desc.render.max_bounces.value.to_string() },
+        Setting { name: "exposure", value: desc.effects.exposure.value.to_string() },
+        Setting { name: "tone_map", value: format!("{:?}", desc.effects.tone_map) },
+    ];
+    let Crop { x, y, width, height } = film.crop();
+    if film.crop() != Crop::whole(film.size()) {
+        settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
+    }
+    settings.extend(args.scene.set.iter().map(|set| Setting { name: "set", value: set.clone() }));
+    let source = desc.sources.first();
+    let name = source.map_or("", |source| source.name.as_str());
+    Provenance {
+        scene_name: Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy()).into_owned(),
+        scene_text: source.map(|source| source.text.clone()).unwrap_or_default(),
+        settings,
+    }
+}
+
+fn report(
+    args: &RenderArgs,
+    desc: &SceneDesc,
+    scene: &Scene,
+    film: &Film,
+    seconds: Seconds,
+    files: Vec<FileReport>,
+    interrupted: bool,
+) -> Report {
+    let statistics = scene.statistics();
+    let counters = film.counters;
+    let rays = counters.camera_rays + counters.scattered_rays + counters.shadow_rays;
+    let per_second = |count: u64| if seconds.render > 0.0 { count as f64 / seconds.render } else { 0.0 };
+    let (samples_min, samples_max) = film.samples().into_inner();
+    let Crop { x, y, width, height } = film.crop();
+    Report {
+        report_version: VERSION,
+        tracer_version: env!("CARGO_PKG_VERSION"),
+        command: repeat::command(args, desc),
+        interrupted,
+        scene: SceneReport {
+            file: desc.sources.first().map(|source| source.name.clone()).unwrap_or_default(),
+            hash: scene_format::hash_hex(desc),
+        },
+        picture: PictureReport {
+            width: film.size()[0],
+            height: film.size()[1],
+            crop: [x, y, width, height],
+            seed: film.seed(),
+            samples_asked: scene.samples,
+            samples_min,
+            samples_max,
+        },
+        rays: Rays {
+            camera: counters.camera_rays,
+            scattered: counters.scattered_rays,
+            shadow: counters.shadow_rays,
+            total: rays,
+            per_second: per_second(rays),
+        },
+        samples: Samples {
+            total: counters.camera_rays,
+            per_second: per_second(counters.camera_rays),
+            dropped: counters.dropped,
+        },
+        mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
+        noise: Noise { relative: film.relative_noise() },
+        primitives: Primitives {
+            spheres: statistics.spheres,
+            triangles: statistics.triangles,
+            placed_triangles: statistics.placed_triangles,
+            meshes: statistics.meshes,
+            instances: statistics.instances,
+            lights: statistics.lights,
+        },
+        tree: statistics.tree.map(|tree| Tree {
+            nodes: tree.nodes,
+            leaves: tree.leaves,
+            depth: tree.depth,
+            bytes: tree.bytes,
+        }),
+        memory: Memory {
+            peak: memory::peak(),
+            geometry: statistics.geometry_bytes,
+            textures: statistics.texture_bytes,
+            film: film.bytes() as u64,
+        },
+        machine: Machine {
+            threads: film.threads,
+            simd: film.level.name(),
+            lanes: film.level.lanes(),
+            arch: std::env::consts::ARCH,
+            os: std::env::consts::OS,
+        },
+        seconds,
+        files,
+    }
+}
+
+fn write_report(path: &Path, report: &Report) -> Result<(), Failure> {
+    let json = report.to_json().map_err(|error| Failure::could_not(format!("cannot write the report: {error}")))?;
+    if is_dash(path) {
+        let mut out = std::io::stdout().lock();
+        out.write_all(json.as_bytes())?;
+        return Ok(out.flush()?);
+    }
+    Ok(save(path, json.as_bytes())?)
+}
+
+/// The place that a path on the command line means.
+fn place(path: &Path) -> Place {
+    if is_dash(path) { Place::Stdout } else { Place::File(path.to_owned()) }
+}

@@ -1,0 +1,92 @@
+//! What `-o` names, checked before any work is done.
+
+use super::place;
+use crate::args::RenderArgs;
+use crate::failure::Failure;
+use crate::loading::is_dash;
+use crate::write::{Bits, Encoding, Place};
+use std::io::IsTerminal;
+use std::path::Path;
+
+/// A picture to write.
+pub(super) struct Output {
+    pub place: Place,
+    pub encoding: Encoding,
+}
+
+/// The name to show.
+pub(super) fn name(place: &Place) -> String {
+    match place {
+        Place::File(path) => path.display().to_string(),
+        Place::Stdout => "-".to_owned(),
+    }
+}
+
+/// The pictures that the command line asks for.
+///
+/// # Errors
+/// A kind of picture that is not written, two pictures in one place, options that belong to none.
+pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
+    let bits = if args.bits.as_deref() == Some("16") { Bits::Sixteen } else { Bits::Eight };
+    let mut outputs: Vec<Output> = Vec::new();
+    for path in &args.output {
+        let place = place(path);
+        if outputs.iter().any(|output| output.place == place) {
+            return Err(Failure::wrong(format!("-o {} is given twice; name two places", name(&place))));
+        }
+        if args.report.as_deref() == Some(path) {
+            return Err(Failure::wrong(format!("-o and --report both name {}; name two places", name(&place))));
+        }
+        outputs.push(Output { encoding: encoding(path, args, bits)?, place });
+    }
+    if args.format.is_some() && args.output.iter().all(|path| path.extension().is_some()) {
+        return Err(Failure::wrong(
+            "--format is for `-o -` and names without an extension; others say their kind by it",
+        ));
+    }
+    if args.bits.is_some() && !outputs.iter().any(|output| matches!(output.encoding, Encoding::Png(_))) {
+        return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
+    }
+    Ok(outputs)
+}
+
+fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Failure> {
+    let kinds = Encoding::NAMES.join(", ");
+    if path.extension().is_none() {
+        let Some(format) = &args.format else {
+            let shown = path.display();
+            return Err(Failure::wrong(if is_dash(path) {
+                format!("-o - needs --format, one of {kinds}")
+            } else {
+                format!("-o {shown} has no extension; name it {shown}.png (or exr, hdr, pfm), or give --format")
+            }));
+        };
+        if is_dash(path) && std::io::stdout().is_terminal() {
+            return Err(Failure::wrong(
+                "a picture does not go to a terminal; send standard output into a file or a pipe",
+            ));
+        }
+        return Encoding::from_name(format, bits)
+            .map_err(|_| Failure::wrong(format!("--format {format} is unknown; expected one of {kinds}")));
+    }
+    Encoding::from_path(path, bits).map_err(|_| {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let shown = path.display();
+        Failure::wrong(format!("-o {shown}: `.{extension}` is no kind of picture; expected one of {kinds}"))
+    })
+}
+
+/// Finds out whether everything can be written, while nothing has been spent yet.
+///
+/// # Errors
+/// The first place that cannot be written.
+pub(super) fn probe(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
+    let pictures = outputs.iter().filter_map(|output| match &output.place {
+        Place::File(path) => Some(path.as_path()),
+        Place::Stdout => None,
+    });
+    for path in pictures.chain(report.filter(|report| !is_dash(report))) {
+        crate::write::probe(path)?;
+    }
+    Ok(())
+}

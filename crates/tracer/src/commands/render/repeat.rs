@@ -1,0 +1,41 @@
+//! The command that makes the same pictures again.
+
+use crate::args::{RenderArgs, SyntaxName};
+use crate::command_line::quoted;
+use scene_format::SceneDesc;
+use tracer_core::Crop;
+
+/// Says size, samples and seed even where the scene said them: the scene may change them, the command stays right.
+pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
+    let mut words = vec!["tracer".to_owned(), "render".to_owned(), args.scene.scene.to_string_lossy().into_owned()];
+    let mut option = |name: &str, value: String| words.extend([name.to_owned(), value]);
+    for path in &args.output {
+        option("-o", path.to_string_lossy().into_owned());
+    }
+    if let Some(format) = &args.format {
+        option("--format", format.clone());
+    }
+    if let Some(bits) = &args.bits {
+        option("--bits", bits.clone());
+    }
+    if let Some(syntax) = args.scene.syntax {
+        let name = match syntax {
+            SyntaxName::Ron => "ron",
+            SyntaxName::Toml => "toml",
+        };
+        option("--syntax", name.to_owned());
+    }
+    for set in &args.scene.set {
+        option("--set", set.clone());
+    }
+    option("--size", format!("{}x{}", desc.image.width.value, desc.image.height.value));
+    option("--samples", desc.render.samples.value.to_string());
+    option("--seed", desc.render.seed.value.to_string());
+    if let Some(exposure) = args.exposure {
+        option("--exposure", exposure.to_string());
+    }
+    if let Some(Crop { x, y, width, height }) = args.crop {
+        option("--crop", format!("{x},{y},{width},{height}"));
+    }
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,65 @@
+//! How a command ends, and its exit code.
+
+use crate::write::WriteError;
+use std::io;
+use std::process::ExitCode;
+
+/// Exit codes, as `--help` documents them.
+pub mod exit {
+    /// Done.
+    pub const DONE: u8 = 0;
+    /// What was asked for could not be done (unreadable, read-only, disk full); `compare`: the pictures differ by more than allowed.
+    pub const FAILED: u8 = 1;
+    /// The scene or the command line is wrong.
+    pub const WRONG: u8 = 2;
+    /// Interrupted by Ctrl-C.
+    pub const INTERRUPTED: u8 = 130;
+}
+
+/// Why a command did not do what it was asked for.
+#[derive(Debug)]
+pub enum Failure {
+    /// The command line is wrong, or a file on it is not what the command takes.
+    Wrong(anyhow::Error),
+    /// The scene is wrong; its diagnostics have been printed.
+    WrongScene,
+    /// It could not be done.
+    CouldNot(anyhow::Error),
+    /// Nobody reads standard output any more; nothing is to be said.
+    PipeClosed,
+}
+
+impl Failure {
+    /// A wrong command line.
+    pub fn wrong(message: impl Into<String>) -> Self {
+        Failure::Wrong(anyhow::Error::msg(message.into()))
+    }
+
+    /// Something that could not be done.
+    pub fn could_not(message: impl Into<String>) -> Self {
+        Failure::CouldNot(anyhow::Error::msg(message.into()))
+    }
+
+    /// The exit code.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            // As programs that SIGPIPE may end: the reader had enough, which is no failure.
+            Failure::PipeClosed => exit::DONE,
+            Failure::CouldNot(_) => exit::FAILED,
+            Failure::Wrong(_) | Failure::WrongScene => exit::WRONG,
+        })
+    }
+}
+
+/// Of writing results to standard output.
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Failure::from(WriteError::Stdout(error))
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        if error.is_broken_pipe() { Failure::PipeClosed } else { Failure::CouldNot(error.into()) }
+    }
+}

@@ -1,0 +1,75 @@
+//! The command line of tracer, and its fifth hand: [`write()`] puts a developed picture into a file.
+#![forbid(unsafe_code)]
+
+pub mod args;
+pub mod command_line;
+pub mod commands;
+pub mod compare;
+pub mod failure;
+pub mod interrupt;
+pub mod lanes;
+pub mod loading;
+pub mod memory;
+pub mod progress;
+pub mod report;
+pub mod shell;
+pub mod write;
+
+pub use write::write;
+
+use args::{Cli, Command, When};
+use clap::{ColorChoice, CommandFactory, FromArgMatches};
+use failure::{Failure, exit};
+use shell::{Shell, Verbosity};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// The program: reads the command line, does what it says, and gives the exit code.
+pub fn main() -> ExitCode {
+    let started = Instant::now();
+    let arguments: Vec<std::ffi::OsString> = std::env::args_os().collect();
+    let matches = Cli::command().color(color_of_help(&arguments)).try_get_matches_from(&arguments);
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help goes to standard output, faults to standard error; that nobody reads them is no reason to fail.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { exit::WRONG } else { exit::DONE });
+        }
+    };
+    let quiet = matches!(&cli.command, Command::Render(args) if args.quiet);
+    let verbosity = match (quiet, cli.verbose) {
+        (true, _) => Verbosity::Quiet,
+        (false, false) => Verbosity::Normal,
+        (false, true) => Verbosity::Verbose,
+    };
+    let shell = Shell::new(cli.color, verbosity);
+    commands::run(&cli.command, &shell, started).unwrap_or_else(|failure| {
+        if let Failure::Wrong(error) | Failure::CouldNot(error) = &failure {
+            shell.error(error);
+        }
+        failure.exit_code()
+    })
+}
+
+/// `--color` for help and for faults of the command line itself, which end the reading of it.
+fn color_of_help(arguments: &[std::ffi::OsString]) -> ColorChoice {
+    let mut choice = When::Auto;
+    for (k, argument) in arguments.iter().enumerate() {
+        let value = match argument.to_str() {
+            Some("--color") => arguments.get(k + 1).and_then(|value| value.to_str()),
+            Some(argument) => argument.strip_prefix("--color="),
+            None => None,
+        };
+        choice = match value {
+            Some("always") => When::Always,
+            Some("never") => When::Never,
+            _ => choice,
+        };
+    }
+    match choice {
+        When::Auto => ColorChoice::Auto,
+        When::Always => ColorChoice::Always,
+        When::Never => ColorChoice::Never,
+    }
+}

@@ -1,0 +1,121 @@
+//! The scene on the command line, read and compiled, its faults told.
+
+use crate::args::{DiagnosticsForm, SceneArgs};
+use crate::failure::Failure;
+use crate::memory::human;
+use crate::shell::{Shell, counted};
+use scene_format::diagnostic::Source;
+use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
+use std::io::Read;
+use std::path::Path;
+use tracer_core::{CompileError, Scene};
+
+/// The name that stands for standard input, and output.
+pub fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Reads the scene: the first hand. Warnings are printed.
+///
+/// # Errors
+/// When it cannot be read, or is wrong: then everything that is wrong has been printed.
+pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
+    let overrides = args.overrides();
+    let syntax = args.syntax.map(Syntax::from);
+    let loaded = if is_dash(&args.scene) || syntax.is_some() {
+        let (name, bytes) = read(&args.scene)?;
+        let folder = args.scene.parent().unwrap_or(Path::new(""));
+        scene_format::load_bytes(&name, bytes, syntax.or(Syntax::from_path(&args.scene)), folder, &overrides)
+    } else {
+        scene_format::load_with(&args.scene, &overrides)
+    };
+    let Loaded { scene, warnings } = loaded.map_err(|error| told(error, args.diagnostics, shell))?;
+    shell.diagnostics(&warnings, &scene.sources, args.diagnostics);
+    shell.explain(|| {
+        let source = scene.sources.first().map_or("", |source| source.name.as_str());
+        let (objects, lights) = (counted(scene.objects.len(), "object"), counted(scene.lights.len(), "light"));
+        format!("read {source}: {objects}, {lights}")
+    });
+    Ok(scene)
+}
+
+/// The name to show and the bytes of a scene file or of standard input.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
+    let could_not = |name: &str, error: std::io::Error| Failure::could_not(format!("cannot read {name}: {error}"));
+    if is_dash(scene) {
+        let mut bytes = Vec::new();
+        // One byte more than a scene may have: then it says so itself.
+        let mut input = std::io::stdin().lock().take(MAX_FILE_BYTES + 1);
+        input.read_to_end(&mut bytes).map_err(|error| could_not("the scene from standard input", error))?;
+        Ok(("<stdin>".to_owned(), bytes))
+    } else {
+        let name = scene.display().to_string();
+        let file = std::fs::File::open(scene).map_err(|error| could_not(&format!("the scene file {name}"), error))?;
+        let mut bytes = Vec::new();
+        let mut input = file.take(MAX_FILE_BYTES + 1);
+        input.read_to_end(&mut bytes).map_err(|error| could_not(&format!("the scene file {name}"), error))?;
+        Ok((name, bytes))
+    }
+}
+
+/// The failure of a scene that did not load, after its diagnostics were printed.
+pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
+    match error {
+        LoadError::Invalid { diagnostics, sources } => {
+            shell.diagnostics(&diagnostics, &sources, form);
+            Failure::WrongScene
+        }
+        LoadError::Io { path, source } if source.kind() == std::io::ErrorKind::NotFound => Failure::could_not(format!(
+            "there is no scene file {}; `tracer new {}` starts one",
+            path.display(),
+            path.display()
+        )),
+        io @ LoadError::Io { .. } => Failure::CouldNot(io.into()),
+    }
+}
+
+/// Compiles the scene: the second hand. Warnings are printed.
+///
+/// # Errors
+/// When assets are wrong: then everything that is wrong has been printed.
+pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result<Scene, Failure> {
+    let sources: &[Source] = &desc.sources;
+    let scene = tracer_core::compile(desc).map_err(|CompileError { diagnostics }| {
+        shell.diagnostics(&diagnostics, sources, form);
+        Failure::WrongScene
+    })?;
+    shell.diagnostics(&scene.warnings, sources, form);
+    shell.explain(|| {
+        let s = scene.statistics();
+        let count = |n: u64, noun: &str| counted(n as usize, noun);
+        let mut line = format!(
+            "compiled {}, {} of {} in {}, {}",
+            count(s.spheres, "sphere"),
+            count(s.meshes, "mesh"),
+            count(s.triangles, "triangle"),
+            count(s.instances, "place"),
+            count(s.textures, "texture"),
+        );
+        if let Some(tree) = s.tree {
+            line += &format!("; tree of {}, {} deep, {}", count(tree.nodes, "node"), tree.depth, human(tree.bytes));
+        }
+        let times = scene.times;
+        line + &format!("; assets {:.3} s, tables {:.3} s, tree {:.3} s", times.assets, times.tables, times.tree)
+    });
+    Ok(scene)
+}
+
+/// Makes the pool that compiles; the default one has a thread for each core.
+///
+/// # Errors
+/// When the system gives no threads.
+pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build_global()
+        .map_err(|error| Failure::could_not(format!("cannot start {threads} threads: {error}; lower --threads")))
+}

@@ -1,0 +1,204 @@
+//! The report of a rendering as JSON; `docs/report.md` is its documentation.
+
+use serde::Serialize;
+
+/// Changes whenever a field changes its meaning or goes; new fields may come at any time.
+pub const VERSION: u32 = 1;
+
+/// What one `tracer render` did.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// Version of this schema.
+    pub report_version: u32,
+    /// Version of the program.
+    pub tracer_version: &'static str,
+    /// A command line that makes the same pictures, from the same folder.
+    pub command: String,
+    /// Whether Ctrl-C ended it; then `command` may hold more samples than the pictures.
+    pub interrupted: bool,
+    /// The scene.
+    pub scene: SceneReport,
+    /// The picture.
+    pub picture: PictureReport,
+    /// Where the time went.
+    pub seconds: Seconds,
+    /// Rays.
+    pub rays: Rays,
+    /// Camera samples.
+    pub samples: Samples,
+    /// Segments of a path from the camera, on average.
+    pub mean_path_length: f64,
+    /// Noise of the picture.
+    pub noise: Noise,
+    /// What there is to be hit.
+    pub primitives: Primitives,
+    /// The tree of boxes; null when the scene needs none.
+    pub tree: Option<Tree>,
+    /// Memory.
+    pub memory: Memory,
+    /// What it ran on.
+    pub machine: Machine,
+    /// The pictures.
+    pub files: Vec<FileReport>,
+}
+
+/// The scene.
+#[derive(Debug, Serialize)]
+pub struct SceneReport {
+    /// As named on the command line; `<stdin>` for standard input.
+    pub file: String,
+    /// SHA-256 over what the scene says after all options; not how it is written.
+    pub hash: String,
+}
+
+/// The picture.
+#[derive(Debug, Serialize)]
+pub struct PictureReport {
+    /// Pixels across, of the whole picture.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// The part that was rendered: left, top, width, height.
+    pub crop: [u32; 4],
+    /// Seed of all random choices.
+    pub seed: u32,
+    /// Samples per pixel that were asked for.
+    pub samples_asked: u32,
+    /// Fewest samples of a pixel.
+    pub samples_min: u32,
+    /// Most samples of a pixel.
+    pub samples_max: u32,
+}
+
+/// Wall-clock seconds of the phases, one after the other: they sum to `total`.
+#[derive(Debug, Serialize)]
+pub struct Seconds {
+    /// Command line and scene file.
+    pub read: f64,
+    /// Assets loaded, everything placed.
+    pub compile: f64,
+    /// The tree of boxes built.
+    pub build: f64,
+    /// Paths traced.
+    pub render: f64,
+    /// Film to picture.
+    pub develop: f64,
+    /// Pictures encoded and written.
+    pub write: f64,
+    /// From the program's first instruction to the last picture.
+    pub total: f64,
+}
+
+/// Rays.
+#[derive(Debug, Serialize)]
+pub struct Rays {
+    /// From the camera.
+    pub camera: u64,
+    /// From surfaces onward.
+    pub scattered: u64,
+    /// From surfaces to lights.
+    pub shadow: u64,
+    /// All.
+    pub total: u64,
+    /// All, per second of `seconds.render`.
+    pub per_second: f64,
+}
+
+/// Camera samples.
+#[derive(Debug, Serialize)]
+pub struct Samples {
+    /// All.
+    pub total: u64,
+    /// Per second of `seconds.render`.
+    pub per_second: f64,
+    /// Not finite or negative, and left out of the picture.
+    pub dropped: u64,
+}
+
+/// Noise of the picture.
+#[derive(Debug, Serialize)]
+pub struct Noise {
+    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; an upper bound.
+    pub relative: f64,
+}
+
+/// What there is to be hit.
+#[derive(Debug, Serialize)]
+pub struct Primitives {
+    /// Spheres, those of lights among them.
+    pub spheres: u64,
+    /// Triangles, each mesh counted once.
+    pub triangles: u64,
+    /// Triangles as often as they are placed.
+    pub placed_triangles: u64,
+    /// Meshes.
+    pub meshes: u64,
+    /// Placed meshes.
+    pub instances: u64,
+    /// Lights.
+    pub lights: u64,
+}
+
+/// The tree of boxes.
+#[derive(Debug, Serialize)]
+pub struct Tree {
+    /// Nodes of eight boxes.
+    pub nodes: u64,
+    /// Leaves.
+    pub leaves: u64,
+    /// Nodes on the longest way down.
+    pub depth: u32,
+    /// Bytes.
+    pub bytes: u64,
+}
+
+/// Memory in bytes.
+#[derive(Debug, Serialize)]
+pub struct Memory {
+    /// The most that the process held; null where the system does not say.
+    pub peak: Option<u64>,
+    /// Vertices, normals, texture coordinates, indices.
+    pub geometry: u64,
+    /// Texels.
+    pub textures: u64,
+    /// The film.
+    pub film: u64,
+}
+
+/// What it ran on.
+#[derive(Debug, Serialize)]
+pub struct Machine {
+    /// Threads that rendered.
+    pub threads: usize,
+    /// Vector instructions of the engine.
+    pub simd: &'static str,
+    /// Their lanes.
+    pub lanes: usize,
+    /// Processor family.
+    pub arch: &'static str,
+    /// Operating system.
+    pub os: &'static str,
+}
+
+/// A picture file.
+#[derive(Debug, Serialize)]
+pub struct FileReport {
+    /// As named on the command line.
+    pub path: String,
+    /// `png`, `exr`, `hdr` or `pfm`.
+    pub format: &'static str,
+    /// Size.
+    pub bytes: u64,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+impl Report {
+    /// As JSON text.
+    ///
+    /// # Errors
+    /// None that a report can cause.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(self).map(|json| json + "\n")
+    }
+}

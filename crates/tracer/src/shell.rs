@@ -1,0 +1,109 @@
+//! What is said on standard error: in which colours, how wide, how much.
+
+use crate::args::{DiagnosticsForm, When};
+use scene_format::diagnostic::Source;
+use scene_format::render::{Style, json_lines, text};
+use scene_format::{Diagnostic, Severity};
+use std::io::{IsTerminal, Write};
+
+/// How much is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verbosity {
+    /// Errors.
+    Quiet,
+    /// Errors and warnings; progress on a terminal.
+    Normal,
+    /// What is loaded and how long it takes, too.
+    Verbose,
+}
+
+/// Standard error.
+#[derive(Clone, Copy, Debug)]
+pub struct Shell {
+    color: bool,
+    terminal: bool,
+    /// How much is said.
+    pub verbosity: Verbosity,
+}
+
+impl Shell {
+    /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set.
+    pub fn new(color: When, verbosity: Verbosity) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        let color = match color {
+            When::Auto => terminal && !dumb && !set("NO_COLOR"),
+            When::Always => true,
+            When::Never => false,
+        };
+        Shell { color, terminal: terminal && !dumb, verbosity }
+    }
+
+    /// Whether somebody watches: progress is for them alone.
+    pub fn is_watched(&self) -> bool {
+        self.terminal && self.verbosity > Verbosity::Quiet
+    }
+
+    /// A line on standard error. That it cannot be said is no reason to fail.
+    pub fn say(&self, line: &str) {
+        let _ = writeln!(std::io::stderr().lock(), "{line}");
+    }
+
+    /// A line for those who asked with `-v`.
+    pub fn explain(&self, line: impl FnOnce() -> String) {
+        if self.verbosity == Verbosity::Verbose {
+            self.say(&line());
+        }
+    }
+
+    /// `error: ` and why.
+    pub fn error(&self, error: &anyhow::Error) {
+        let (on, off) = if self.color { ("\x1b[1m\x1b[91m", "\x1b[0m") } else { ("", "") };
+        self.say(&format!("{on}error{off}: {error:#}"));
+    }
+
+    /// Prints diagnostics (quiet: errors only) and, for people, how many there are.
+    pub fn diagnostics(&self, diagnostics: &[Diagnostic], sources: &[Source], form: DiagnosticsForm) {
+        let mut shown = diagnostics.to_vec();
+        if self.verbosity == Verbosity::Quiet {
+            shown.retain(|diagnostic| diagnostic.severity == Severity::Error);
+        }
+        if shown.is_empty() {
+            return;
+        }
+        let printed = match form {
+            DiagnosticsForm::Text => text(&shown, sources, Style { color: self.color, width: width() }),
+            DiagnosticsForm::Json => json_lines(&shown, sources),
+        };
+        let _ = std::io::stderr().lock().write_all(printed.as_bytes());
+        let errors = shown.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
+        if form == DiagnosticsForm::Text && errors > 0 {
+            let name = sources.first().map_or("the scene", |source| source.name.as_str());
+            let warnings = match shown.len() - errors {
+                0 => String::new(),
+                n => format!(", {}", counted(n, "warning")),
+            };
+            let code = shown.iter().find(|d| d.severity == Severity::Error).map_or("", |d| d.code);
+            self.error(&anyhow::anyhow!(
+                "{name}: {}{warnings}; `tracer explain {code}` tells more",
+                counted(errors, "error")
+            ));
+        }
+    }
+}
+
+/// `1 sphere`, `2 spheres`
+pub fn counted(n: usize, noun: &str) -> String {
+    let plural = match (n, noun) {
+        (1, _) => "",
+        (_, "mesh") => "es",
+        _ => "s",
+    };
+    format!("{n} {noun}{plural}")
+}
+
+/// Columns of the terminal; of no terminal, a usual width.
+fn width() -> usize {
+    terminal_size::terminal_size_of(std::io::stderr()).map_or(Style::default().width, |(width, _)| width.0.into())
+}

@@ -1,0 +1,63 @@
+//! Why a picture could not be written.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Why a file could not be written. In all cases an older file of that name is as it was.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The folder that the file should be in is not there.
+    #[error("cannot write {}: there is no folder {}; make it, or name another place", path.display(), folder.display())]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The name is a folder's.
+    #[error("cannot write {}: it is a folder; name a file", path.display())]
+    Folder {
+        /// The file.
+        path: PathBuf,
+    },
+    /// There is a file of that name that must not be changed.
+    #[error("cannot write {}: the file is read-only; name another place, or make it writable", path.display())]
+    ReadOnly {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The system says no: permission, disk full, a broken disk.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Standard output takes no more.
+    #[error("cannot write to standard output: {0}")]
+    Stdout(#[source] io::Error),
+    /// The picture could not be put into bytes.
+    #[error("cannot encode the picture as {encoding}: {message}")]
+    Encode {
+        /// The kind of file.
+        encoding: &'static str,
+        /// What the encoder says.
+        message: String,
+    },
+    /// The picture is empty, or does not have three numbers for each pixel.
+    #[error("the picture does not hold {width} x {height} pixels")]
+    Picture {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+}
+
+impl WriteError {
+    /// Whether the reader of standard output went away, which is no fault.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, WriteError::Stdout(source) if source.kind() == io::ErrorKind::BrokenPipe)
+    }
+}

@@ -1,0 +1,79 @@
+//! The fifth hand: a developed [`Image`] becomes a file, whole or not at all.
+//!
+//! EXR, HDR and PFM hold linear exposed radiance; PNG holds display values, rounded to the nearest code value. The bytes depend on
+//! the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine.
+
+mod encoding;
+mod error;
+mod exr;
+mod hdr;
+mod pfm;
+mod png;
+mod provenance;
+mod whole_file;
+
+pub use encoding::{Bits, Encoding, UnknownEncoding};
+pub use error::WriteError;
+pub use provenance::{Provenance, Setting};
+pub use whole_file::{probe, remove_unfinished, save};
+
+use sha2::{Digest, Sha256};
+use std::io::Write;
+use std::path::PathBuf;
+use tracer_core::Image;
+
+/// Where a picture goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A file. It appears whole or not at all, and an older one stays if this one fails.
+    File(PathBuf),
+    /// Standard output.
+    Stdout,
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes of the file.
+    pub bytes: u64,
+    /// SHA-256 of the file, in hexadecimal.
+    pub sha256: String,
+}
+
+/// Writes the picture: the fifth hand, [`Image`] to a file.
+///
+/// # Errors
+/// When the place cannot be written: no such folder, no permission, read-only, disk full, the reader of standard output gone.
+pub fn write(image: &Image, encoding: Encoding, place: &Place, provenance: &Provenance) -> Result<Written, WriteError> {
+    let bytes = encode(image, encoding, provenance)?;
+    match place {
+        Place::File(path) => save(path, &bytes)?,
+        Place::Stdout => {
+            let mut out = std::io::stdout().lock();
+            out.write_all(&bytes).and_then(|()| out.flush()).map_err(WriteError::Stdout)?;
+        }
+    }
+    Ok(Written { bytes: bytes.len() as u64, sha256: sha256(&bytes) })
+}
+
+/// The bytes of the file that [`write`] makes.
+///
+/// # Errors
+/// When the picture has too few numbers for its size.
+pub fn encode(image: &Image, encoding: Encoding, provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
+    let numbers = 3 * image.width as usize * image.height as usize;
+    if numbers == 0 || image.linear.len() != numbers || image.display.len() != numbers {
+        return Err(WriteError::Picture { width: image.width, height: image.height });
+    }
+    match encoding {
+        Encoding::Png(bits) => png::encode(image, bits, provenance),
+        Encoding::Exr => exr::encode(image, provenance),
+        Encoding::Hdr => Ok(hdr::encode(image, provenance)),
+        Encoding::Pfm => Ok(pfm::encode(image)),
+    }
+}
+
+/// SHA-256 of the bytes, in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,73 @@
+//! PNG: display values with an sRGB chunk, and what the picture was made from as text (iTXt, UTF-8).
+
+use super::{Bits, Encoding, Provenance, WriteError};
+use png::text_metadata::ITXtChunk;
+use png::{BitDepth, ColorType, Encoder, EncodingError, Info, SrgbRenderingIntent};
+use tracer_core::Image;
+
+pub(super) fn encode(image: &Image, bits: Bits, provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
+    let pixels: Vec<u8> = match bits {
+        Bits::Eight => image.display.iter().map(|&x| code_value(x, 255.0) as u8).collect(),
+        // PNG is big-endian.
+        Bits::Sixteen => image.display.iter().flat_map(|&x| (code_value(x, 65535.0) as u16).to_be_bytes()).collect(),
+    };
+    encode_pixels(image, bits, provenance, &pixels)
+        .map_err(|error| WriteError::Encode { encoding: Encoding::Png(bits).name(), message: error.to_string() })
+}
+
+fn encode_pixels(image: &Image, bits: Bits, provenance: &Provenance, pixels: &[u8]) -> Result<Vec<u8>, EncodingError> {
+    let mut info = Info::with_size(image.width, image.height);
+    info.color_type = ColorType::Rgb;
+    info.bit_depth = match bits {
+        Bits::Eight => BitDepth::Eight,
+        Bits::Sixteen => BitDepth::Sixteen,
+    };
+    info.srgb = Some(SrgbRenderingIntent::RelativeColorimetric);
+    info.utf8_text = text(provenance)?;
+    let mut bytes = Vec::new();
+    let mut writer = Encoder::with_info(&mut bytes, info)?.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// The nearest of the code values 0..=max to x in 0..=1.
+fn code_value(x: f32, max: f64) -> f64 {
+    (f64::from(x).clamp(0.0, 1.0) * max + 0.5).floor()
+}
+
+/// Keywords are PNG's own where it has one.
+fn text(provenance: &Provenance) -> Result<Vec<ITXtChunk>, EncodingError> {
+    let mut chunks = vec![ITXtChunk::new("Software", Provenance::SOFTWARE)];
+    if !provenance.scene_name.is_empty() {
+        chunks.push(ITXtChunk::new("Source", provenance.scene_name.as_str()));
+    }
+    if !provenance.settings.is_empty() {
+        chunks.push(ITXtChunk::new("Comment", provenance.settings_line()));
+    }
+    if let Some(scene) = provenance.embedded_scene() {
+        // NUL would end the chunk's text in some readers; no scene that loads holds one outside of comments.
+        let mut chunk = ITXtChunk::new("Scene", scene.replace('\0', "\u{fffd}"));
+        chunk.compressed = true;
+        chunk.compress_text()?;
+        chunks.push(chunk);
+    }
+    Ok(chunks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn code_values_are_the_nearest() {
+        for code in 0..=255u32 {
+            let exact = code as f32 / 255.0;
+            assert_eq!(code_value(exact, 255.0), f64::from(code));
+            assert_eq!(code_value(exact + 0.49 / 255.0, 255.0), f64::from(code));
+            assert_eq!(code_value(exact - 0.49 / 255.0, 255.0), f64::from(code));
+        }
+        assert_eq!(code_value(1.0, 65535.0), 65535.0);
+        assert_eq!(code_value(f32::INFINITY, 255.0), 255.0);
+    }
+}

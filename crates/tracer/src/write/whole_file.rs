@@ -1,0 +1,141 @@
+//! Files that appear whole or not at all: written beside their place under another name, forced to the disk, then renamed.
+
+use super::WriteError;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard};
+
+/// Files under their other name; [`remove_unfinished`] deletes them when the program must leave at once.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+/// Deletes what [`save`] is in the middle of writing. For a program that is about to exit.
+pub fn remove_unfinished() {
+    for path in unfinished().drain(..) {
+        // Nothing is left to do about one that stays.
+        let _ = fs::remove_file(path);
+    }
+}
+
+/// Says whether [`save`] could write there now, before hours are spent on the picture. It changes nothing.
+///
+/// # Errors
+/// Why it could not.
+pub fn probe(path: &Path) -> Result<(), WriteError> {
+    match Target::new(path)? {
+        Target::Device => Ok(()),
+        Target::File(file) => Unfinished::beside(&file).map(drop).map_err(|source| io_error(path, source)),
+    }
+}
+
+/// Writes a file, whole or not at all. A link is followed; an older file's permissions are kept; what is no regular file (a
+/// device, a pipe) is written directly.
+///
+/// # Errors
+/// Why it could not be written; an older file is then as it was.
+pub fn save(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let saved = match Target::new(path)? {
+        Target::Device => write_device(path, bytes),
+        Target::File(file) => write_file(&file, bytes),
+    };
+    saved.map_err(|source| io_error(path, source))
+}
+
+fn io_error(path: &Path, source: io::Error) -> WriteError {
+    WriteError::Io { path: path.to_owned(), source }
+}
+
+/// What a name stands for.
+enum Target {
+    /// A regular file, links followed; there may be none yet.
+    File(PathBuf),
+    /// Something else that can be written.
+    Device,
+}
+
+impl Target {
+    fn new(path: &Path) -> Result<Self, WriteError> {
+        let owned = || path.to_owned();
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => Err(WriteError::Folder { path: owned() }),
+            Ok(found) if !found.is_file() => Ok(Target::Device),
+            Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: owned() }),
+            Ok(_) => fs::canonicalize(path).map(Target::File).map_err(|source| io_error(path, source)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let folder = folder_of(path);
+                if folder.is_dir() {
+                    Ok(Target::File(owned()))
+                } else {
+                    Err(WriteError::NoFolder { path: owned(), folder: folder.to_owned() })
+                }
+            }
+            Err(source) => Err(io_error(path, source)),
+        }
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn write_device(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).open(path)?;
+    file.write_all(bytes)?;
+    file.flush()
+}
+
+fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut unfinished = Unfinished::beside(path)?;
+    unfinished.file.write_all(bytes)?;
+    if let Ok(old) = fs::metadata(path) {
+        unfinished.file.set_permissions(old.permissions())?;
+    }
+    unfinished.file.sync_all()?;
+    unfinished.become_file(path)?;
+    // The name is on the disk only when the folder is; not all systems can do this, and the file is there without it.
+    let _ = File::open(folder_of(path)).and_then(|folder| folder.sync_all());
+    Ok(())
+}
+
+/// A file under another name than it will have; deleted when dropped.
+struct Unfinished {
+    file: File,
+    path: PathBuf,
+}
+
+impl Unfinished {
+    /// A new, empty file in the same folder.
+    fn beside(path: &Path) -> io::Result<Self> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let other = folder_of(path).join(format!(".tracer-{}-{count}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&other) {
+                Ok(file) => {
+                    unfinished().push(other.clone());
+                    return Ok(Unfinished { file, path: other });
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    fn become_file(self, path: &Path) -> io::Result<()> {
+        fs::rename(&self.path, path)
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        let mut unfinished = unfinished();
+        // After a rename there is nothing of that name any more.
+        let _ = fs::remove_file(&self.path);
+        unfinished.retain(|path| *path != self.path);
+    }
+}

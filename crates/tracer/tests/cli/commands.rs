@@ -1,0 +1,187 @@
+//! The small commands, and help.
+
+use crate::support::{SCENE, Sandbox, repository};
+use serde_json::Value;
+
+const COMMANDS: [&str; 11] = [
+    "render",
+    "check",
+    "info",
+    "convert",
+    "new",
+    "compare",
+    "bench-acceleration",
+    "explain",
+    "schema",
+    "completions",
+    "man",
+];
+
+#[test]
+fn version_and_help() {
+    let sandbox = Sandbox::new();
+    let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
+    assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
+    for arguments in COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]) {
+        let help = sandbox.run(&arguments).ends(0).silent().out_text();
+        assert!(help.lines().count() <= 40, "{arguments:?} does not fit a screen:\n{help}");
+        assert!(help.lines().all(|line| line.chars().count() <= 100), "{arguments:?} is too wide:\n{help}");
+        let examples = help.lines().skip_while(|line| *line != "Examples:").skip(1);
+        assert_eq!(examples.take_while(|line| line.starts_with("  tracer ")).count(), 2, "{arguments:?}:\n{help}");
+    }
+    assert!(sandbox.run(&["--help"]).out_text().contains("130 interrupted"));
+}
+
+#[test]
+fn check_says_what_is_there() {
+    let sandbox = Sandbox::new();
+    let ran = sandbox.run(&["check", "scene.ron"]).ends(0).silent();
+    assert_eq!(ran.out_text(), "scene.ron: ok, 3 objects, 1 light\n");
+    let ran = sandbox.run(&["check", "scene.ron", "--diagnostics", "json"]).ends(0).silent();
+    assert_eq!(ran.out_text(), "");
+}
+
+#[test]
+fn info_counts() {
+    let sandbox = Sandbox::new();
+    let cat = repository().join("assets/cat.obj");
+    let placements = "[Translate((1, 0, 0))], [Translate((4, 0, 0))]";
+    sandbox.write(
+        "cat.ron",
+        SCENE.replace("    objects: [", &format!("    objects: [ Mesh(file: {cat:?}, placements: [{placements}]),")),
+    );
+    let json: Value =
+        serde_json::from_str(&sandbox.run(&["info", "cat.ron", "--json"]).ends(0).out_text()).expect("JSON");
+    let number = |path: &str| json.pointer(path).and_then(Value::as_u64).unwrap_or_else(|| panic!("{path}"));
+    assert_eq!((number("/objects/total"), number("/objects/spheres"), number("/objects/meshes")), (4, 3, 1));
+    assert_eq!((number("/meshes"), number("/instances"), number("/lights")), (1, 2, 1));
+    assert_eq!(number("/placed_triangles"), 2 * number("/triangles"));
+    assert!(number("/tree/nodes") > 0 && number("/memory/geometry") > 0 && number("/memory/film") > 0);
+    assert_eq!(json["bounds"]["min"], serde_json::json!([-100.0, -200.0, -100.0]));
+    assert_eq!(json["material_names"][0], "glass");
+    let text = sandbox.run(&["info", "scene.ron"]).ends(0).out_text();
+    for word in ["40x24", "3 spheres", "\"glass\"", "2 samples", "none needed"] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+}
+
+#[test]
+fn every_default_can_be_seen_and_rendered() {
+    let sandbox = Sandbox::new();
+    let resolved = sandbox.run(&["info", "scene.ron", "--resolved", "--set", "camera.fov=50"]).ends(0).silent();
+    let text = resolved.out_text();
+    for word in ["up: (0, 1, 0)", "seed: 0", "tone_map: None", "fov: 50"] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    sandbox.write("resolved.ron", &text);
+    sandbox.run(&["render", "resolved.ron", "-o", "a.pfm"]).ends(0);
+    sandbox.run(&["render", "scene.ron", "-o", "b.pfm", "--set", "camera.fov=50"]).ends(0);
+    assert_eq!(sandbox.read("a.pfm"), sandbox.read("b.pfm"));
+}
+
+#[test]
+fn convert_goes_both_ways() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["convert", "scene.ron", "-o", "scene.toml"]).ends(0).silent();
+    assert!(sandbox.text("scene.toml").contains("# small"));
+    let back = sandbox.run(&["convert", "scene.toml"]).ends(0).silent().out_text();
+    assert!(back.contains("// small"), "{back}");
+    sandbox.write("back.ron", back);
+    let hash = |scene: &str| {
+        let json: Value =
+            serde_json::from_str(&sandbox.run(&["info", scene, "--json"]).ends(0).out_text()).expect("JSON");
+        json["hash"].clone()
+    };
+    assert_eq!(hash("scene.ron"), hash("scene.toml"));
+    assert_eq!(hash("scene.ron"), hash("back.ron"));
+    sandbox.run(&["convert", "scene.ron", "-o", "x.txt"]).ends(2).says(&[".ron or .toml"]);
+    sandbox.run(&["convert", "scene.ron", "-o", "x.toml", "--to", "ron"]).ends(2).says(&["--to"]);
+    sandbox.write("bad.ron", "Scene(objects: [Sphere(radius: -1)])");
+    sandbox.run(&["convert", "bad.ron", "-o", "bad.toml"]).ends(2).says(&["bad.ron:1:"]);
+    sandbox.write("bytes.ron", b"Scene(\xff)");
+    sandbox.run(&["convert", "bytes.ron"]).ends(2).says(&["UTF-8"]);
+    assert!(!sandbox.files().contains(&"bad.toml".to_owned()));
+}
+
+#[test]
+fn templates_are_right_and_render() {
+    let sandbox = Sandbox::new();
+    for template in ["ball", "materials", "room"] {
+        for name in ["new.ron", "new.toml"] {
+            sandbox.run(&["new", name, "--template", template, "--force"]).ends(0).says(&["tracer render", name]);
+            sandbox.run(&["check", name]).ends(0).silent();
+            sandbox.run(&["render", name, "-o", "new.png", "--size", "16x16", "--samples", "1"]).ends(0).silent();
+        }
+    }
+    sandbox.write("mine.ron", "mine");
+    sandbox.run(&["new", "mine.ron"]).ends(1).says(&["mine.ron is there already", "--force"]);
+    assert_eq!(sandbox.text("mine.ron"), "mine");
+    sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron or .toml"]);
+    sandbox.run(&["new", "x.ron", "--template", "castle"]).ends(2).says(&["ball", "materials", "room"]);
+    let out = sandbox.run(&["new", "-"]).ends(0).silent().out_text();
+    assert!(out.contains("Scene("));
+}
+
+#[test]
+fn codes_are_explained() {
+    let sandbox = Sandbox::new();
+    let text = sandbox.run(&["explain", "e0201"]).ends(0).silent().out_text();
+    assert!(text.starts_with("E0201: "), "{text}");
+    let all = sandbox.run(&["explain"]).ends(0).silent().out_text();
+    assert!(all.lines().count() > 20 && all.contains("E0201"));
+    sandbox.run(&["explain", "E9999"]).ends(2).says(&["E9999", "lists all codes"]);
+}
+
+/// Every code that the engine can give is explained.
+#[test]
+fn codes_of_the_engine_are_known() {
+    let mut folders = vec![repository().join("crates/tracer-core/src")];
+    let mut codes = std::collections::BTreeSet::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let text = std::fs::read_to_string(&path).expect("text");
+                codes.extend(text.split('"').filter(|word| is_code(word)).map(str::to_owned));
+            }
+        }
+    }
+    assert!(codes.len() > 5, "{codes:?}");
+    let unknown: Vec<&String> = codes.iter().filter(|code| scene_format::explain(code).is_none()).collect();
+    assert!(unknown.is_empty(), "{unknown:?}");
+}
+
+fn is_code(word: &str) -> bool {
+    word.len() == 5 && word.starts_with(['E', 'W']) && word[1..].bytes().all(|byte| byte.is_ascii_digit())
+}
+
+#[test]
+fn schema_completions_and_man_pages() {
+    let sandbox = Sandbox::new();
+    let schema: Value = serde_json::from_str(&sandbox.run(&["schema"]).ends(0).silent().out_text()).expect("JSON");
+    assert!(schema["$schema"].as_str().is_some_and(|draft| draft.contains("draft-07")));
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let script = sandbox.run(&["completions", shell]).ends(0).silent().out_text();
+        assert!(COMMANDS.iter().all(|command| script.contains(command)), "{shell}");
+    }
+    assert!(sandbox.run(&["man"]).ends(0).silent().out_text().contains(".TH tracer 1"));
+    assert!(sandbox.run(&["man", "render"]).ends(0).silent().out_text().contains("\\-\\-samples"));
+    sandbox.run(&["man", "nothing"]).ends(2).says(&["nothing", "render"]);
+}
+
+#[test]
+fn the_table_of_accelerations() {
+    let sandbox = Sandbox::new();
+    let cat = repository().join("assets/cat.obj");
+    let scene = SCENE.replace("    objects: [", &format!("    objects: [ Mesh(file: {cat:?}),"));
+    sandbox.write("fig3.ron", scene);
+    let table = sandbox.run(&["bench-acceleration", "fig3.ron"]).ends(0).out_text();
+    for word in ["None", "BoundingBox", "Bvh", "167 s", "40 s", "7 s", "the same picture in all three"] {
+        assert!(table.contains(word), "{word}:\n{table}");
+    }
+    // Another scene, or another size, is not the report's figure.
+    let table = sandbox.run(&["bench-acceleration", "fig3.ron", "--size", "8x8"]).ends(0).out_text();
+    assert!(!table.contains("167 s") && table.contains("the same picture in all three"), "{table}");
+}

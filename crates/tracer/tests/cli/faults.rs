@@ -1,0 +1,186 @@
+//! What goes wrong: exit codes, messages that help, and that an older picture stays.
+
+use crate::support::{Ran, SCENE, Sandbox};
+use std::fs;
+use std::process::Stdio;
+
+#[test]
+fn a_wrong_command_line_ends_with_2() {
+    let sandbox = Sandbox::new();
+    let render = |more: &[&str]| sandbox.run(&[&["render", "scene.ron"][..], more].concat()).ends(2);
+    sandbox.run(&["rendr"]).ends(2).says(&["unrecognized subcommand", "render"]);
+    render(&[]).says(&["--output"]);
+    render(&["-o", "a.gif"]).says(&["a.gif", "`.gif`", "png, exr, hdr, pfm"]);
+    render(&["-o", "a"]).says(&["no extension", "a.png"]);
+    render(&["-o", "a.png", "-o", "a.png"]).says(&["a.png is given twice"]);
+    render(&["-o", "a.png", "--report", "a.png"]).says(&["-o and --report"]);
+    render(&["-o", "a.png", "--format", "exr"]).says(&["--format"]);
+    render(&["-o", "a.exr", "--bits", "16"]).says(&["--bits", "PNG"]);
+    render(&["-o", "a.png", "--bits", "12"]).says(&["--bits", "12"]);
+    render(&["-o", "a.png", "--samples", "0"]).says(&["--samples", "1..=1000000000"]);
+    render(&["-o", "a.png", "--size", "64"]).says(&["--size", "640x480"]);
+    render(&["-o", "a.png", "--size", "99999x1"]).says(&["--size", "65536"]);
+    render(&["-o", "a.png", "--crop", "1,2,3"]).says(&["--crop", "100,50,64,64"]);
+    render(&["-o", "a.png", "--threads", "0"]).says(&["--threads"]);
+    render(&["-o", "a.png", "--exposure", "nan"]).says(&["--exposure"]);
+    render(&["-o", "a.png", "--smaples", "3"]).says(&["--smaples", "--samples"]);
+    let mut lanes = sandbox.command(&["render", "scene.ron", "-o", "a.png"]);
+    Ran::of(lanes.env("TRACER_LANES", "4")).ends(2).says(&["TRACER_LANES", "1, 8 or 16"]);
+    assert_eq!(sandbox.files(), ["scene.ron"]);
+}
+
+#[test]
+fn a_wrong_scene_ends_with_2_and_shows_every_fault() {
+    let sandbox = Sandbox::new();
+    sandbox.write("bad.ron", SCENE.replace("fov: 40", "fvo: 40").replace("radius: 100)", "radius: -100)"));
+    let ran = sandbox.run(&["render", "bad.ron", "-o", "a.png"]).ends(2);
+    let ran = ran.says(&["bad.ron:3:", "did you mean `fov`?", "bad.ron:10:", "2 errors", "tracer explain E0201"]);
+    assert_eq!(ran.out, b"");
+    assert_eq!(sandbox.files(), ["bad.ron", "scene.ron"]);
+    // The caret of --set points into the argument.
+    sandbox
+        .run(&["render", "scene.ron", "-o", "a.png", "--set", "camera.fov=-3"])
+        .ends(2)
+        .says(&["--set:1:12", "camera.fov=-3"]);
+}
+
+#[test]
+fn missing_assets_are_shown_in_the_scene() {
+    let sandbox = Sandbox::new();
+    sandbox.write("mesh.ron", r#"Scene(objects: [Mesh(file: "nowhere.obj")], background: 1)"#);
+    for command in [&["check", "mesh.ron"][..], &["render", "mesh.ron", "-o", "a.png"], &["info", "mesh.ron"]] {
+        sandbox.run(command).ends(2).says(&["mesh.ron:1:28", "nowhere.obj", "1 error"]);
+    }
+    let ran = sandbox.run(&["check", "mesh.ron", "--diagnostics", "json"]).ends(2);
+    let line: serde_json::Value = serde_json::from_str(&ran.err).expect("one JSON object and nothing else");
+    assert_eq!(line["severity"], "error");
+    assert_eq!(line["start"]["column"], 28);
+}
+
+#[test]
+fn diagnostics_as_json_are_one_object_a_line() {
+    let sandbox = Sandbox::new();
+    sandbox.write("bad.toml", "[camera]\nfvo = 3\n[[objects]]\nSphere = { radius = -1 }\n");
+    let ran = sandbox.run(&["check", "bad.toml", "--diagnostics", "json"]).ends(2);
+    let lines: Vec<serde_json::Value> =
+        ran.err.lines().map(|line| serde_json::from_str(line).expect("a JSON object")).collect();
+    assert!(lines.iter().any(|line| line["code"] == "E0201" && line["edit"]["replacement"] == "fov"));
+    assert!(lines.iter().all(|line| line["file"] == "bad.toml"));
+}
+
+#[test]
+fn what_cannot_be_read_ends_with_1() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["render", "nowhere.ron", "-o", "a.png"]).ends(1).says(&["nowhere.ron", "tracer new nowhere.ron"]);
+    sandbox.run(&["check", "."]).ends(1).says(&["cannot read"]);
+    sandbox.run(&["convert", "nowhere.ron"]).ends(1).says(&["nowhere.ron"]);
+}
+
+#[test]
+fn what_cannot_be_written_ends_with_1_before_rendering() {
+    let sandbox = Sandbox::new();
+    // So many samples that the test would not end if it rendered first.
+    let render = |output: &[&str]| {
+        let ran = sandbox.run(&[&["render", "scene.ron", "--samples", "100000000"][..], output].concat());
+        ran.ends(1)
+    };
+    render(&["-o", "no/such/folder.png"]).says(&["there is no folder no/such"]);
+    fs::create_dir(sandbox.path("folder.png")).expect("a folder");
+    render(&["-o", "folder.png"]).says(&["folder.png", "it is a folder"]);
+    // No one can make files there, whoever runs the tests.
+    render(&["-o", "/proc/picture.png"]).says(&["/proc/picture.png"]);
+    render(&["-o", "a.png", "--report", "no/report.json"]).says(&["no/report.json", "there is no folder no"]);
+    sandbox.write("old.png", "old");
+    let mut permissions = fs::metadata(sandbox.path("old.png")).expect("a file").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(sandbox.path("old.png"), permissions).expect("my file");
+    render(&["-o", "old.png"]).says(&["old.png", "read-only"]);
+    assert_eq!(sandbox.text("old.png"), "old");
+    assert_eq!(sandbox.files(), ["folder.png", "old.png", "scene.ron"]);
+}
+
+#[test]
+fn a_read_only_folder_ends_with_1() {
+    let sandbox = Sandbox::new();
+    let folder = sandbox.path("closed");
+    fs::create_dir(&folder).expect("a folder");
+    let mut permissions = fs::metadata(&folder).expect("a folder").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&folder, permissions).expect("my folder");
+    // Root may write everywhere; then there is nothing to be seen.
+    if fs::write(folder.join("probe"), "").is_ok() {
+        return;
+    }
+    sandbox.run(&["render", "scene.ron", "-o", "closed/a.png"]).ends(1).says(&["closed/a.png"]);
+}
+
+#[test]
+fn a_full_disk_keeps_the_older_picture() {
+    let sandbox = Sandbox::new();
+    sandbox.write("a.png", "old");
+    // Files may have one block: the write fails in its middle, as on a full disk.
+    let line = r#"trap '' XFSZ; ulimit -f 1; exec "$T" render scene.ron -o a.png --size 200x200"#;
+    sandbox.shell(line).ends(1).says(&["cannot write a.png"]);
+    assert_eq!(sandbox.text("a.png"), "old");
+    assert_eq!(sandbox.files(), ["a.png", "scene.ron"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_ends_with_1() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["render", "scene.ron", "-o", "/dev/full", "--format", "png"]).ends(1).says(&["/dev/full", "space"]);
+    let full = || Stdio::from(fs::OpenOptions::new().write(true).open("/dev/full").expect("a device"));
+    let mut picture = sandbox.command(&["render", "scene.ron", "-o", "-", "--format", "png"]);
+    Ran::of(picture.stdout(full())).ends(1).says(&["standard output", "space"]);
+    Ran::of(sandbox.command(&["schema"]).stdout(full())).ends(1).says(&["standard output"]);
+}
+
+#[test]
+fn an_older_picture_is_replaced_and_its_permissions_stay() {
+    let sandbox = Sandbox::new();
+    sandbox.write("a.png", "old");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(sandbox.path("a.png"), fs::Permissions::from_mode(0o640)).expect("my file");
+        std::os::unix::fs::symlink("a.png", sandbox.path("link.png")).expect("a link");
+        sandbox.run(&["render", "scene.ron", "-o", "link.png"]).ends(0);
+        let mode = fs::metadata(sandbox.path("a.png")).expect("a file").permissions().mode();
+        assert_eq!(mode & 0o777, 0o640);
+        assert!(fs::symlink_metadata(sandbox.path("link.png")).expect("a link").is_symlink());
+    }
+    #[cfg(not(unix))]
+    sandbox.run(&["render", "scene.ron", "-o", "a.png"]).ends(0);
+    assert!(sandbox.read("a.png").starts_with(b"\x89PNG"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_larger_than_the_memory_is_refused() {
+    let sandbox = Sandbox::new();
+    let arguments = ["render", "scene.ron", "-o", "a.png", "--size", "65536x65536", "--samples", "1"];
+    sandbox.run(&arguments).ends(1).says(&["65536x65536", "GiB", "--size", "--crop"]);
+}
+
+#[test]
+fn colours_when_they_are_asked_for() {
+    let sandbox = Sandbox::new();
+    let plain = sandbox.run(&["check", "nowhere.ron"]).ends(1);
+    assert!(!plain.err.contains('\x1b'));
+    let coloured = sandbox.run(&["check", "nowhere.ron", "--color", "always"]).ends(1);
+    assert!(coloured.err.contains('\x1b'));
+    sandbox.write("bad.ron", "Scene(");
+    assert!(sandbox.run(&["check", "bad.ron", "--color=always"]).ends(2).err.contains('\x1b'));
+    assert!(sandbox.run(&["nothing", "--color=always"]).ends(2).err.contains('\x1b'));
+}
+
+#[test]
+fn quiet_prints_errors_only() {
+    let sandbox = Sandbox::new();
+    // A material that nothing uses is a warning.
+    sandbox.write("odd.ron", SCENE.replace("materials: {", r#"materials: { "spare": Diffuse(albedo: 0.5),"#));
+    sandbox.run(&["render", "odd.ron", "-o", "a.png"]).ends(0).says(&["warning", "spare"]);
+    sandbox.run(&["render", "odd.ron", "-o", "a.png", "--quiet"]).ends(0).silent();
+    sandbox.run(&["render", "odd.ron", "-o", "a.png", "--quiet", "--set", "camera.fov=0"]).ends(2).says(&["fov"]);
+}

@@ -1,0 +1,10 @@
+//! The program `tracer`, run as a person runs it: exit codes, messages, files.
+
+mod commands;
+mod compare;
+mod faults;
+#[cfg(unix)]
+mod interrupt;
+mod render;
+mod report;
+mod support;
