@@ -23,12 +23,15 @@ pub fn accept(root: &Path, cases: &[String], reason: &str) -> anyhow::Result<()>
         let made = root.join("target/goldens").join(case).join("actual.png");
         let golden = root.join("golden").join(case).with_extension("png");
         if !made.exists() {
-            bail!("{case}: no new picture; run `cargo test -p tracer --test goldens` first, it writes one where it fails");
+            bail!(
+                "{case}: no new picture; run `cargo test -p tracer --test goldens` first, it writes one where it fails"
+            );
         }
         let change = if golden.exists() { "changed" } else { "new" };
         std::fs::copy(&made, &golden).with_context(|| format!("cannot write {}", golden.display()))?;
         std::fs::remove_dir_all(root.join("target/goldens").join(case)).context("cannot clear the accepted case")?;
-        writeln!(log_file, "- {case} ({change}): {reason}").with_context(|| format!("cannot write {}", log.display()))?;
+        writeln!(log_file, "- {case} ({change}): {reason}")
+            .with_context(|| format!("cannot write {}", log.display()))?;
         println!("{case}: {change}");
     }
     Ok(())

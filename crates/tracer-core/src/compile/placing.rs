@@ -18,7 +18,9 @@ pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn 
             Transform::Scale { factor, about } => {
                 about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(*about, &map))
             }
-            Transform::Rotate { axis, degrees, about } => about_point(rotation(DVec3::from(*axis), *degrees), here(*about, &map)),
+            Transform::Rotate { axis, degrees, about } => {
+                about_point(rotation(DVec3::from(*axis), *degrees), here(*about, &map))
+            }
             Transform::DropTo { y } => DAffine3::from_translation(DVec3::new(0.0, y - lowest(&map), 0.0)),
         };
         map = step * map;

@@ -22,8 +22,8 @@ pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LinearSphere, SphereTable};
-pub use texture::{Texel, TextureView};
 pub use statistics::{Statistics, WorldBounds};
+pub use texture::{Texel, TextureView};
 pub(crate) use texture::{TextureTable, TextureUse};
 
 use scene_format::Diagnostic;

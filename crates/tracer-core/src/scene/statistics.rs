@@ -79,7 +79,9 @@ impl Scene {
         }
         let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| self.mesh_bounds(mesh)).collect();
         for instance in &self.instances {
-            let Some(mesh) = meshes.get(instance.mesh as usize).filter(|mesh| mesh.min.x <= mesh.max.x) else { continue };
+            let Some(mesh) = meshes.get(instance.mesh as usize).filter(|mesh| mesh.min.x <= mesh.max.x) else {
+                continue;
+            };
             for corner in 0..8u32 {
                 let bit = |axis: u32| corner >> axis & 1 == 1;
                 let corner = DVec3::select(glam::BVec3::new(bit(0), bit(1), bit(2)), mesh.max, mesh.min);
