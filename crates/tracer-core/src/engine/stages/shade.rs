@@ -7,7 +7,7 @@ use super::lights;
 use super::materials::{Bsdf, reflect_bent, sample_dielectric};
 use super::surface::{Surface, surface};
 use super::textures::texture_color;
-use crate::engine::batch::{Batch, Columns};
+use crate::engine::batch::{Batch, Columns, Item};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{Pair, Purpose};
@@ -23,11 +23,11 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
-    let draw = |purpose: Purpose| PairPoints::<F>::new(seed, purpose, &batch.items, &batch.block_z);
-    let choices = draw(Purpose::Choice(vertex));
-    let light_points = draw(Purpose::Light(vertex));
-    let directions = draw(Purpose::Direction(vertex));
-    let roulettes = draw(Purpose::Roulette(vertex));
+    let (items, block_z) = (&batch.items, &batch.block_z);
+    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items, block_z);
+    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items, block_z);
+    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items, block_z);
+    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, block_z);
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     // After the last scattering a ray is cast only to see the light that it meets.
@@ -235,7 +235,7 @@ struct PairPoints<F: Lanes> {
 
 impl<F: Lanes> PairPoints<F> {
     #[inline(always)]
-    fn new(seed: u32, purpose: Purpose, items: &[crate::engine::batch::Item], block_z: &[u32]) -> Self {
+    fn new(seed: u32, purpose: Purpose, items: &[Item], block_z: &[u32]) -> Self {
         let pair = Pair::new(seed, purpose);
         let (mut x, mut y) = ([0; 16], [0; 16]);
         for (k, item) in items.iter().enumerate() {
