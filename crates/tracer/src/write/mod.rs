@@ -56,7 +56,7 @@ pub fn write(image: &Image, encoding: Encoding, place: &Place, provenance: &Prov
     Ok(Written { bytes: bytes.len() as u64, sha256: sha256(&bytes) })
 }
 
-/// The bytes of the file that [`write`] makes.
+/// The bytes of the file that [`write()`] makes.
 ///
 /// # Errors
 /// When the picture has too few numbers for its size.
