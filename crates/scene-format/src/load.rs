@@ -224,6 +224,19 @@ mod tests {
     }
 
     #[test]
+    fn editors_may_name_the_schema_and_other_strange_keys_are_reported() {
+        read(&format!("\"$schema\" = \"scene.schema.json\"\n{TOML}"), Syntax::Toml);
+        let strange = format!("\"$scheme\" = \"scene.schema.json\"\n{TOML}");
+        assert!(load_str("scene", &strange, Syntax::Toml, Path::new("."), &[]).is_err());
+    }
+
+    #[test]
+    fn json_is_ron_enough() {
+        let json = r#"{ "background": 1, "objects": [{ "Sphere": { "center": [0, 0, 0], "radius": 1 } }] }"#;
+        assert_eq!(read(json, Syntax::Ron).objects.len(), 1);
+    }
+
+    #[test]
     fn spans_point_at_the_very_value() {
         let scene = read(RON, Syntax::Ron);
         let span = scene.camera.fov.span;

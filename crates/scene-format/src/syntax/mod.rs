@@ -7,6 +7,7 @@ mod ron_extensions;
 mod ron_literal;
 mod ron_scan;
 pub(crate) mod toml;
+mod toml_brackets;
 mod toml_literal;
 mod toml_tables;
 

@@ -6,9 +6,12 @@
 //!
 //! Times of one run on a shared machine say little: compare within a run.
 
+// Rays that are only timed reach no picture.
+#![allow(clippy::disallowed_methods)]
+
 mod sets;
 
-use sets::{Answers, build, field, load, room, sets, trace};
+use sets::{Answers, build, count, field, load, room, sets, trace};
 use std::path::Path;
 use std::time::Instant;
 use tracer_core::bvh::{Acceleration, Coherence, Level};
@@ -41,7 +44,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stats.depth,
     );
     let mut sets = sets(&scene, &accel, size);
-    println!("{:18} {:>9} {:>10} {:>13} {:>9}", "set", "rays", "level", "coherence", "Mrays/s");
+    println!(
+        "{:18} {:>9} {:>10} {:>13} {:>9}  visits a ray: nodes, leaves",
+        "set", "rays", "level", "coherence", "Mrays/s"
+    );
     let mut accel = accel;
     sets.retain(|set| set.name.chars().next().is_some_and(|letter| only.contains(letter)));
     for set in &mut sets {
@@ -57,12 +63,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     best = best.min(start.elapsed().as_secs_f64());
                 }
                 let speed = set.len() as f64 / best / 1e6;
+                let visits = count(&accel, set, &mut answers);
+                let each = |visits: u64| visits as f64 / set.len() as f64;
                 println!(
-                    "{:18} {:>9} {:>10} {:>13} {speed:>9.2}",
+                    "{:18} {:>9} {:>10} {:>13} {speed:>9.2}  {:.2}, {:.2}",
                     set.name,
                     set.len(),
                     level.name(),
-                    format!("{coherence:?}")
+                    format!("{coherence:?}"),
+                    each(visits.nodes),
+                    each(visits.triangle_leaves)
                 );
             }
         }

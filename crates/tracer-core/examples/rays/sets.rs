@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use tracer_core::bvh::{
-    Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
+    Accel, Acceleration, Coherence, Counters, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
 };
 
 /// Rays a call: what a stage of the renderer hands over.
@@ -76,6 +76,42 @@ impl Answers {
 
 /// Traces a set in batches.
 pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
+    batches(
+        set,
+        answers,
+        |rays, active, hits| accel.closest(rays, active, hits, set.coherence),
+        |rays, active, ends| accel.occluded(rays, active, ends, set.coherence),
+    );
+}
+
+/// Traces a set in batches and says what was visited.
+#[allow(dead_code, reason = "the comparison with Embree has no use for it")]
+pub fn count(accel: &Accel, set: &Set, answers: &mut Answers) -> Counters {
+    let total = std::cell::Cell::new(Counters::default());
+    let add = |counters: Counters| {
+        let sum = total.get();
+        total.set(Counters {
+            nodes: sum.nodes + counters.nodes,
+            triangle_leaves: sum.triangle_leaves + counters.triangle_leaves,
+            sphere_leaves: sum.sphere_leaves + counters.sphere_leaves,
+            instances: sum.instances + counters.instances,
+        });
+    };
+    batches(
+        set,
+        answers,
+        |rays, active, hits| add(accel.closest_counted(rays, active, hits, set.coherence)),
+        |rays, active, ends| add(accel.occluded_counted(rays, active, ends, set.coherence)),
+    );
+    total.get()
+}
+
+fn batches(
+    set: &Set,
+    answers: &mut Answers,
+    mut closest: impl FnMut(&Rays, &[u32], &mut Hits),
+    mut occluded: impl FnMut(&Rays, &[u32], &mut Occlusion),
+) {
     let active: Vec<u32> = (0..BATCH as u32).collect();
     let none = vec![NONE; BATCH];
     answers.t.fill(f32::INFINITY);
@@ -101,7 +137,7 @@ pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
                 primitive: &mut answers.primitive[r.clone()],
                 instance: &mut answers.instance[r],
             };
-            accel.closest(&rays, &active[..count], &mut hits, set.coherence);
+            closest(&rays, &active[..count], &mut hits);
         } else {
             let mut occlusion = Occlusion {
                 tmax: &set.tmax[r.clone()],
@@ -109,7 +145,7 @@ pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
                 target_instance: &none[..count],
                 occluded: &mut answers.occluded[r],
             };
-            accel.occluded(&rays, &active[..count], &mut occlusion, set.coherence);
+            occluded(&rays, &active[..count], &mut occlusion);
         }
     }
 }

@@ -226,6 +226,7 @@ impl Accel {
     fn view(&self) -> TreeView<'_> {
         TreeView {
             base: self.arena.units().as_ptr().cast(),
+            bytes: self.arena.bytes(),
             root: self.root.0,
             size: self.size,
             spheres: self.spheres,

@@ -157,18 +157,20 @@ fn available_threads() -> usize {
 
 /// Sample ranges of the passes: powers of two up to 64 samples, then 64 at a time, so that an early look costs little and later
 /// passes are long. The picture does not depend on them.
-fn passes(samples: u32) -> Vec<std::ops::Range<u32>> {
-    let mut ranges = Vec::new();
+fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
     let mut start = 0;
-    while start < samples {
+    std::iter::from_fn(move || {
         let length = if start == 0 { 1 } else { start.min(64) };
-        // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
         let rest = (samples - start).min(length);
+        if rest == 0 {
+            return None;
+        }
+        // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
         let whole = if rest > ITEMS as u32 { rest - rest % ITEMS as u32 } else { 1 << rest.ilog2() };
-        ranges.push(start..start + whole);
-        start += whole;
-    }
-    ranges
+        let pass = start..start + whole;
+        start = pass.end;
+        Some(pass)
+    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Meshes, rays and batches that the tests of the tree share.
 
+// Rays and meshes of tests reach no picture.
+#![allow(clippy::disallowed_methods)]
 #![allow(dead_code)] // Each test file is a crate of its own and uses a part.
 
 use tracer_core::bvh::{

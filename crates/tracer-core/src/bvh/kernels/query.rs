@@ -14,6 +14,8 @@ use std::ops::Range;
 #[derive(Clone, Copy)]
 pub(crate) struct TreeView<'a> {
     pub base: *const u8,
+    /// The arena's size.
+    pub bytes: usize,
     pub root: u32,
     /// The longest side of what is in the tree.
     pub size: f32,

@@ -20,7 +20,7 @@ use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::desc::{Albedo, Color, Material, NamedMaterial, Texture, TextureFilter, TextureWrap};
 use scene_format::diagnostic::Span;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Index of refraction where MTL gives none.
@@ -45,7 +45,7 @@ pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result
         return Ok(found);
     }
     let mut notes = Notes::default();
-    let mut defined: HashMap<String, MtlMaterial> = HashMap::new();
+    let mut defined: BTreeMap<String, MtlMaterial> = BTreeMap::new();
     for path in library_paths(libraries, obj_path, &mut notes) {
         let text = match read_regular_file(&path) {
             Ok(text) => text,

@@ -7,7 +7,7 @@ use crate::mesh::mtl;
 use crate::mesh::polygon::{PolygonCutter, TooIntricate, is_degenerate};
 use crate::mesh::{MeshData, MeshError, NO_INDEX};
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// How many elements lie before a piece, or in all pieces.
@@ -159,7 +159,7 @@ impl<'a> Assembly<'a> {
 
     /// The names of materials that faces use, in the order of first use.
     fn used_names(&self) -> Vec<&'a str> {
-        let mut known = HashMap::new();
+        let mut known = BTreeMap::new();
         let mut names = Vec::new();
         let mut current = None;
         for piece in &self.pieces {
@@ -179,7 +179,7 @@ impl<'a> Assembly<'a> {
 
     /// For each piece, which faces have which of the used names.
     fn material_runs(&self, names: &[&str]) -> Vec<Vec<MaterialRun>> {
-        let numbers: HashMap<&str, u32> = names.iter().zip(0..).map(|(&name, number)| (name, number)).collect();
+        let numbers: BTreeMap<&str, u32> = names.iter().zip(0..).map(|(&name, number)| (name, number)).collect();
         // A name that no face uses is not among the used ones, and its run is empty.
         let number_of = |name: &str| numbers.get(name).copied().unwrap_or(NO_INDEX);
         let mut current = NO_INDEX;

@@ -1,0 +1,63 @@
+//! The JSON Schema by an independent validator: right scenes validate, scenes whose structure is wrong do not.
+
+mod common;
+
+use common::{FULL_RON, FULL_TOML};
+use jsonschema::Validator;
+use scene_format::{LoadError, Syntax, convert, examples, load_bytes, schema};
+use serde_json::Value;
+use std::path::Path;
+
+fn validator() -> Validator {
+    let schema: Value = serde_json::from_str(&schema()).expect("the schema is JSON");
+    assert!(jsonschema::meta::is_valid(&schema), "the schema is a schema");
+    jsonschema::draft7::new(&schema).expect("the schema can be used")
+}
+
+fn value(toml: &str) -> Value {
+    toml::from_str(toml).unwrap_or_else(|error| panic!("{error}\n{toml}"))
+}
+
+#[test]
+fn right_scenes_validate() {
+    let validator = validator();
+    let mut scenes = vec![FULL_TOML.to_owned()];
+    let ron = examples().into_iter().map(|example| example.ron).chain([FULL_RON.to_owned()]);
+    scenes.extend(ron.map(|ron| convert("scene", &ron, Syntax::Ron, Syntax::Toml).expect("the scene is right")));
+    for scene in scenes {
+        let errors: Vec<String> = validator.iter_errors(&value(&scene)).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{errors:#?}\n{scene}");
+    }
+    let with_schema = format!("\"$schema\" = \"scene.schema.json\"\n{FULL_TOML}");
+    assert!(validator.is_valid(&value(&with_schema)));
+}
+
+/// What only the reader can tell: which names there are, and how values go together.
+const BEYOND_A_SCHEMA: [&str; 5] = ["E0307", "E0308", "E0309", "E0401", "E0540"];
+
+#[test]
+fn broken_toml_scenes_do_not_validate() {
+    let validator = validator();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken/toml");
+    let mut refused = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder of broken scenes") {
+        let path = entry.expect("an entry").path();
+        let Ok(text) = std::fs::read_to_string(&path) else { continue };
+        // Broken syntax is no value that a schema could judge.
+        let Ok(value) = toml::from_str::<Value>(&text) else { continue };
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let Err(LoadError::Invalid { diagnostics, .. }) =
+            load_bytes("scene", text.into_bytes(), Some(Syntax::Toml), Path::new(""), &[])
+        else {
+            continue;
+        };
+        if diagnostics.iter().all(|fault| BEYOND_A_SCHEMA.contains(&fault.code)) {
+            continue;
+        }
+        assert!(!validator.is_valid(&value), "the schema takes {}", path.display());
+        refused += 1;
+    }
+    assert!(refused >= 35, "only {refused} scenes were judged");
+}

@@ -1,0 +1,241 @@
+//! The picture is the same, byte for byte, for every number of threads, lane type, acceleration and crop, and whether rendered in one
+//! go or not: on scenes that reach every material, shape, light and effect.
+
+use crate::support::compiled;
+use crate::support::describe::*;
+use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
+use scene_format::SceneDesc;
+use scene_format::desc::{
+    Acceleration, Object, PixelFilter, Placements, Shading, TextureFilter, TextureWrap, Transform,
+};
+use std::ops::ControlFlow;
+use tracer_core::lanes::level::Level;
+use tracer_core::{Crop, Film, Look, Observer, Progress, RenderOptions, Scene, Unobserved, develop};
+
+/// Every material, shape and way of shading, both kinds of texture and every wrap, copies, lights inside and outside, lens, background.
+fn everything() -> SceneDesc {
+    use TextureFilter::{Bilinear, Nearest};
+    let wall = |wrap, filter| glossy(picture_albedo(wrap, filter), 50.0, 0.3, true);
+    let at = |x: f64, y: f64, z: f64, size: f64| vec![scale(size), Transform::Translate([x, y, z])];
+    let objects = vec![
+        sphere([0.0, -1000.0, 0.0], 1000.0, textured(&picture(), Bilinear, TextureWrap::Repeat)),
+        sphere([-3.0, 1.0, 0.0], 1.0, glass(1.5)),
+        sphere([-1.2, 0.6, 2.0], 0.6, mirror([0.9, 0.8, 0.7])),
+        sphere([0.4, 0.5, 2.2], 0.5, textured(&deep_picture(), Nearest, TextureWrap::Mirror)),
+        sphere([1.6, 0.5, 2.0], 0.5, blinn_phong([0.2, 0.4, 0.9], 300.0, 0.2)),
+        mesh(
+            &torus(0.4, 12, 8).obj("torus-12-8"),
+            wall(TextureWrap::Clamp, Bilinear),
+            Shading::Auto,
+            at(3.0, 0.5, 0.0, 0.9),
+        ),
+        mesh(&icosphere(1).off("icosphere-1"), glass(1.3), Shading::Smooth, at(1.0, 1.0, 0.0, 0.8)),
+        mesh(&icosphere(2).obj("icosphere-2"), mirror([0.8; 3]), Shading::Smooth, at(-1.2, 2.6, -1.0, 0.7)),
+        mesh(
+            &square(3.0).obj("square-3"),
+            wall(TextureWrap::Repeat, Nearest),
+            Shading::Flat,
+            vec![rotate([1.0, 0.0, 0.0], 90.0), scale(4.0), Transform::Translate([0.0, 2.0, -4.0])],
+        ),
+        placed(
+            &cube().off("cube"),
+            diffuse([0.7, 0.5, 0.3]),
+            Shading::Auto,
+            vec![scale(0.25)],
+            Placements::List(
+                (0..9)
+                    .map(|k| {
+                        let angle = 40.0 * f64::from(k);
+                        vec![
+                            Transform::Translate([0.0, 0.3, 5.0]).into(),
+                            Transform::Rotate { axis: [0.1, 1.0, 0.0], degrees: angle, about: Some([0.0; 3]) }.into(),
+                        ]
+                    })
+                    .collect(),
+            ),
+        ),
+    ];
+    let lights = vec![
+        light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]),
+        light([-3.0, 1.0, 0.0], 0.3, [6.0, 2.0, 1.0]),
+        light([0.0; 3], 60.0, [0.2, 0.25, 0.3]),
+    ];
+    scene(37, lights, objects)
+        .camera([0.5, 3.0, 9.0], [0.0, 1.0, 0.0], 45.0)
+        .background([0.1, 0.2, 0.3])
+        .bounces(7)
+        .filter(PixelFilter::Gaussian { sigma: 0.5.into() })
+        .lens(0.2, 9.0)
+}
+
+fn picture_albedo(wrap: TextureWrap, filter: TextureFilter) -> scene_format::desc::Albedo {
+    crate::support::describe::picture(&picture(), filter, wrap)
+}
+
+/// So many balls that they hang in the tree, in the dark but for one light; no lens, other filter.
+fn many_balls() -> SceneDesc {
+    let mut random = tracer_reference::Random::new(9);
+    let mut objects: Vec<Object> = (0..200)
+        .map(|k| {
+            let place = [0; 3].map(|_| random.between(-3.0, 3.0));
+            let material = match k % 4 {
+                0 => diffuse([0.8, 0.3, 0.2]),
+                1 => glass(1.7),
+                2 => mirror([0.9; 3]),
+                _ => conserving([0.5, 0.9, 0.6], 1e4, 0.7),
+            };
+            sphere(place, random.between(0.05, 0.5), material)
+        })
+        .collect();
+    objects.push(sphere([0.0, -1003.0, 0.0], 1000.0, diffuse([0.5; 3])));
+    scene(29, vec![light([3.0, 8.0, 3.0], 1.5, [20.0; 3])], objects)
+        .camera([0.0, 1.0, 9.0], [0.0; 3], 45.0)
+        .bounces(5)
+        .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() })
+}
+
+fn scenes() -> [(&'static str, SceneDesc); 2] {
+    [("everything", everything()), ("many balls", many_balls())]
+}
+
+const SAMPLES: u32 = 21;
+
+fn options() -> RenderOptions {
+    RenderOptions { samples: Some(SAMPLES), seed: Some(77), threads: 1, ..RenderOptions::default() }
+}
+
+/// All that a film says of its pixels, as bits.
+fn bits(film: &Film) -> Vec<[u64; 4]> {
+    let Crop { x, y, width, height } = film.crop();
+    let pixels = (y..y + height).flat_map(|py| (x..x + width).map(move |px| (px, py)));
+    pixels
+        .map(|(px, py)| {
+            let [r, g, b] = film.radiance(px, py).map(f64::to_bits);
+            [r, g, b, film.variance(px, py).to_bits()]
+        })
+        .collect()
+}
+
+fn rendered(scene: &Scene, options: &RenderOptions) -> Vec<[u64; 4]> {
+    let film = tracer_core::render(scene, options, &Unobserved);
+    assert_eq!(film.counters.dropped, 0);
+    bits(&film)
+}
+
+#[test]
+fn threads_and_lanes() {
+    for (name, desc) in scenes() {
+        let scene = compiled(&desc);
+        let expected = rendered(&scene, &options());
+        assert!(expected.iter().any(|p| p[0] != expected[0][0]), "{name} is empty");
+        for level in Level::available() {
+            // Without hardware fma a sample costs a hundred times more.
+            let crop = (level == Level::Portable).then_some(Crop { x: 8, y: 8, width: 16, height: 8 });
+            for threads in if crop.is_some() { vec![2] } else { vec![1, 2, 3, 7] } {
+                let options = RenderOptions { threads, level: Some(level), crop, ..options() };
+                let film = tracer_core::render(&scene, &options, &Unobserved);
+                let part = crop.unwrap_or(Crop::whole(scene.size));
+                let same = bits(&film) == cut(&expected, scene.size, part);
+                assert!(same, "{name}: {threads} threads, {}", level.name());
+            }
+        }
+    }
+}
+
+/// The part of a picture.
+fn cut(picture: &[[u64; 4]], size: [u32; 2], crop: Crop) -> Vec<[u64; 4]> {
+    let rows = crop.y..crop.y + crop.height;
+    rows.flat_map(|y| (crop.x..crop.x + crop.width).map(move |x| picture[(y * size[0] + x) as usize])).collect()
+}
+
+#[test]
+fn crops() {
+    for (name, desc) in scenes() {
+        let scene = compiled(&desc);
+        let expected = rendered(&scene, &options());
+        for crop in [
+            Crop { x: 0, y: 0, width: 1, height: 1 },
+            Crop { x: 7, y: 9, width: 2, height: 15 },
+            Crop { x: 16, y: 8, width: 8, height: 8 },
+            Crop { x: 3, y: 5, width: 21, height: 11 },
+            Crop { x: 28, y: 28, width: 1, height: 1 },
+        ] {
+            for (threads, level) in
+                [(1, Level::best()), (3, Level::best()), (2, Level::from_lanes(1).expect("one lane"))]
+            {
+                let options = RenderOptions { crop: Some(crop), threads, level: Some(level), ..options() };
+                assert!(rendered(&scene, &options) == cut(&expected, scene.size, crop), "{name}: {crop:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn accelerations() {
+    for (name, mut desc) in scenes() {
+        let expected = rendered(&compiled(&desc), &options());
+        for acceleration in [Acceleration::BoundingBox, Acceleration::None] {
+            desc.render.acceleration = acceleration;
+            let scene = compiled(&desc);
+            for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
+                let options = RenderOptions { level: Some(level), threads: 2, ..options() };
+                assert!(rendered(&scene, &options) == expected, "{name}: {acceleration:?}, {}", level.name());
+            }
+        }
+    }
+}
+
+/// Compiling again, and on more threads, gives the same scene; developing the same film the same picture.
+#[test]
+fn compiling_and_developing_again() {
+    for (name, desc) in scenes() {
+        let film = |_| tracer_core::render(&compiled(&desc), &options(), &Unobserved);
+        let [a, b] = [0, 1].map(film);
+        assert!(bits(&a) == bits(&b), "{name}");
+        let picture = develop(&a, &Look::default());
+        assert!(picture == develop(&b, &Look::default()) && picture.display.iter().all(|x| (0.0..=1.0).contains(x)));
+    }
+}
+
+/// Ends after some batches.
+struct Impatient;
+
+impl Observer for Impatient {
+    fn progress(&self, progress: Progress) -> ControlFlow<()> {
+        if progress.samples_done * 2 > progress.samples_total {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+    fn pass(&self, film: &Film) {
+        // Every pixel holds the same samples, and as many as the passes so far.
+        assert_eq!(film.samples().start(), film.samples().end());
+    }
+}
+
+/// After N of more samples the film is that of N samples: a look at it in between is the picture asked for.
+#[test]
+fn an_early_end_is_the_picture_of_fewer_samples() {
+    for (name, desc) in scenes() {
+        let scene = compiled(&desc);
+        let film = tracer_core::render(&scene, &RenderOptions { samples: Some(64), ..options() }, &Impatient);
+        let (fewest, most) = film.samples().into_inner();
+        assert!(fewest >= 1 && most < 64, "{name}: {fewest} to {most} samples");
+        struct Looks(std::sync::Mutex<Vec<(u32, Vec<[u64; 4]>)>>);
+        impl Observer for Looks {
+            fn progress(&self, _: Progress) -> ControlFlow<()> {
+                ControlFlow::Continue(())
+            }
+            fn pass(&self, film: &Film) {
+                self.0.lock().expect("a list").push((*film.samples().end(), bits(film)));
+            }
+        }
+        let looks = Looks(Default::default());
+        tracer_core::render(&scene, &RenderOptions { samples: Some(16), threads: 2, ..options() }, &looks);
+        for (samples, seen) in looks.0.into_inner().expect("a list") {
+            let options = RenderOptions { samples: Some(samples), ..options() };
+            assert!(rendered(&scene, &options) == seen, "{name}: {samples} samples");
+        }
+    }
+}
