@@ -1,6 +1,7 @@
 //! The command line's words.
 
 use crate::commands::Template;
+use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_format::{Override, Syntax};
@@ -153,8 +154,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "KIND")]
     pub format: Option<String>,
     /// Bits per channel of a PNG: 8 or 16
-    #[arg(long, value_name = "BITS", value_parser = ["8", "16"], hide_possible_values = true)]
-    pub bits: Option<String>,
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub bits: Option<Bits>,
     /// Samples per pixel
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     pub samples: Option<u32>,
@@ -377,6 +378,14 @@ fn crop(text: &str) -> Result<Crop, String> {
     match numbers[..] {
         [x, y, width, height] if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
         _ => Err(expected.to_owned()),
+    }
+}
+
+fn bits(text: &str) -> Result<Bits, String> {
+    match text {
+        "8" => Ok(Bits::Eight),
+        "16" => Ok(Bits::Sixteen),
+        _ => Err("expected 8 or 16".to_owned()),
     }
 }
 

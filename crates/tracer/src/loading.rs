@@ -4,8 +4,10 @@ use crate::args::{DiagnosticsForm, SceneArgs};
 use crate::failure::Failure;
 use crate::memory::human;
 use crate::shell::{Shell, counted};
+use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::Source;
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
+use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 use tracer_core::{CompileError, Scene};
@@ -88,6 +90,9 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result
         Failure::WrongScene
     })?;
     shell.diagnostics(&scene.warnings, sources, form);
+    for file in asset_files(desc) {
+        shell.explain(|| format!("loaded {}", desc.base_dir.join(file).display()));
+    }
     shell.explain(|| {
         let s = scene.statistics();
         let count = |n: u64, noun: &str| counted(n as usize, noun);
@@ -106,6 +111,37 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result
         line + &format!("; assets {:.3} s, tables {:.3} s, tree {:.3} s", times.assets, times.tables, times.tree)
     });
     Ok(scene)
+}
+
+/// The files that the scene names, in the order of their first mention: meshes, placements, textures.
+pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
+    let mut files: Vec<&Path> = Vec::new();
+    let mut materials: Vec<&Material> = desc.materials.iter().map(|named| &named.material).collect();
+    for object in &desc.objects {
+        let material = match &object.value {
+            Object::Sphere(sphere) => &sphere.material,
+            Object::Mesh(mesh) => {
+                files.push(&mesh.file.value);
+                if let Placements::File(file) = &mesh.placements {
+                    files.push(&file.value);
+                }
+                &mesh.material
+            }
+        };
+        if let MaterialRef::Inline(material) = material {
+            materials.push(&material.value);
+        }
+    }
+    for material in materials {
+        if let Material::Diffuse { albedo: Albedo::Texture(texture) }
+        | Material::BlinnPhong { albedo: Albedo::Texture(texture), .. } = material
+        {
+            files.push(&texture.file.value);
+        }
+    }
+    let mut seen = HashSet::new();
+    files.retain(|file| seen.insert(*file));
+    files
 }
 
 /// Makes the pool that compiles; the default one has a thread for each core.

@@ -2,14 +2,13 @@
 
 use crate::args::InfoArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::{compile, load};
+use crate::loading::{asset_files, compile, load};
 use crate::memory::human;
-use crate::shell::Shell;
+use crate::shell::{Shell, counted};
 use scene_format::desc::Object;
 use scene_format::{Defaults, SceneDesc, Syntax, hash_hex, to_text};
 use serde_json::json;
 use std::io::Write;
-use std::path::Path;
 use std::process::ExitCode;
 use tracer_core::scene::Statistics;
 use tracer_core::{Crop, Film, Scene};
@@ -54,18 +53,6 @@ impl Facts {
         self.desc.objects.iter().filter(|object| is(&object.value)).count()
     }
 
-    fn mesh_files(&self) -> Vec<&Path> {
-        let mut files: Vec<&Path> = Vec::new();
-        for object in &self.desc.objects {
-            if let Object::Mesh(mesh) = &object.value
-                && !files.contains(&mesh.file.value.as_path())
-            {
-                files.push(&mesh.file.value);
-            }
-        }
-        files
-    }
-
     fn as_text(&self) -> String {
         let s = &self.statistics;
         let point = |p: [f64; 3]| format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]));
@@ -82,17 +69,29 @@ impl Facts {
             "render",
             format!("{} samples, {} bounces, seed {}", self.scene.samples, self.scene.max_bounces, self.scene.seed),
         );
-        line("objects", format!("{} ({spheres} spheres, {meshes} meshes)", self.desc.objects.len()));
+        line(
+            "objects",
+            format!("{} ({}, {})", self.desc.objects.len(), counted(spheres, "sphere"), counted(meshes, "mesh")),
+        );
         line("lights", s.lights.to_string());
-        line("triangles", format!("{} in {} meshes, placed {} times", s.triangles, s.meshes, s.instances));
-        for file in self.mesh_files() {
-            line("", file.display().to_string());
-        }
+        line(
+            "triangles",
+            format!(
+                "{} in {}, {} in {}",
+                s.triangles,
+                counted(s.meshes as usize, "mesh"),
+                s.placed_triangles,
+                counted(s.instances as usize, "place")
+            ),
+        );
         line("materials", format!("{} ({} by name)", s.materials, self.desc.materials.len()));
         for named in &self.desc.materials {
             line("", format!("{:?}", named.name.value));
         }
         line("textures", s.textures.to_string());
+        for (k, file) in asset_files(&self.desc).iter().enumerate() {
+            line(if k == 0 { "files" } else { "" }, file.display().to_string());
+        }
         line("bounds", format!("{} to {}", point(s.bounds.min), point(s.bounds.max)));
         line("tree", tree);
         line(
@@ -127,7 +126,7 @@ impl Facts {
             },
             "lights": s.lights,
             "meshes": s.meshes,
-            "mesh_files": self.mesh_files(),
+            "files": asset_files(&self.desc),
             "instances": s.instances,
             "triangles": s.triangles,
             "placed_triangles": s.placed_triangles,

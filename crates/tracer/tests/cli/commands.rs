@@ -57,6 +57,7 @@ fn info_counts() {
     assert_eq!((number("/meshes"), number("/instances"), number("/lights")), (1, 2, 1));
     assert_eq!(number("/placed_triangles"), 2 * number("/triangles"));
     assert!(number("/tree/nodes") > 0 && number("/memory/geometry") > 0 && number("/memory/film") > 0);
+    assert_eq!(json["files"], serde_json::json!([cat]));
     assert_eq!(json["bounds"]["min"], serde_json::json!([-100.0, -200.0, -100.0]));
     assert_eq!(json["material_names"][0], "glass");
     let text = sandbox.run(&["info", "scene.ron"]).ends(0).out_text();

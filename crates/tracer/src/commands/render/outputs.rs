@@ -27,7 +27,7 @@ pub(super) fn name(place: &Place) -> String {
 /// # Errors
 /// A kind of picture that is not written, two pictures in one place, options that belong to none.
 pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
-    let bits = if args.bits.as_deref() == Some("16") { Bits::Sixteen } else { Bits::Eight };
+    let bits = args.bits.unwrap_or_default();
     let mut outputs: Vec<Output> = Vec::new();
     for path in &args.output {
         let place = place(path);

@@ -2,6 +2,7 @@
 
 use crate::args::{RenderArgs, SyntaxName};
 use crate::command_line::quoted;
+use crate::write::Bits;
 use scene_format::SceneDesc;
 use tracer_core::Crop;
 
@@ -15,8 +16,12 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
     if let Some(format) = &args.format {
         option("--format", format.clone());
     }
-    if let Some(bits) = &args.bits {
-        option("--bits", bits.clone());
+    if let Some(bits) = args.bits {
+        let bits = match bits {
+            Bits::Eight => "8",
+            Bits::Sixteen => "16",
+        };
+        option("--bits", bits.to_owned());
     }
     if let Some(syntax) = args.scene.syntax {
         let name = match syntax {
