@@ -9,6 +9,7 @@ mod analytic;
 mod figures;
 mod random_scenes;
 mod same_bytes;
+mod sampler;
 mod seams;
 mod support;
 mod surfaces;
