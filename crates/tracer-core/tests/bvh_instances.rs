@@ -5,17 +5,21 @@ mod bvh_support;
 use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use tracer_core::bvh::{
-    Accel, Acceleration, BuildError, Geometry, InstanceGeometry, Level, MeshGeometry, NONE, Placement, SphereGeometry,
-    sphere_hit,
+    Accel, Acceleration, BuildError, Geometry, InstanceGeometry, Level, MeshGeometry, NONE, SphereGeometry, sphere_hit,
 };
 
-fn placement(random: &mut Random, spread: f32, size: f32) -> Placement {
+/// The rows of a map.
+fn rows(map: &Affine3A) -> [[f32; 4]; 3] {
+    let (m, t) = (map.matrix3, map.translation);
+    std::array::from_fn(|k| [m.x_axis[k], m.y_axis[k], m.z_axis[k], t[k]])
+}
+
+fn placement(random: &mut Random, spread: f32, size: f32) -> Affine3A {
     let axis = Vec3::from_array(random.cube()) + Vec3::splat(1e-3);
     let scale = Vec3::from_array(random.cube().map(|x| size * (1.2 + x)));
     let rotation = Quat::from_axis_angle(axis.normalize(), random.unit() * 6.0);
     let translation = Vec3::from_array(random.cube()) * spread;
-    let world_from_object = Affine3A::from_scale_rotation_translation(scale, rotation, translation);
-    Placement { world_from_object, object_from_world: world_from_object.inverse() }
+    Affine3A::from_scale_rotation_translation(scale, rotation, translation)
 }
 
 fn spheres(count: usize, random: &mut Random) -> Vec<SphereGeometry> {
@@ -81,7 +85,7 @@ fn everything_together() {
         InstanceGeometry { mesh: 1, placement: None },
     ];
     for i in 0..30 {
-        instances.push(InstanceGeometry { mesh: i % 2, placement: Some(placement(&mut random, 1.0, 0.15)) });
+        instances.push(InstanceGeometry { mesh: i % 2, placement: Some(rows(&placement(&mut random, 1.0, 0.15))) });
     }
     let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances };
     let batch = Batch::random(800, 2.0, &mut random);
@@ -110,10 +114,10 @@ fn an_instance_is_where_its_triangles_are() {
         let placement = placement(&mut random, 3.0, 0.5);
         let mut moved = ball.clone();
         for p in &mut moved.positions {
-            *p = placement.world_from_object.transform_point3(Vec3::from_array(*p)).to_array();
+            *p = placement.transform_point3(Vec3::from_array(*p)).to_array();
         }
         let (meshes, flat) = ([ball.geometry(0)], [moved.geometry(0)]);
-        let instances = [InstanceGeometry { mesh: 0, placement: Some(placement) }];
+        let instances = [InstanceGeometry { mesh: 0, placement: Some(rows(&placement)) }];
         let placed = build(&Geometry { spheres: &[], meshes: &meshes, instances: &instances }, Acceleration::Bvh);
         let flattened = build(&Geometry { spheres: &[], meshes: &flat, instances: &[HERE] }, Acceleration::Bvh);
         let mut batch = Batch::default();
@@ -136,10 +140,7 @@ fn rays_from_far_away_hit_an_instance_as_precisely() {
     let ball = Mesh::ball(64, 32);
     let meshes = [ball.geometry(0)];
     let there = Affine3A::from_translation(Vec3::new(0.5, 0.25, 0.0));
-    let instances = [InstanceGeometry {
-        mesh: 0,
-        placement: Some(Placement { world_from_object: there, object_from_world: there.inverse() }),
-    }];
+    let instances = [InstanceGeometry { mesh: 0, placement: Some(rows(&there)) }];
     let accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &instances }, Acceleration::Bvh);
     let mut batch = Batch::default();
     for distance in [2.0, 1e4, 1e6] {
@@ -205,8 +206,9 @@ fn instances_are_small() {
     let mut random = Random::new(5);
     let ball = Mesh::ball(8, 4);
     let meshes = [ball.geometry(0)];
-    let instances: Vec<_> =
-        (0..10_000).map(|_| InstanceGeometry { mesh: 0, placement: Some(placement(&mut random, 1.0, 0.01)) }).collect();
+    let instances: Vec<_> = (0..10_000)
+        .map(|_| InstanceGeometry { mesh: 0, placement: Some(rows(&placement(&mut random, 1.0, 0.01))) })
+        .collect();
     let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &instances };
     let accel = build(&geometry, Acceleration::Bvh);
     let each = accel.stats().bytes as f64 / 10_000.0;
@@ -222,10 +224,7 @@ fn wrong_geometry_is_refused() {
     let mut mesh = Mesh::ball(8, 4);
     let count = mesh.triangles.len() as u32;
     let flat = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
-    let flattened = InstanceGeometry {
-        mesh: 0,
-        placement: Some(Placement { world_from_object: flat, object_from_world: flat.inverse() }),
-    };
+    let flattened = InstanceGeometry { mesh: 0, placement: Some(rows(&flat)) };
     assert_eq!(refused(&[mesh.geometry(0)], &[HERE, flattened], &[]), Some(BuildError::Placement { instance: 1 }));
     let missing = InstanceGeometry { mesh: 3, placement: None };
     let expected = BuildError::Mesh { instance: 0, mesh: 3, meshes: 1 };

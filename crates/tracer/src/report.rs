@@ -71,7 +71,7 @@ pub struct PictureReport {
 }
 
 /// Wall-clock seconds of the phases, one after the other: they sum to `total`.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Seconds {
     /// Command line and scene file.
     pub read: f64,

@@ -2,7 +2,7 @@
 //!
 //! Render space is the world moved and scaled so that the scene is about 1 in size; every length here is an f32 in it.
 
-use glam::{Affine3A, DVec3};
+use glam::DVec3;
 
 /// No primitive, or no instance: rays that leave no surface, spheres (which belong to no instance), and misses.
 pub const NONE: u32 = u32::MAX;
@@ -34,17 +34,9 @@ pub struct MeshGeometry<'a> {
 pub struct InstanceGeometry {
     /// Index into [`Geometry::meshes`].
     pub mesh: u32,
-    /// How the mesh is placed; `None` where its positions are in render space already.
-    pub placement: Option<Placement>,
-}
-
-/// An affine placement and its inverse.
-#[derive(Clone, Copy, Debug)]
-pub struct Placement {
-    /// Object space to render space.
-    pub world_from_object: Affine3A,
-    /// Render space to object space: the one that rays are taken through.
-    pub object_from_world: Affine3A,
+    /// Rows of the 3x4 matrix from object space to render space; `None` where the positions are in render space already.
+    /// No inverse beside it: a million of them would be the larger part of the memory.
+    pub placement: Option<[[f32; 4]; 3]>,
 }
 
 /// A sphere, described at one point of its surface so that nothing of the size of its radius enters the arithmetic.

@@ -26,11 +26,14 @@ mod triangle;
 mod validate;
 
 pub use build::BuildError;
-pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, Placement, SphereGeometry};
+pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, SphereGeometry};
 pub use kernels::{Counters, Level};
 pub use sphere::sphere_hit;
 pub use triangle::triangle_hit;
 pub use validate::Invalid;
+
+pub(crate) use layout::TopBoxes;
+pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
 
 use arena::Arena;
 use kernels::{Batch, MeshRecord, TreeView};
@@ -105,6 +108,7 @@ pub struct Occlusion<'a> {
 pub struct Accel {
     arena: Arena,
     root: Ref,
+    top: TopBoxes,
     meshes: Vec<MeshRecord>,
     spheres: u32,
     instances: u32,
@@ -216,6 +220,11 @@ impl Accel {
             &mut counters,
         );
         counters
+    }
+
+    /// The boxes under the root: a ray that passes none of them hits nothing here.
+    pub(crate) fn top_boxes(&self) -> &TopBoxes {
+        &self.top
     }
 
     /// The tree's bytes, for comparing builds.

@@ -8,7 +8,7 @@ use super::placing::place as place_matrix;
 use crate::bvh;
 use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
 use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
-use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3A};
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::desc::{self, MaterialRef, Object, Placements, Shading};
 use scene_format::diagnostic::{Span, Spanned};
@@ -283,23 +283,8 @@ impl Built {
                 first_primitive: first_primitive + m.first_triangle,
             })
             .collect();
-        let instances: Vec<bvh::InstanceGeometry> = self
-            .instances
-            .iter()
-            .map(|i| bvh::InstanceGeometry {
-                mesh: i.mesh,
-                placement: i.placement.map(|rows| {
-                    let [x, y, z] = rows;
-                    let matrix3 = Mat3A::from_cols(
-                        Vec3A::new(x[0], y[0], z[0]),
-                        Vec3A::new(x[1], y[1], z[1]),
-                        Vec3A::new(x[2], y[2], z[2]),
-                    );
-                    let world_from_object = Affine3A { matrix3, translation: Vec3A::new(x[3], y[3], z[3]) };
-                    bvh::Placement { world_from_object, object_from_world: world_from_object.inverse() }
-                }),
-            })
-            .collect();
+        let instances: Vec<bvh::InstanceGeometry> =
+            self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
         bvh::Accel::build(&bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
     }
 

@@ -155,6 +155,8 @@ pub struct Batch {
     pub radiance: Columns,
     /// Indices of the rays that the tree is asked about.
     pub active: Vec<u32>,
+    /// How many they are.
+    pub active_len: usize,
     /// Counters.
     pub counters: Counters,
 }
@@ -182,7 +184,8 @@ impl Batch {
                 occluded: words(),
             },
             radiance: columns(),
-            active: Vec::with_capacity(CAPACITY),
+            active: words(),
+            active_len: 0,
             counters: Counters::default(),
         }
     }

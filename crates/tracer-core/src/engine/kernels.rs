@@ -1,7 +1,8 @@
 //! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
 
 use super::batch::Batch;
-use super::stages::{camera, shade, spheres};
+use super::stages::{camera, reach, shade, spheres};
+use crate::bvh::TopBoxes;
 use crate::lanes::level::Level;
 use crate::scene::Scene;
 
@@ -12,6 +13,8 @@ pub struct Kernels {
     closest: unsafe fn(&Scene, &mut Batch),
     shade: unsafe fn(&Scene, u32, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
+    reach_closest: unsafe fn(&TopBoxes, &mut Batch),
+    reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
 }
 
 /// The entry functions of a level.
@@ -35,11 +38,21 @@ macro_rules! kernels {
             fn occluded_entry(scene: &Scene, batch: &mut Batch) {
                 spheres::spheres_occluded::<$lanes>(scene, batch)
             }
+            $(#[target_feature(enable = $features)])?
+            fn reach_closest_entry(boxes: &TopBoxes, batch: &mut Batch) {
+                reach::reach_closest::<$lanes>(boxes, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn reach_occluded_entry(boxes: &TopBoxes, batch: &mut Batch) {
+                reach::reach_occluded::<$lanes>(boxes, batch)
+            }
             pub const KERNELS: Kernels = Kernels {
                 camera: camera_entry,
                 closest: closest_entry,
                 shade: shade_entry,
                 occluded: occluded_entry,
+                reach_closest: reach_closest_entry,
+                reach_occluded: reach_occluded_entry,
             };
         }
     };
@@ -90,5 +103,15 @@ impl Kernels {
     pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.occluded)(scene, batch) }
+    }
+    /// Which paths the tree is asked about.
+    pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.reach_closest)(boxes, batch) }
+    }
+    /// Which shadow rays the tree is asked about.
+    pub fn reach_occluded(&self, boxes: &TopBoxes, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.reach_occluded)(boxes, batch) }
     }
 }

@@ -17,11 +17,13 @@ pub fn trace(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
     while batch.paths.len > 0 {
         kernels.closest(scene, batch);
         if let Some(accel) = &scene.accel {
+            kernels.reach_closest(accel.top_boxes(), batch);
             closest_in_tree(accel, vertex == 0, batch);
         }
         kernels.shade(scene, seed, vertex, batch);
         kernels.occluded(scene, batch);
         if let Some(accel) = &scene.accel {
+            kernels.reach_occluded(accel.top_boxes(), batch);
             occluded_in_tree(accel, batch);
         }
         deposit(batch);
@@ -49,11 +51,9 @@ fn rays<'a>(
     }
 }
 
-/// What the tree holds nearer than the spheres that every ray tests.
+/// What the tree holds nearer than the spheres that every ray tests, for the paths in `batch.active`.
 fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     let (paths, len) = (&batch.paths, batch.paths.len);
-    batch.active.clear();
-    batch.active.extend(0..len as u32);
     let mut hits = Hits {
         t: &mut batch.hits.t[..len],
         primitive: &mut batch.hits.primitive[..len],
@@ -61,15 +61,13 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     };
     let coherence = if camera { Coherence::Coherent } else { Coherence::Incoherent };
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive, &paths.from_instance, len);
-    accel.closest(&rays, &batch.active, &mut hits, coherence);
+    accel.closest(&rays, &batch.active[..batch.active_len], &mut hits, coherence);
 }
 
-/// Which shadow rays the tree blocks, of those that no sphere has blocked.
+/// Which of the shadow rays in `batch.active` the tree blocks.
 fn occluded_in_tree(accel: &Accel, batch: &mut Batch) {
     let len = batch.shadows.len;
     let shadows = &mut batch.shadows;
-    batch.active.clear();
-    batch.active.extend((0..len as u32).filter(|&i| shadows.occluded[i as usize] == 0));
     let mut occlusion = Occlusion {
         tmax: &shadows.t_max[..len],
         target_primitive: &shadows.light_primitive[..len],
@@ -77,5 +75,5 @@ fn occluded_in_tree(accel: &Accel, batch: &mut Batch) {
         occluded: &mut shadows.occluded[..len],
     };
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive, &shadows.from_instance, len);
-    accel.occluded(&rays, &batch.active, &mut occlusion, Coherence::Incoherent);
+    accel.occluded(&rays, &batch.active[..batch.active_len], &mut occlusion, Coherence::Incoherent);
 }

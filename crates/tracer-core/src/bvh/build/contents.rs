@@ -7,7 +7,7 @@ use super::super::ray_space::{PAD, RANGE};
 use super::BuildError;
 use super::binary::Item;
 use super::wide::WriteLeaves;
-use glam::{Affine3A, DMat3, DVec3, Vec4};
+use glam::{Affine3A, DMat3, DVec3, Mat3A, Vec3A, Vec4};
 use rayon::prelude::*;
 
 /// The lists that a tree's leaves refer into, in the order of the leaves.
@@ -160,6 +160,12 @@ impl<'a> TriangleList<'a> {
         );
         Ok((items, bounds))
     }
+}
+
+/// The map that takes rays into an instance: the inverse of its placement.
+pub(crate) fn object_from_world(rows: &[[f32; 4]; 3]) -> Affine3A {
+    let column = |k: usize| Vec3A::new(rows[0][k], rows[1][k], rows[2][k]);
+    Affine3A { matrix3: Mat3A::from_cols(column(0), column(1), column(2)), translation: column(3) }.inverse()
 }
 
 /// The world box of a placed mesh, wide enough for the rounding of everything that happens in its object space; `None`

@@ -10,13 +10,12 @@ mod wide;
 
 use super::arena::Arena;
 use super::bounds::Bounds;
-use super::geometry::{Geometry, InstanceGeometry, NONE, Placement};
+use super::geometry::{Geometry, NONE};
 use super::kernels::{DEEPEST, Level, MeshRecord};
-use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref};
+use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, TopBoxes};
 use super::{Accel, AccelStats, Acceleration};
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
-use contents::{Contents, TriangleList, instance_bounds};
-use glam::Affine3A;
+use contents::{Contents, TriangleList, instance_bounds, object_from_world};
 use rayon::prelude::*;
 use std::time::Instant;
 use wide::Plan;
@@ -91,16 +90,12 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
     check(geometry)?;
     let mut direct = vec![NONE; geometry.meshes.len()];
     let mut placed = vec![false; geometry.meshes.len()];
-    let mut placements = vec![None; geometry.instances.len()];
     for (index, instance) in geometry.instances.iter().enumerate() {
         let mesh = instance.mesh as usize;
         match instance.placement {
             // A mesh can be in the world's tree once; a second one in the same place is an instance like any other.
             None if direct[mesh] == NONE => direct[mesh] = index as u32,
-            _ => {
-                placed[mesh] = true;
-                placements[index] = Some(placement_of(instance));
-            }
+            _ => placed[mesh] = true,
         }
     }
 
@@ -116,21 +111,24 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         meshes.push(MeshRecord { first_primitive, direct_instance: direct[mesh], root: Ref::END.0 });
     }
 
-    let (records, boxes) = instance_records(geometry, &placements, &mesh_trees)?;
-    let world = world_tree(geometry, &direct, &boxes, acceleration)?;
+    let world = {
+        let boxes = instance_boxes(geometry, &direct, &mesh_trees)?;
+        world_tree(geometry, &direct, &boxes, acceleration)?
+    };
 
     let trees: Vec<&Tree> = mesh_trees.iter().flatten().chain([&world]).collect();
     let plans: Vec<Plan> = trees.par_iter().map(|tree| Plan::new(&tree.nodes, &tree.contents)).collect();
-    let record_units = records.len() as u64 * u64::from(INSTANCE_UNITS);
+    let instances = geometry.instances.len();
+    let record_units = instances as u64 * u64::from(INSTANCE_UNITS);
     let units = plans.iter().fold(record_units, |sum, plan| sum + u64::from(plan.units));
     let most = u64::from(Ref::LIMIT);
-    if units > most || records.len() as u64 > most {
+    if units > most || instances as u64 > most {
         return Err(BuildError::TooLarge { bytes: units * 32, most: most * 32 });
     }
     let mut arena = Arena::new(units as usize)
         .map_err(|error| BuildError::Memory { bytes: units * 32, reason: error.to_string() })?;
     let (record_part, mut rest) = arena.units_mut().split_at_mut(record_units as usize);
-    record_part.copy_from_slice(bytemuck::cast_slice(&records));
+    write_records(geometry, &direct, &mesh_trees, bytemuck::cast_slice_mut(record_part));
     let mut at = record_units as u32;
     let mut parts = Vec::with_capacity(trees.len());
     let mut roots = Vec::with_capacity(trees.len());
@@ -167,12 +165,14 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         bytes: (arena.bytes() + table_bytes) as u64,
         seconds: start.elapsed().as_secs_f64(),
     };
+    let top = TopBoxes::of(root, arena.units(), &world.contents.bounds);
     Ok(Accel {
         arena,
         root,
+        top,
         meshes,
         spheres: geometry.spheres.len() as u32,
-        instances: records.len() as u32,
+        instances: instances as u32,
         size: size_of_scene(&world.contents.bounds),
         level: Level::best(),
         stats,
@@ -201,9 +201,13 @@ fn size_of_scene(bounds: &Bounds) -> f32 {
     (bounds.upper - bounds.lower).truncate().max_element().max(0.0)
 }
 
-fn placement_of(instance: &InstanceGeometry) -> Placement {
-    let identity = Placement { world_from_object: Affine3A::IDENTITY, object_from_world: Affine3A::IDENTITY };
-    instance.placement.unwrap_or(identity)
+/// The rows of an instance's matrix; `None` where the triangles are part of the world's tree. A mesh that is in the world already
+/// and stands there a second time is an instance like any other.
+fn rows_of(geometry: &Geometry, direct: &[u32], index: usize) -> Option<[[f32; 4]; 3]> {
+    const IDENTITY: [[f32; 4]; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    let instance = &geometry.instances[index];
+    let in_world = direct[instance.mesh as usize] == index as u32;
+    (!in_world).then(|| instance.placement.unwrap_or(IDENTITY))
 }
 
 /// The tree over the triangles of some meshes.
@@ -219,33 +223,39 @@ fn triangle_tree(triangles: TriangleList, acceleration: Acceleration) -> Result<
     Ok(Tree { nodes: tree.nodes, contents })
 }
 
-type Instances = (Vec<InstanceRecord>, Vec<Option<Bounds>>);
-
-/// The records of all instances, and the world boxes of those that are placed and not empty.
-fn instance_records(
+/// The box in the world of each instance that is placed and not empty.
+fn instance_boxes(
     geometry: &Geometry,
-    placements: &[Option<Placement>],
+    direct: &[u32],
     trees: &[Option<Tree>],
-) -> Result<Instances, BuildError> {
-    let one = |(index, instance): (usize, &InstanceGeometry)| {
-        let mut record = InstanceRecord { object_from_world: [[0.0; 4]; 3], center: [0.0; 3], mesh: instance.mesh };
-        let Some(placement) = placements[index] else {
+) -> Result<Vec<Option<Bounds>>, BuildError> {
+    let one = |index: usize| {
+        let Some(rows) = rows_of(geometry, direct, index) else { return Ok(None) };
+        let tree = trees[geometry.instances[index].mesh as usize].as_ref();
+        let Some(tree) = tree.filter(|tree| !tree.nodes.is_empty()) else { return Ok(None) };
+        let bounds = instance_bounds(&object_from_world(&rows), &tree.contents.bounds);
+        bounds.map(Some).ok_or(BuildError::Placement { instance: index as u32 })
+    };
+    (0..geometry.instances.len()).into_par_iter().map(one).collect()
+}
+
+/// Writes the records of all instances, whose placements have been found to be of use.
+fn write_records(geometry: &Geometry, direct: &[u32], trees: &[Option<Tree>], records: &mut [InstanceRecord]) {
+    records.par_iter_mut().enumerate().for_each(|(index, record)| {
+        let mesh = geometry.instances[index].mesh;
+        *record = InstanceRecord { object_from_world: [[0.0; 4]; 3], center: [0.0; 3], mesh };
+        let Some(rows) = rows_of(geometry, direct, index) else {
             record.mesh |= InstanceRecord::DIRECT;
-            return Ok((record, None));
+            return;
         };
-        let mesh = instance.mesh as usize;
-        let Some(tree) = trees[mesh].as_ref().filter(|tree| !tree.nodes.is_empty()) else { return Ok((record, None)) };
-        let bounds = instance_bounds(&placement.object_from_world, &tree.contents.bounds)
-            .ok_or(BuildError::Placement { instance: index as u32 })?;
-        let m = placement.object_from_world;
-        let (columns, t) = (m.matrix3, m.translation);
+        let Some(tree) = trees[mesh as usize].as_ref().filter(|tree| !tree.nodes.is_empty()) else { return };
+        let map = object_from_world(&rows);
+        let Some(bounds) = instance_bounds(&map, &tree.contents.bounds) else { return };
+        let (columns, t) = (map.matrix3, map.translation);
         record.object_from_world =
             std::array::from_fn(|row| [columns.x_axis[row], columns.y_axis[row], columns.z_axis[row], t[row]]);
         record.center = ((bounds.lower + bounds.upper) * 0.5).truncate().to_array();
-        Ok((record, Some(bounds)))
-    };
-    let both: Result<Vec<_>, BuildError> = geometry.instances.par_iter().enumerate().map(one).collect();
-    Ok(both?.into_iter().unzip())
+    });
 }
 
 /// The tree over spheres, the triangles that are in the world already, and placed instances.

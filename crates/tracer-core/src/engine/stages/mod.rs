@@ -4,6 +4,7 @@ pub mod camera;
 pub mod deposit;
 pub mod lights;
 pub mod materials;
+pub mod reach;
 pub mod shade;
 pub mod spheres;
 pub mod surface;

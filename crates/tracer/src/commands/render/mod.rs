@@ -17,6 +17,7 @@ use crate::{interrupt, lanes, memory};
 use outputs::Output;
 use scene_format::SceneDesc;
 use std::io::Write;
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -28,12 +29,13 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let level = lanes::from_environment()?;
     use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
-    let desc = described(args, shell)?;
+    // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
+    let desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
     check_memory(crop)?;
     let read = clock.lap();
 
-    let scene = compile(&desc, args.scene.diagnostics, shell)?.with_level(level);
+    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?.with_level(level));
     let compiled = clock.lap();
 
     interrupt::listen(*shell)?;
@@ -69,6 +71,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
             sha256: written.sha256,
         });
     }
+    let mut report = args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted));
     let written = clock.lap();
     let seconds = Seconds {
         read,
@@ -87,9 +90,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
             repeat::command(args, &desc)
         ));
     }
-    if let Some(path) = &args.report {
-        let report = report(args, &desc, &scene, &film, seconds, files, interrupted);
-        write_report(path, &report)?;
+    if let (Some(path), Some(report)) = (&args.report, &mut report) {
+        report.seconds = seconds;
+        write_report(path, report)?;
     } else if shell.is_watched() {
         let samples = film.counters.camera_rays as f64 / seconds.render;
         shell.say(&format!("{} in {:.2} s, {}", names(&outputs), seconds.total, rate(samples)));
@@ -198,19 +201,20 @@ fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
     }
 }
 
+/// The report, but for the seconds of the phases.
 fn report(
     args: &RenderArgs,
     desc: &SceneDesc,
     scene: &Scene,
     film: &Film,
-    seconds: Seconds,
+    render_seconds: f64,
     files: Vec<FileReport>,
     interrupted: bool,
 ) -> Report {
     let statistics = scene.statistics();
     let counters = film.counters;
     let rays = counters.camera_rays + counters.scattered_rays + counters.shadow_rays;
-    let per_second = |count: u64| if seconds.render > 0.0 { count as f64 / seconds.render } else { 0.0 };
+    let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
     Report {
@@ -272,7 +276,8 @@ fn report(
             arch: std::env::consts::ARCH,
             os: std::env::consts::OS,
         },
-        seconds,
+        // Told when the last phase, of which making this is part, has ended.
+        seconds: Seconds::default(),
         files,
     }
 }
