@@ -1,6 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
-use crate::desc::{Acceleration, Light, Material, Object, PixelFilter, Shading, TextureFilter, TextureWrap, ToneMap};
+use crate::desc::{
+    Acceleration, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter, TextureWrap, ToneMap,
+};
 use crate::desc::{DepthOfField, Pattern, TransformWords};
 use crate::schema::EnumDef;
 
@@ -34,11 +36,12 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 12] = [
+pub(crate) const CHOICES: [&EnumDef; 13] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
     &Acceleration::DEF,
+    &Reuse::DEF,
     &Light::DEF,
     &Material::DEF,
     &Pattern::DEF,
@@ -50,7 +53,7 @@ pub(crate) const CHOICES: [&EnumDef; 12] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 33] = [
+const SNIPPETS: [(&str, &str, &str); 35] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -63,6 +66,8 @@ const SNIPPETS: [(&str, &str, &str); 33] = [
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
+    ("Reuse", "Blocks", "reuse: Blocks"),
+    ("Reuse", "None", "reuse: None"),
     ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
     ("Material", "Diffuse", "Diffuse(albedo: (0.8, 0.3, 0.1))"),
     ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
@@ -108,7 +113,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
         "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
-        "Acceleration" => render = format!("{render}, {words}"),
+        "Acceleration" | "Reuse" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "Pattern" | "TextureFilter" | "TextureWrap" => {

@@ -7,9 +7,9 @@
 use crate::engine::Counters;
 use crate::lanes::level::Level;
 
-/// Pixels along a block's side; see `engine::batch`.
-const BLOCK: u32 = 8;
-const PIXELS: usize = 64;
+/// Pixels along a tile's side; see `engine::batch`.
+const TILE: u32 = 16;
+const PIXELS: usize = 256;
 
 /// A rectangle of pixels, from the upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,9 +38,9 @@ impl Crop {
     }
 }
 
-/// The sums of a block of 8x8 pixels; pixels in Z-order.
+/// The sums of a tile of 16x16 pixels; pixels in Z-order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Block {
+pub(crate) struct Tile {
     coarse: [[f64; PIXELS]; 3],
     fine: [[f64; PIXELS]; 3],
     /// Sum of squares of the luminance, for the noise estimate.
@@ -60,19 +60,21 @@ pub(crate) fn luminance(rgb: [f64; 3]) -> f64 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 
-impl Block {
+impl Tile {
     fn new() -> Self {
-        Block { coarse: [[0.0; PIXELS]; 3], fine: [[0.0; PIXELS]; 3], squares: [0.0; PIXELS], samples: 0 }
+        Tile { coarse: [[0.0; PIXELS]; 3], fine: [[0.0; PIXELS]; 3], squares: [0.0; PIXELS], samples: 0 }
     }
 
-    /// Adds one sample of each pixel, from the 64 slots on; gives the number of pixels whose sample was dropped.
-    pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize) -> u64 {
-        let [red, green, blue] = radiance.each_ref().map(|channel| &channel[slots..slots + PIXELS]);
+    /// Adds one sample of each pixel of an item from its slots on, slot k being pixel `pixels[k]`; gives the number of pixels whose
+    /// sample was dropped. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
+    pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize, pixels: &[u8; 64]) -> u64 {
+        let [red, green, blue] = radiance.each_ref().map(|channel| &channel[slots..slots + pixels.len()]);
         let mut dropped = 0;
-        for (pixel, ((&r, &g), &b)) in red.iter().zip(green).zip(blue).enumerate() {
+        for (&pixel, ((&r, &g), &b)) in pixels.iter().zip(red.iter().zip(green).zip(blue)) {
+            let pixel = usize::from(pixel);
             let sample = [r, g, b];
             // False for NaN too.
-            if !sample.iter().all(|&x| (0.0..=LARGEST).contains(&x)) {
+            if !sample.iter().all(|&x| x.abs() <= LARGEST) {
                 dropped += 1;
                 continue;
             }
@@ -86,8 +88,12 @@ impl Block {
             let y = luminance(sample.map(f64::from));
             self.squares[pixel] += y * y;
         }
-        self.samples += 1;
         dropped
+    }
+
+    /// Says that all pixels have been given `samples` more.
+    pub(crate) fn count(&mut self, samples: u32) {
+        self.samples += samples;
     }
 }
 
@@ -97,9 +103,9 @@ pub struct Film {
     size: [u32; 2],
     crop: Crop,
     seed: u32,
-    first_block: [u32; 2],
-    block_columns: u32,
-    blocks: Vec<Block>,
+    first_tile: [u32; 2],
+    tile_columns: u32,
+    tiles: Vec<Tile>,
     /// Rays and dropped samples.
     pub counters: Counters,
     /// Lane type that was used.
@@ -110,17 +116,17 @@ pub struct Film {
 
 impl Film {
     pub(crate) fn new(size: [u32; 2], crop: Crop, seed: u32) -> Self {
-        let first_block = [crop.x / BLOCK, crop.y / BLOCK];
-        let end = [(crop.x + crop.width).div_ceil(BLOCK), (crop.y + crop.height).div_ceil(BLOCK)];
-        let block_columns = end[0].saturating_sub(first_block[0]);
-        let count = block_columns as usize * end[1].saturating_sub(first_block[1]) as usize;
+        let first_tile = [crop.x / TILE, crop.y / TILE];
+        let end = [(crop.x + crop.width).div_ceil(TILE), (crop.y + crop.height).div_ceil(TILE)];
+        let tile_columns = end[0].saturating_sub(first_tile[0]);
+        let count = tile_columns as usize * end[1].saturating_sub(first_tile[1]) as usize;
         Film {
             size,
             crop,
             seed,
-            first_block,
-            block_columns,
-            blocks: vec![Block::new(); count],
+            first_tile,
+            tile_columns,
+            tiles: vec![Tile::new(); count],
             counters: Counters::default(),
             level: Level::best(),
             threads: 1,
@@ -144,56 +150,56 @@ impl Film {
 
     /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended early.
     pub fn samples(&self) -> std::ops::RangeInclusive<u32> {
-        let counts = || self.blocks.iter().map(|b| b.samples);
+        let counts = || self.tiles.iter().map(|t| t.samples);
         counts().min().unwrap_or(0)..=counts().max().unwrap_or(0)
     }
 
     /// Bytes of memory that the sums take.
     pub fn bytes(&self) -> usize {
-        self.blocks.len() * size_of::<Block>()
+        self.tiles.len() * size_of::<Tile>()
     }
 
     /// Bytes of memory that the sums of a picture, or part of one, will take.
     pub fn bytes_of(crop: Crop) -> u64 {
-        let blocks = |first: u32, length: u32| u64::from((first + length).div_ceil(BLOCK) - first / BLOCK);
-        blocks(crop.x, crop.width) * blocks(crop.y, crop.height) * size_of::<Block>() as u64
+        let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
+        tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * size_of::<Tile>() as u64
     }
 
-    /// Column and row of each block.
-    pub(crate) fn block_positions(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
-        let (first, columns) = (self.first_block, self.block_columns.max(1));
-        (0..self.blocks.len() as u32).map(move |k| (first[0] + k % columns, first[1] + k / columns))
+    /// Column and row of each tile.
+    pub(crate) fn tile_positions(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (first, columns) = (self.first_tile, self.tile_columns.max(1));
+        (0..self.tiles.len() as u32).map(move |k| (first[0] + k % columns, first[1] + k / columns))
     }
 
-    pub(crate) fn blocks_mut(&mut self) -> impl Iterator<Item = &mut Block> {
-        self.blocks.iter_mut()
+    pub(crate) fn tiles_mut(&mut self) -> impl Iterator<Item = &mut Tile> {
+        self.tiles.iter_mut()
     }
 
-    /// Block and place in it of a pixel of the crop.
-    fn place(&self, x: u32, y: u32) -> (&Block, usize) {
-        let column = x / BLOCK - self.first_block[0];
-        let row = y / BLOCK - self.first_block[1];
-        let z = crate::sampling::sampler::z_order(x % BLOCK, y % BLOCK);
-        (&self.blocks[(row * self.block_columns + column) as usize], z as usize)
+    /// Tile and place in it of a pixel of the crop.
+    fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
+        let column = x / TILE - self.first_tile[0];
+        let row = y / TILE - self.first_tile[1];
+        let z = crate::sampling::sampler::z_order(x % TILE, y % TILE);
+        (&self.tiles[(row * self.tile_columns + column) as usize], z as usize)
     }
 
     /// Mean radiance of a pixel, linear RGB; (x, y) in the whole picture, within the crop. Black where there is no sample yet.
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
-        let (block, pixel) = self.place(x, y);
-        let n = f64::from(block.samples.max(1));
-        [0, 1, 2].map(|c| (block.coarse[c][pixel] + block.fine[c][pixel]) / n)
+        let (tile, pixel) = self.place(x, y);
+        let n = f64::from(tile.samples.max(1));
+        [0, 1, 2].map(|c| (tile.coarse[c][pixel] + tile.fine[c][pixel]) / n)
     }
 
     /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero below two
     /// samples.
     pub fn variance(&self, x: u32, y: u32) -> f64 {
-        let (block, pixel) = self.place(x, y);
-        let n = f64::from(block.samples);
-        if block.samples < 2 {
+        let (tile, pixel) = self.place(x, y);
+        let n = f64::from(tile.samples);
+        if tile.samples < 2 {
             return 0.0;
         }
         let mean = luminance(self.radiance(x, y));
-        ((block.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)
+        ((tile.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)
     }
 
     /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of the
@@ -217,8 +223,13 @@ mod tests {
     use super::*;
 
     fn filled(value: impl Fn(usize) -> f32) -> [Vec<f32>; 3] {
-        let column: Vec<f32> = (0..PIXELS).map(value).collect();
+        let column: Vec<f32> = (0..64).map(value).collect();
         [column.clone(), column.clone(), column]
+    }
+
+    /// Slot k is pixel k.
+    fn first_pixels() -> [u8; 64] {
+        std::array::from_fn(|k| k as u8)
     }
 
     #[test]
@@ -227,13 +238,14 @@ mod tests {
             .map(|k| {
                 filled(|pixel| {
                     let h = (k * 64 + pixel as u32).wrapping_mul(0x9e37_79b9);
-                    f32::from_bits(0x3000_0000 + (h >> 5))
+                    let sign = if h & 16 == 0 { 1.0 } else { -1.0 };
+                    f32::from_bits(0x3000_0000 + (h >> 5)) * sign
                 })
             })
             .collect();
-        let (mut forwards, mut backwards) = (Block::new(), Block::new());
-        samples.iter().for_each(|s| assert_eq!(forwards.add(s, 0), 0));
-        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0), 0));
+        let (mut forwards, mut backwards) = (Tile::new(), Tile::new());
+        samples.iter().for_each(|s| assert_eq!(forwards.add(s, 0, &first_pixels()), 0));
+        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0, &first_pixels()), 0));
         assert_eq!(forwards.coarse, backwards.coarse);
         assert_eq!(forwards.fine, backwards.fine);
     }
@@ -241,7 +253,7 @@ mod tests {
     #[test]
     fn a_film_takes_the_bytes_that_were_foretold() {
         for crop in
-            [Crop::whole([17, 8]), Crop { x: 7, y: 3, width: 2, height: 6 }, Crop { x: 8, y: 8, width: 8, height: 1 }]
+            [Crop::whole([17, 8]), Crop { x: 7, y: 3, width: 2, height: 6 }, Crop { x: 16, y: 8, width: 16, height: 1 }]
         {
             assert_eq!(Film::new([40, 40], crop, 0).bytes() as u64, Film::bytes_of(crop));
         }
@@ -249,10 +261,9 @@ mod tests {
 
     #[test]
     fn wrong_samples_are_dropped_and_counted() {
-        let mut block = Block::new();
+        let mut tile = Tile::new();
         let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY][k % 4]);
-        assert_eq!(block.add(&samples, 0), 48);
-        assert_eq!(block.coarse[0][0], 1.0);
-        assert_eq!(block.coarse[0][1], 0.0);
+        assert_eq!(tile.add(&samples, 0, &first_pixels()), 32);
+        assert_eq!([0, 1, 2, 3].map(|k: usize| tile.coarse[0][k]), [1.0, 0.0, -1.0, 0.0]);
     }
 }

@@ -41,6 +41,8 @@ scene_struct! {
         seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);
         /// What finds the hits; the picture is the same, byte for byte.
         acceleration: Acceleration = Acceleration::Bvh;
+        /// Whether the pixels of a block share what they find.
+        reuse: Reuse = Reuse::Blocks;
     }
 }
 
@@ -52,6 +54,16 @@ scene_words! {
         /// One bounding box per mesh, every triangle inside it tested.
         BoundingBox,
         /// Every triangle tested for every ray.
+        None,
+    }
+}
+
+scene_words! {
+    /// Whether the pixels of a block share what they find. The picture is right on average either way.
+    pub enum Reuse, "reuse" {
+        /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time.
+        Blocks,
+        /// Every pixel for itself, as denoisers expect it.
         None,
     }
 }
@@ -75,6 +87,12 @@ impl Default for Image {
 
 impl Default for Render {
     fn default() -> Self {
-        Render { samples: 64.into(), max_bounces: 5.into(), seed: 0.into(), acceleration: Acceleration::Bvh }
+        Render {
+            samples: 64.into(),
+            max_bounces: 5.into(),
+            seed: 0.into(),
+            acceleration: Acceleration::Bvh,
+            reuse: Reuse::Blocks,
+        }
     }
 }

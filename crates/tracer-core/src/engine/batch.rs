@@ -1,20 +1,22 @@
 //! The state of one batch: structures of arrays, allocated once per thread, small enough to stay in the L2 cache.
 //!
-//! A batch is up to [`ITEMS`] items; an item is a block of 8x8 pixels at one sample index. Slot s is pixel s % 64 (in Z-order) of
-//! item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
+//! A batch is up to [`ITEMS`] items; an item is a quarter of a tile of 16x16 pixels, 64 of them, at one sample index. Slot s is
+//! pixel s % 64 of item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
 use crate::scene::NONE;
 
-/// Pixels along a block's side.
-pub const BLOCK: u32 = 8;
-/// Pixels in a block.
+/// Pixels along a tile's side.
+pub const TILE: u32 = 16;
+/// Items that make a tile at one sample index.
+pub const QUARTERS: u32 = 4;
+/// Pixels in an item.
 pub const BLOCK_PIXELS: usize = 64;
 /// Items in a batch. 1024 paths: fewer leave the vectors of deep bounces empty, more leave the L2 cache.
 pub const ITEMS: usize = 16;
 /// Paths in a batch.
 pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
 /// Room behind every array for one vector more: a compressing store writes whole registers.
-const CAPACITY: usize = PATHS + 64;
+pub const CAPACITY: usize = PATHS + 64;
 
 /// Three columns: x, y, z or r, g, b.
 pub type Columns = [Vec<f32>; 3];
@@ -32,12 +34,58 @@ fn columns() -> Columns {
 /// One item.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Item {
-    /// Block column.
-    pub block_x: u32,
-    /// Block row.
-    pub block_y: u32,
+    /// Tile column.
+    pub tile_x: u32,
+    /// Tile row.
+    pub tile_y: u32,
+    /// Which quarter of the tile.
+    pub quarter: u32,
     /// Sample index.
     pub sample: u32,
+}
+
+/// From this sample index on a quarter is a square of 8x8 pixels; before, it is every other pixel of every other row. What the pixels
+/// of an item share makes their errors alike: squares would show as such while there are few samples, and are better with many.
+const SQUARE_FROM: u32 = 16;
+
+impl Item {
+    /// The Z-order number in the tile of its pixel k is (k << `shift`) | `offset`.
+    #[inline(always)]
+    pub fn z_of_pixels(&self) -> (u32, u32) {
+        if self.sample < SQUARE_FROM { (2, self.quarter) } else { (0, self.quarter << 6) }
+    }
+
+    /// Its pixels by their Z-order numbers in the tile.
+    pub fn pixels(&self) -> &'static [u8; BLOCK_PIXELS] {
+        const fn table(shift: u32, offset: u32) -> [u8; BLOCK_PIXELS] {
+            let mut pixels = [0; BLOCK_PIXELS];
+            let mut k = 0;
+            while k < BLOCK_PIXELS {
+                pixels[k] = ((k as u32) << shift | offset) as u8;
+                k += 1;
+            }
+            pixels
+        }
+        static SPREAD: [[u8; BLOCK_PIXELS]; 4] = [table(2, 0), table(2, 1), table(2, 2), table(2, 3)];
+        static SQUARE: [[u8; BLOCK_PIXELS]; 4] = [table(0, 0), table(0, 64), table(0, 128), table(0, 192)];
+        let tables = if self.sample < SQUARE_FROM { &SPREAD } else { &SQUARE };
+        &tables[(self.quarter % QUARTERS) as usize]
+    }
+}
+
+/// What the word [`Paths::slot`] holds beside the slot.
+pub mod path {
+    /// The slot: which pixel of which item.
+    pub const SLOT: u32 = super::PATHS as u32 - 1;
+    /// The path carries light to the second vertex of a pixel's path, which the pixels of the item share: its radiance goes to the
+    /// upper half of [`super::Batch::radiance`].
+    pub const SHARED: u32 = super::PATHS as u32;
+    /// Slot and sum: where radiance goes.
+    pub const SUM: u32 = SLOT | SHARED;
+    /// The path has left a member ([`super::Members`]); what it meets next may be shared.
+    pub const MAKER: u32 = 2 * SHARED;
+    /// The path has been past that and carries light to its own pixel only. Neither of the three: only mirrors and glass so far.
+    pub const OWN: u32 = 4 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -54,7 +102,7 @@ pub struct Paths {
     pub eta2: Vec<f32>,
     /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
     pub pdf: Vec<f32>,
-    /// Slot.
+    /// Slot and state, see [`path`].
     pub slot: Vec<u32>,
     /// The surface the ray leaves.
     pub from_primitive: Vec<u32>,
@@ -100,18 +148,115 @@ pub struct Shadows {
     pub t_max: Vec<f32>,
     /// What arrives at the slot if nothing is between.
     pub contribution: Columns,
-    /// Slot.
+    /// Slot and sum, see [`path`].
     pub slot: Vec<u32>,
     /// The surface the ray leaves.
     pub from_primitive: Vec<u32>,
     /// Its instance.
     pub from_instance: Vec<u32>,
-    /// The light's own primitive.
-    pub light_primitive: Vec<u32>,
-    /// The instance of a light: always NONE.
-    pub light_instance: Vec<u32>,
+    /// The primitive that the ray goes to, which does not block it.
+    pub target_primitive: Vec<u32>,
+    /// Its instance; of lights always NONE.
+    pub target_instance: Vec<u32>,
     /// 1: something is between.
     pub occluded: Vec<u32>,
+}
+
+impl Shadows {
+    fn new() -> Self {
+        Shadows {
+            len: 0,
+            origin: columns(),
+            direction: columns(),
+            t_max: floats(),
+            contribution: columns(),
+            slot: words(),
+            from_primitive: words(),
+            from_instance: words(),
+            target_primitive: words(),
+            target_instance: vec![NONE; CAPACITY],
+            occluded: words(),
+        }
+    }
+}
+
+/// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
+pub struct Members {
+    /// Number of members.
+    pub len: usize,
+    /// Where rays from here start.
+    pub start: Columns,
+    /// Shading normal.
+    pub normal: Columns,
+    /// Geometric normal.
+    pub geometric: Columns,
+    /// Direction to the viewer.
+    pub wo: Columns,
+    /// What the path carried to here times the material's colour.
+    pub weight: Columns,
+    /// Blinn-Phong: alpha.
+    pub parameter: Vec<f32>,
+    /// Blinn-Phong: s.
+    pub specular: Vec<f32>,
+    /// Probability that the path went on from here.
+    pub survival: Vec<f32>,
+    /// One of [`member_kind`].
+    pub kind: Vec<u32>,
+    /// Slot.
+    pub slot: Vec<u32>,
+    /// The surface.
+    pub primitive: Vec<u32>,
+    /// Its instance.
+    pub instance: Vec<u32>,
+}
+
+/// How a member scatters.
+pub mod member_kind {
+    /// Lambert.
+    pub const DIFFUSE: u32 = 0;
+    /// Blinn-Phong by the report's formula.
+    pub const GLOSSY: u32 = 1;
+    /// Blinn-Phong, energy-conserving.
+    pub const CONSERVING: u32 = 2;
+    /// Added where `start` lies above the surface (see `Surface::start`), so that sinking rays may meet it.
+    pub const RAISED: u32 = 4;
+}
+
+/// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items, pixels.
+pub struct Suffixes {
+    /// Number of suffixes.
+    pub len: usize,
+    /// The point, off the surface by its error.
+    pub point: Columns,
+    /// Geometric normal, on the side that light leaves.
+    pub normal: Columns,
+    /// Slot of the path that found it; its radiance is in the upper half of [`Batch::radiance`] there.
+    pub slot: Vec<u32>,
+    /// The surface.
+    pub primitive: Vec<u32>,
+    /// Its instance.
+    pub instance: Vec<u32>,
+}
+
+/// A run of [`Members`] of one item whose paths have the same number of vertices: they share.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Group {
+    /// First member.
+    pub first: u32,
+    /// Number of members, at most [`BLOCK_PIXELS`].
+    pub len: u32,
+}
+
+/// Who shares what, and what comes of it.
+pub struct Groups {
+    /// The groups.
+    pub list: Vec<Group>,
+    /// Per suffix: the group that shares it.
+    pub of_suffix: Vec<u32>,
+    /// Per suffix: the members of its group that were found not to see it, a bit each.
+    pub blocked: Vec<u64>,
+    /// Per member: the light that it gets.
+    pub gathered: Columns,
 }
 
 /// What a batch counted.
@@ -123,7 +268,9 @@ pub struct Counters {
     pub scattered_rays: u64,
     /// Rays to lights.
     pub shadow_rays: u64,
-    /// Samples that were not finite or negative.
+    /// Rays to what other pixels have found.
+    pub segments: u64,
+    /// Samples that were not finite.
     pub dropped: u64,
 }
 
@@ -133,6 +280,7 @@ impl Counters {
         self.camera_rays += other.camera_rays;
         self.scattered_rays += other.scattered_rays;
         self.shadow_rays += other.shadow_rays;
+        self.segments += other.segments;
         self.dropped += other.dropped;
     }
 }
@@ -141,8 +289,10 @@ impl Counters {
 pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
-    /// Z-order number of each item's block (padded to a register's table).
-    pub block_z: Vec<u32>,
+    /// Z-order number of each item's tile, shifted by eight, and the offset of [`Item::z_of_pixels`] (padded to a register's table).
+    pub item_z: Vec<u32>,
+    /// The shift of [`Item::z_of_pixels`] as a factor.
+    pub item_scale: Vec<u32>,
     /// The living paths.
     pub paths: Paths,
     /// The paths after the next scattering.
@@ -151,8 +301,16 @@ pub struct Batch {
     pub hits: Hits,
     /// Shadow rays of this bounce.
     pub shadows: Shadows,
-    /// Radiance of each slot.
+    /// Rays between first and second vertices of different pixels; they change places with `shadows` while they are traced.
+    pub segments: Shadows,
+    /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path found.
     pub radiance: Columns,
+    /// First vertices that share.
+    pub members: Members,
+    /// Second vertices that are shared.
+    pub suffixes: Suffixes,
+    /// Who shares what.
+    pub groups: Groups,
     /// Indices of the rays that the tree is asked about.
     pub active: Vec<u32>,
     /// How many they are.
@@ -166,24 +324,43 @@ impl Batch {
     pub fn new() -> Self {
         Batch {
             items: Vec::with_capacity(ITEMS),
-            block_z: vec![0; ITEMS],
+            item_z: vec![0; ITEMS],
+            item_scale: vec![0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
             hits: Hits { t: floats(), primitive: words(), instance: words() },
-            shadows: Shadows {
+            shadows: Shadows::new(),
+            segments: Shadows::new(),
+            radiance: [0, 1, 2].map(|_| vec![0.0; 2 * PATHS + 64]),
+            members: Members {
                 len: 0,
-                origin: columns(),
-                direction: columns(),
-                t_max: floats(),
-                contribution: columns(),
+                start: columns(),
+                normal: columns(),
+                geometric: columns(),
+                wo: columns(),
+                weight: columns(),
+                parameter: floats(),
+                specular: floats(),
+                survival: floats(),
+                kind: words(),
                 slot: words(),
-                from_primitive: words(),
-                from_instance: words(),
-                light_primitive: words(),
-                light_instance: vec![NONE; CAPACITY],
-                occluded: words(),
+                primitive: words(),
+                instance: words(),
             },
-            radiance: columns(),
+            suffixes: Suffixes {
+                len: 0,
+                point: columns(),
+                normal: columns(),
+                slot: words(),
+                primitive: words(),
+                instance: words(),
+            },
+            groups: Groups {
+                list: Vec::with_capacity(CAPACITY),
+                of_suffix: words(),
+                blocked: vec![0; CAPACITY],
+                gathered: columns(),
+            },
             active: words(),
             active_len: 0,
             counters: Counters::default(),

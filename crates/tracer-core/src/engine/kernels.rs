@@ -1,7 +1,9 @@
 //! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
 
 use super::batch::Batch;
-use super::stages::{camera, reach, shade, spheres};
+use super::stages::share::Round;
+use super::stages::{camera, reach, shade, share, spheres};
+use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::level::Level;
 use crate::scene::Scene;
@@ -11,10 +13,12 @@ use crate::scene::Scene;
 pub struct Kernels {
     camera: unsafe fn(&Scene, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
-    shade: unsafe fn(&Scene, u32, u32, &mut Batch),
+    shade: unsafe fn(&Scene, Pass, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
+    share_segments: unsafe fn(u32, Round, usize, &mut Batch) -> usize,
+    share_gather: unsafe fn(&mut Batch),
 }
 
 /// The entry functions of a level.
@@ -31,8 +35,8 @@ macro_rules! kernels {
                 spheres::spheres_closest::<$lanes>(scene, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn shade_entry(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
-                shade::shade::<$lanes>(scene, seed, vertex, batch)
+            fn shade_entry(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
+                shade::shade::<$lanes>(scene, pass, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn occluded_entry(scene: &Scene, batch: &mut Batch) {
@@ -46,6 +50,14 @@ macro_rules! kernels {
             fn reach_occluded_entry(boxes: &TopBoxes, batch: &mut Batch) {
                 reach::reach_occluded::<$lanes>(boxes, batch)
             }
+            $(#[target_feature(enable = $features)])?
+            fn share_segments_entry(seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
+                share::share_segments::<$lanes>(seed, round, next, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn share_gather_entry(batch: &mut Batch) {
+                share::share_gather::<$lanes>(batch)
+            }
             pub const KERNELS: Kernels = Kernels {
                 camera: camera_entry,
                 closest: closest_entry,
@@ -53,6 +65,8 @@ macro_rules! kernels {
                 occluded: occluded_entry,
                 reach_closest: reach_closest_entry,
                 reach_occluded: reach_occluded_entry,
+                share_segments: share_segments_entry,
+                share_gather: share_gather_entry,
             };
         }
     };
@@ -95,14 +109,24 @@ impl Kernels {
         unsafe { (self.closest)(scene, batch) }
     }
     /// Shades the hits of a vertex.
-    pub fn shade(&self, scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
+    pub fn shade(&self, scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
         // SAFETY: as above.
-        unsafe { (self.shade)(scene, seed, vertex, batch) }
+        unsafe { (self.shade)(scene, pass, vertex, batch) }
     }
     /// Which shadow rays the spheres block.
     pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.occluded)(scene, batch) }
+    }
+    /// Segments from suffix `next` on; gives the suffix to go on with.
+    pub fn share_segments(&self, seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
+        // SAFETY: as above.
+        unsafe { (self.share_segments)(seed, round, next, batch) }
+    }
+    /// Each member's share of each suffix.
+    pub fn share_gather(&self, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.share_gather)(batch) }
     }
     /// Which paths the tree is asked about.
     pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {

@@ -1,6 +1,6 @@
 //! The path engine: batches of paths through stages, over lanes, on all cores.
 //!
-//! A pass adds a range of sample indices to every block of the picture. Blocks are independent and a pixel's sum is exact
+//! A pass adds a range of sample indices to every tile of the picture. Tiles are independent and a pixel's sum is exact
 //! ([`crate::film`]), so threads take batches in any order and the film is the same.
 
 mod batch;
@@ -14,7 +14,7 @@ pub use batch::Counters;
 use crate::film::{Crop, Film};
 use crate::lanes::level::Level;
 use crate::scene::Scene;
-use batch::{BLOCK, Batch, ITEMS, Item};
+use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
 use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -33,6 +33,8 @@ pub struct RenderOptions {
     pub threads: usize,
     /// Lane type; the bytes are the same for all.
     pub level: Option<Level>,
+    /// Whether the pixels of a block share what they find.
+    pub reuse: Option<bool>,
 }
 
 /// How far a rendering is.
@@ -66,45 +68,51 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let level = options.level.unwrap_or_else(Level::best);
     let kernels = Kernels::new(level);
     let samples = options.samples.unwrap_or(scene.samples);
-    let seed = options.seed.unwrap_or(scene.seed);
+    let pass_options =
+        trace::Pass { seed: options.seed.unwrap_or(scene.seed), reuse: options.reuse.unwrap_or(scene.reuse) };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
-    let mut film = Film::new(scene.size, crop, seed);
-    let blocks: Vec<(u32, u32)> = film.block_positions().collect();
-    let samples_total = blocks.len() as u64 * u64::from(samples) * u64::from(BLOCK * BLOCK);
+    let mut film = Film::new(scene.size, crop, pass_options.seed);
+    let tiles: Vec<(u32, u32)> = film.tile_positions().collect();
+    let samples_total = tiles.len() as u64 * u64::from(samples) * u64::from(TILE * TILE);
     let done = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
     for pass in passes(samples) {
-        // Whole blocks per batch: a block's samples of one pass are added by one thread.
-        let per_batch = (ITEMS / (pass.end - pass.start).min(ITEMS as u32) as usize).max(1);
+        // Whole tiles per batch: a tile's samples of one pass are added by one thread.
+        let per_batch = (SAMPLES / (pass.end - pass.start).min(SAMPLES)) as usize;
         let next = AtomicUsize::new(0);
-        let cells: Vec<Mutex<&mut crate::film::Block>> = film.blocks_mut().map(Mutex::new).collect();
+        let cells: Vec<Mutex<&mut crate::film::Tile>> = film.tiles_mut().map(Mutex::new).collect();
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {
                 let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
-                let Some(mine) = blocks.get(first..blocks.len().min(first + per_batch)) else { break };
+                let Some(mine) = tiles.get(first..tiles.len().min(first + per_batch)) else { break };
                 if mine.is_empty() {
                     break;
                 }
                 let mut sample = pass.start;
                 while sample < pass.end {
-                    let count = (pass.end - sample).min(ITEMS as u32);
+                    let count = (pass.end - sample).min(SAMPLES);
                     let batch = &mut worker.batch;
                     batch.items.clear();
-                    for &(block_x, block_y) in mine {
-                        batch.items.extend((sample..sample + count).map(|sample| Item { block_x, block_y, sample }));
-                    }
-                    trace::trace(scene, &kernels, seed, batch);
-                    for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
-                        let mut block = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-                        for j in 0..count as usize {
-                            let slots = (k * count as usize + j) * batch::BLOCK_PIXELS;
-                            batch.counters.dropped += block.add(&batch.radiance, slots);
+                    for &(tile_x, tile_y) in mine {
+                        for sample in sample..sample + count {
+                            let quarters = 0..QUARTERS;
+                            batch.items.extend(quarters.map(|quarter| Item { tile_x, tile_y, quarter, sample }));
                         }
                     }
+                    trace::trace(scene, &kernels, pass_options, batch);
+                    let items_of_tile = (count * QUARTERS) as usize;
+                    for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
+                        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+                        for item in k * items_of_tile..(k + 1) * items_of_tile {
+                            let pixels = batch.items[item].pixels();
+                            batch.counters.dropped += tile.add(&batch.radiance, item * batch::BLOCK_PIXELS, pixels);
+                        }
+                        tile.count(count);
+                    }
                     sample += count;
-                    let added = mine.len() * count as usize * batch::BLOCK_PIXELS;
+                    let added = mine.len() * items_of_tile * batch::BLOCK_PIXELS;
                     let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
                     if observer.progress(Progress { samples_done, samples_total }).is_break() {
                         stopped.store(true, Ordering::Relaxed);
@@ -136,6 +144,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     film
 }
 
+/// Samples of a tile that fill a batch.
+const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
+
 /// A thread's memory.
 struct Worker {
     batch: Batch,
@@ -166,7 +177,7 @@ fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
             return None;
         }
         // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
-        let whole = if rest > ITEMS as u32 { rest - rest % ITEMS as u32 } else { 1 << rest.ilog2() };
+        let whole = if rest > SAMPLES { rest - rest % SAMPLES } else { 1 << rest.ilog2() };
         let pass = start..start + whole;
         start = pass.end;
         Some(pass)
@@ -183,8 +194,8 @@ mod tests {
             let mut next = 0;
             for pass in passes(samples) {
                 assert_eq!(pass.start, next);
-                let n = (pass.end - pass.start) as usize;
-                assert!(n.is_multiple_of(ITEMS) || ITEMS.is_multiple_of(n));
+                let n = pass.end - pass.start;
+                assert!(n.is_multiple_of(SAMPLES) || SAMPLES.is_multiple_of(n));
                 next = pass.end;
             }
             assert_eq!(next, samples);

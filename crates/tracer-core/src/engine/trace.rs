@@ -1,18 +1,34 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
-use super::batch::{Batch, Columns};
+use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
+use super::stages::share::Round;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::sampling::sampler::z_order;
 use crate::scene::Scene;
 
+/// What is the same for all batches of a rendering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// Seed of all random choices.
+    pub seed: u32,
+    /// Pixels share what they find ([`super::stages::share`]).
+    pub reuse: bool,
+}
+
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
-pub fn trace(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
-    for (z, item) in batch.block_z.iter_mut().zip(&batch.items) {
-        *z = z_order(item.block_x, item.block_y);
+pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
+    for (k, item) in batch.items.iter().enumerate() {
+        let (shift, offset) = item.z_of_pixels();
+        batch.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
+        batch.item_scale[k] = 1 << shift;
     }
-    kernels.camera(scene, seed, batch);
+    batch.members.len = 0;
+    batch.suffixes.len = 0;
+    batch.groups.list.clear();
+    kernels.camera(scene, pass.seed, batch);
+    let mut groups_before = [0; ITEMS];
     let mut vertex = 0;
     while batch.paths.len > 0 {
         kernels.closest(scene, batch);
@@ -20,14 +36,58 @@ pub fn trace(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
             kernels.reach_closest(accel.top_boxes(), batch);
             closest_in_tree(accel, vertex == 0, batch);
         }
-        kernels.shade(scene, seed, vertex, batch);
-        kernels.occluded(scene, batch);
-        if let Some(accel) = &scene.accel {
-            kernels.reach_occluded(accel.top_boxes(), batch);
-            occluded_in_tree(accel, batch);
+        let (members, suffixes) = (batch.members.len, batch.suffixes.len);
+        kernels.shade(scene, pass, vertex, batch);
+        for j in suffixes..batch.suffixes.len {
+            batch.groups.of_suffix[j] = groups_before[(batch.suffixes.slot[j] >> 6) as usize];
         }
+        group(members, batch, &mut groups_before);
+        occluded(scene, kernels, batch);
         deposit(batch);
         vertex += 1;
+    }
+    if batch.suffixes.len > 0 {
+        share(scene, kernels, pass.seed, batch);
+    }
+}
+
+/// Groups the members from `first` on, those of one vertex, by item.
+fn group(first: usize, batch: &mut Batch, group_of_item: &mut [u32; ITEMS]) {
+    let mut item = u32::MAX;
+    for i in first..batch.members.len {
+        let of_member = batch.members.slot[i] >> 6;
+        if of_member != item {
+            item = of_member;
+            group_of_item[item as usize] = batch.groups.list.len() as u32;
+            batch.groups.list.push(Group { first: i as u32, len: 0 });
+        }
+        if let Some(group) = batch.groups.list.last_mut() {
+            group.len += 1;
+        }
+    }
+}
+
+/// Gives the members of each group the light of its suffixes.
+fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
+    batch.groups.blocked[..batch.suffixes.len].fill(0);
+    for round in [Round::Look, Round::Rest] {
+        let mut next = 0;
+        while next < batch.suffixes.len {
+            next = kernels.share_segments(seed, round, next, batch);
+            std::mem::swap(&mut batch.shadows, &mut batch.segments);
+            occluded(scene, kernels, batch);
+            std::mem::swap(&mut batch.shadows, &mut batch.segments);
+            let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
+            for (&occluded, &tag) in occluded[..*len].iter().zip(tags) {
+                batch.groups.blocked[(tag >> 6) as usize] |= u64::from(occluded) << (tag & 63);
+            }
+        }
+    }
+    kernels.share_gather(batch);
+    for (channel, gathered) in batch.radiance.iter_mut().zip(&batch.groups.gathered) {
+        for (&slot, &light) in batch.members.slot[..batch.members.len].iter().zip(gathered) {
+            channel[slot as usize] += light;
+        }
     }
 }
 
@@ -64,14 +124,17 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     accel.closest(&rays, &batch.active[..batch.active_len], &mut hits, coherence);
 }
 
-/// Which of the shadow rays in `batch.active` the tree blocks.
-fn occluded_in_tree(accel: &Accel, batch: &mut Batch) {
+/// Which of the shadow rays something blocks.
+fn occluded(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
+    kernels.occluded(scene, batch);
+    let Some(accel) = &scene.accel else { return };
+    kernels.reach_occluded(accel.top_boxes(), batch);
     let len = batch.shadows.len;
     let shadows = &mut batch.shadows;
     let mut occlusion = Occlusion {
         tmax: &shadows.t_max[..len],
-        target_primitive: &shadows.light_primitive[..len],
-        target_instance: &shadows.light_instance[..len],
+        target_primitive: &shadows.target_primitive[..len],
+        target_instance: &shadows.target_instance[..len],
         occluded: &mut shadows.occluded[..len],
     };
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive, &shadows.from_instance, len);

@@ -14,7 +14,7 @@
 //! picture after N samples does not depend on how many were asked for. The first two bounces' directions take the
 //! first four dimensions of one sequence (over samples; over pixels they are padded).
 //!
-//! The index is shuffled per block of 8x8 pixels, so all that depends on the sample index is scalar work, once per block.
+//! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per tile.
 
 use super::sobol::{higher_dimension, owen, pascal_lower, pascal_upper, shuffle_index};
 use crate::lanes::{ArrayU, Bits, Lanes};
@@ -60,7 +60,7 @@ pub fn hash3(a: u32, b: u32, c: u32) -> u64 {
     mix(mix((u64::from(a) << 32) | u64::from(b)).wrapping_add(u64::from(c).wrapping_mul(0x9e37_79b9_7f4a_7c15)))
 }
 
-/// The part of a point that depends on (block, sample index): reversed fractions before the pixel's own part is added.
+/// The part of a point that depends on (tile, sample index): reversed fractions before the pixel's own part is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplePart {
     /// First dimension.
@@ -87,14 +87,14 @@ impl Pair {
         Pair { purpose, seed, pixel_key: a as u32, owen_x: b as u32, owen_y: (b >> 32) as u32 }
     }
 
-    /// The part that depends on the block and the sample index.
-    pub fn sample_part(&self, block: u32, sample: u32) -> SamplePart {
+    /// The part that depends on the tile and the sample index.
+    pub fn sample_part(&self, tile: u32, sample: u32) -> SamplePart {
         // The first two directions share one shuffled index: four dimensions of one sequence.
         let set = match self.purpose {
             Purpose::Direction(1) => Purpose::Direction(0).id(),
             other => other.id(),
         };
-        let index = shuffle_index(sample, hash3(self.seed ^ 0x9e37_79b9, set, block) as u32);
+        let index = shuffle_index(sample, hash3(self.seed ^ 0x9e37_79b9, set, tile) as u32);
         if self.purpose == Purpose::Direction(1) {
             SamplePart { x: higher_dimension(0, index), y: higher_dimension(1, index) }
         } else {
@@ -138,7 +138,7 @@ mod tests {
     use crate::lanes::ArrayF;
 
     fn points(pair: &Pair, x: u32, y: u32, sample: u32) -> (f32, f32) {
-        let part = pair.sample_part(z_order(x / 8, y / 8), sample);
+        let part = pair.sample_part(z_order(x / 16, y / 16), sample);
         let (u, v) = pair.points::<ArrayF<1>>(
             ArrayU::splat(z_order(x, y).reverse_bits()),
             ArrayU::splat(part.x),
@@ -177,18 +177,18 @@ mod tests {
         }
     }
 
-    /// 2^n samples of the pixels of an aligned Z-ordered group of 2^k hit every one of 2^(n + k) strata once: in-block groups, where
-    /// the sample index is shuffled alike.
+    /// 2^n samples of the pixels of an aligned Z-ordered group of 2^k hit every one of 2^(n + k) strata once: groups within a tile,
+    /// where the sample index is shuffled alike.
     #[test]
     fn groups_of_pixels_are_stratified_for_every_number_of_samples() {
         for purpose in PURPOSES {
             let pair = Pair::new(11, purpose);
             for n in 0..5 {
-                for k in [1u32, 2, 3, 4, 6] {
+                for k in [1u32, 2, 3, 4, 6, 8] {
                     let mut seen = vec![[0u32; 2]; 1 << (n + k)];
                     for z in 0..1u32 << k {
-                        let (mut x, mut y) = (40, 16);
-                        for bit in 0..3 {
+                        let (mut x, mut y) = (48, 16);
+                        for bit in 0..4 {
                             x += (z >> (2 * bit) & 1) << bit;
                             y += (z >> (2 * bit + 1) & 1) << bit;
                         }

@@ -46,6 +46,8 @@ pub struct Scene {
     pub max_bounces: u32,
     /// Seed of all random choices, unless the caller says otherwise.
     pub seed: u32,
+    /// Whether the pixels of a block share what they find, unless the caller says otherwise.
+    pub reuse: bool,
     /// Radiance of everything that no object covers.
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.

@@ -8,7 +8,7 @@ use tracer_reference::statistics::{Estimate, chi_square, sidak};
 
 /// A point of the sampler.
 fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
-    let part = pair.sample_part(z_order(x / 8, y / 8), sample);
+    let part = pair.sample_part(z_order(x / 16, y / 16), sample);
     let z = ArrayU::splat(z_order(x, y).reverse_bits());
     let (u, v) = pair.points::<ArrayF<1>>(z, ArrayU::splat(part.x), ArrayU::splat(part.y));
     let mut out = [[0.0]; 2];

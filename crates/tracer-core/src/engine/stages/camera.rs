@@ -1,13 +1,13 @@
 //! Camera rays: a point in the pixel by its filter, a point on the lens.
 
-use crate::engine::batch::{BLOCK, BLOCK_PIXELS, Batch};
+use crate::engine::batch::{BLOCK_PIXELS, Batch, PATHS, TILE};
 use crate::lanes::{Bits, Lanes};
 use crate::math::{V3, ln, sincos_turns};
 use crate::sampling::sampler::{Pair, Purpose};
 use crate::sampling::warp;
 use crate::scene::{Camera, Filter, NONE, Scene};
 
-/// x and y of the pixels of a block in Z-order.
+/// x and y of 64 pixels in Z-order.
 static PIXEL_X: [f32; BLOCK_PIXELS] = z_order_coordinates(0);
 static PIXEL_Y: [f32; BLOCK_PIXELS] = z_order_coordinates(1);
 
@@ -37,20 +37,23 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
     let (scale_x, scale_y) = (c(2.0 / width as f32), c(-2.0 / height as f32));
     let paths = &mut batch.paths;
     for (k, item) in batch.items.iter().enumerate() {
-        let block_z = batch.block_z[k];
-        let pixel_part = pixel.sample_part(block_z, item.sample);
-        let lens_part = lens.sample_part(block_z, item.sample);
+        let item_z = batch.item_z[k];
+        let pixel_part = pixel.sample_part(item_z >> 8, item.sample);
+        let lens_part = lens.sample_part(item_z >> 8, item.sample);
         // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
-        let left = c((item.block_x * BLOCK) as f32 + 0.5 - width as f32 / 2.0);
-        let top = c((item.block_y * BLOCK) as f32 + 0.5 - height as f32 / 2.0);
+        let (shift, offset) = item.z_of_pixels();
+        let side = f32::from(1u8 << (shift / 2));
+        let (offset_x, offset_y) = z_order_position(offset);
+        let left = c((item.tile_x * TILE + offset_x) as f32 + 0.5 - width as f32 / 2.0);
+        let top = c((item.tile_y * TILE + offset_y) as f32 + 0.5 - height as f32 / 2.0);
         for j in (0..BLOCK_PIXELS).step_by(F::N) {
             let i = k * BLOCK_PIXELS + j;
             let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
-            let z = (F::U::splat(block_z << 6) | F::U::load(&SLOTS[j..])).reverse_bits();
+            let z = (F::U::splat(item_z) + F::U::load(&SLOTS[j..]) * F::U::splat(1 << shift)).reverse_bits();
             let (u, v) = pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y));
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
-            let x = (left + F::load(&PIXEL_X[j..]) + dx) * scale_x;
-            let y = (top + F::load(&PIXEL_Y[j..]) + dy) * scale_y;
+            let x = (F::load(&PIXEL_X[j..]).fma(c(side), left) + dx) * scale_x;
+            let y = (F::load(&PIXEL_Y[j..]).fma(c(side), top) + dy) * scale_y;
             let mut direction = right.mad(x, up.mad(y, forward));
             let mut origin = eye;
             if camera.lens_radius > 0.0 {
@@ -66,6 +69,7 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
             direction.normalise().store(&mut paths.direction, i);
             V3::grey(c(1.0)).store(&mut paths.throughput, i);
             V3::<F>::zero().store(&mut batch.radiance, i);
+            V3::<F>::zero().store(&mut batch.radiance, PATHS + i);
             c(1.0).store(&mut paths.eta2[i..]);
             c(-1.0).store(&mut paths.pdf[i..]);
             slot.store(&mut paths.slot[i..]);
@@ -75,6 +79,12 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
     }
     paths.len = batch.items.len() * BLOCK_PIXELS;
     batch.counters.camera_rays += paths.len as u64;
+}
+
+/// x and y of a Z-order number below 256.
+fn z_order_position(z: u32) -> (u32, u32) {
+    let squeeze = |b: u32| (b & 1) | (b >> 1 & 2) | (b >> 2 & 4) | (b >> 3 & 8);
+    (squeeze(z), squeeze(z >> 1))
 }
 
 static SLOTS: [u32; BLOCK_PIXELS] = {

@@ -6,6 +6,7 @@ pub mod lights;
 pub mod materials;
 pub mod reach;
 pub mod shade;
+pub mod share;
 pub mod spheres;
 pub mod surface;
 pub mod textures;

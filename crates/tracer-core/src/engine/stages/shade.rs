@@ -5,9 +5,11 @@
 
 use super::lights;
 use super::materials::{Bsdf, reflect_bent, sample_dielectric};
+use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
 use super::textures::texture_color;
-use crate::engine::batch::{Batch, Columns, Item};
+use crate::engine::batch::{Batch, Columns, Item, path};
+use crate::engine::trace::Pass;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{Pair, Purpose};
@@ -18,16 +20,18 @@ use crate::scene::{NONE, Scene};
 const ROULETTE_FROM: u32 = 3;
 
 /// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in `batch.shadows`.
+/// Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to `batch.members` and `batch.suffixes`.
 #[inline(always)]
-pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch) {
+pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
+    let seed = pass.seed;
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
-    let (items, block_z) = (&batch.items, &batch.block_z);
-    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items, block_z);
-    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items, block_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items, block_z);
-    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, block_z);
+    let (items, item_z) = (&batch.items, &batch.item_z);
+    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items, item_z);
+    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items, item_z);
+    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items, item_z);
+    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, item_z);
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     // After the last scattering a ray is cast only to see the light that it meets.
@@ -35,21 +39,25 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
     let last = vertex == scene.max_bounces;
 
     let (paths, next, shadows) = (&batch.paths, &mut batch.next, &mut batch.shadows);
+    let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
+    // A member's second vertex needs a scattering of its own.
+    let joins = pass.reuse && vertex < scene.max_bounces;
     next.len = 0;
     shadows.len = 0;
     for i in (0..paths.len).step_by(F::N) {
         let valid = F::first(paths.len - i);
         let origin = V3::<F>::load(&paths.origin, i);
         let direction = V3::<F>::load(&paths.direction, i);
-        let throughput = V3::<F>::load(&paths.throughput, i);
-        let eta2 = F::load(&paths.eta2[i..]);
-        let slot = F::U::load(&paths.slot[i..]);
+        let mut throughput = V3::<F>::load(&paths.throughput, i);
+        let mut eta2 = F::load(&paths.eta2[i..]);
+        let mut slot = F::U::load(&paths.slot[i..]);
         let primitive = F::U::load(&batch.hits.primitive[i..]);
         let instance = F::U::load(&batch.hits.instance[i..]);
         let hit = valid & !primitive.eq(F::U::splat(NONE));
         if open {
             let miss = valid & !hit;
-            add_to_slots(&mut batch.radiance, slot, throughput.scale(eta2).mul(background), miss);
+            let sum = slot & F::U::splat(path::SUM);
+            add_to_slots(&mut batch.radiance, sum, throughput.scale(eta2).mul(background), miss);
         }
         if !hit.any() {
             continue;
@@ -64,7 +72,7 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
             let sampled = lights::pdf(&tables.lights, light, origin);
             let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
-            add_to_slots(&mut batch.radiance, slot, seen, emits);
+            add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits);
         }
         let surfaces = hit & !emits;
         if !scatters || !surfaces.any() {
@@ -82,9 +90,22 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
         }
         let wo = direction.neg();
         let rough = bsdf.diffuse | bsdf.glossy;
+        if pass.reuse && vertex > 0 {
+            let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
+            // Light leaves a diffuse vertex alike in all directions: what comes from here on is any member's.
+            let shared = found & bsdf.diffuse;
+            if shared.any() {
+                add_suffixes(suffixes, &s, slot, primitive, instance, shared);
+                throughput = V3::select(shared, V3::grey(one), throughput);
+                eta2 = F::select(shared, one, eta2);
+            }
+            let bare = slot & F::U::splat(path::SLOT);
+            let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
+            slot = F::U::select(found, own, slot);
+        }
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid };
-        let pixel = PixelOf::<F>::new(slot, &batch.block_z);
+        let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
 
         // Light sampled from here.
         if rough.any() && tables.lights.len > 0 {
@@ -108,10 +129,10 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
                 l.wi.compress(cast, &mut shadows.direction, k);
                 l.distance.compress(cast, &mut shadows.t_max[k..]);
                 value.compress(cast, &mut shadows.contribution, k);
-                slot.compress(cast, &mut shadows.slot[k..]);
+                (slot & F::U::splat(path::SUM)).compress(cast, &mut shadows.slot[k..]);
                 leaves(&s, l.wi, primitive).compress(cast, &mut shadows.from_primitive[k..]);
                 instance.compress(cast, &mut shadows.from_instance[k..]);
-                l.primitive.compress(cast, &mut shadows.light_primitive[k..]);
+                l.primitive.compress(cast, &mut shadows.target_primitive[k..]);
                 shadows.len += cast.count();
             }
         }
@@ -150,10 +171,23 @@ pub fn shade<F: Lanes>(scene: &Scene, seed: u32, vertex: u32, batch: &mut Batch)
             new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2, eta2);
         }
         let mut carried = throughput.mul(weight);
+        let mut survival = one;
+        let mut member = F::M::from_bits(0);
+        let colored = throughput.mul(bsdf.color);
+        if joins {
+            let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
+            member = surfaces & rough & fresh & zero.lt(colored.max_component());
+        }
         if vertex >= ROULETTE_FROM {
-            let q = carried.max_component().min(one);
-            alive = alive & go_on.lt(q);
-            carried = carried.scale(one / F::select(zero.lt(q), q, one));
+            // That a member goes on must not depend on where to: other pixels reckon with its density.
+            survival = F::select(member, colored.max_component(), carried.max_component()).min(one);
+            alive = alive & go_on.lt(survival);
+            carried = carried.scale(one / F::select(zero.lt(survival), survival, one));
+        }
+        if member.any() {
+            let arrives = colored.scale(eta2);
+            add_members(members, &bsdf, &s, wo, arrives, survival, slot, primitive, instance, member);
+            slot = F::U::select(member, slot | F::U::splat(path::MAKER), slot);
         }
         let alive = alive & zero.lt(carried.max_component());
         let k = next.len;
@@ -218,9 +252,9 @@ struct PixelOf<F: Lanes> {
 
 impl<F: Lanes> PixelOf<F> {
     #[inline(always)]
-    fn new(slot: F::U, block_z: &[u32]) -> Self {
-        let item = slot.shr::<6>();
-        let z = F::U::gather(block_z, item).shl::<6>() | (slot & F::U::splat(63));
+    fn new(slot: F::U, item_z: &[u32], item_scale: &[u32]) -> Self {
+        let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
+        let z = F::U::gather(item_z, item) + (slot & F::U::splat(63)) * F::U::gather(item_scale, item);
         PixelOf { reversed_z: z.reverse_bits(), item }
     }
 }
@@ -235,11 +269,11 @@ struct PairPoints<F: Lanes> {
 
 impl<F: Lanes> PairPoints<F> {
     #[inline(always)]
-    fn new(seed: u32, purpose: Purpose, items: &[Item], block_z: &[u32]) -> Self {
+    fn new(seed: u32, purpose: Purpose, items: &[Item], item_z: &[u32]) -> Self {
         let pair = Pair::new(seed, purpose);
         let (mut x, mut y) = ([0; 16], [0; 16]);
         for (k, item) in items.iter().enumerate() {
-            let part = pair.sample_part(block_z[k], item.sample);
+            let part = pair.sample_part(item_z[k] >> 8, item.sample);
             x[k] = part.x;
             y[k] = part.y;
         }

@@ -127,7 +127,7 @@ pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
             F::U::load(&shadows.from_primitive[i..]),
         );
         let t_max = F::load(&shadows.t_max[i..]);
-        let light = F::U::load(&shadows.light_primitive[i..]);
+        let target = F::U::load(&shadows.target_primitive[i..]);
         let mut occluded = F::M::from_bits(0);
         for s in &spheres.large {
             let own = ray.leaves(s);
@@ -141,7 +141,7 @@ pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
             let ends_inside = at_end.lt(zero);
             let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);
             let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-            occluded = occluded | (blocked & !light.eq(F::U::splat(s.id)));
+            occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
         }
         for s in &spheres.small {
             let own = ray.leaves(s);
@@ -157,7 +157,7 @@ pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
             let ends_inside = at_end.lt(zero);
             let dips = k_start.lt(-beta) & (-beta).lt(k_end) & zero.lt(disc);
             let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-            occluded = occluded | (blocked & !light.eq(F::U::splat(s.id)));
+            occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
         }
         F::U::select(occluded, F::U::splat(1), F::U::splat(0)).store(&mut shadows.occluded[i..]);
     }

@@ -1,0 +1,338 @@
+//! Pixels of an item share the second vertices of their paths.
+//!
+//! A path's first diffuse or glossy vertex x (after any mirrors and glass) is a *member*; where the ray that it casts meets a
+//! diffuse surface, that point y with the light L that leaves it is a *suffix*. Every member i of a group (one item, the same
+//! number of vertices before) could have cast a ray to every suffix j, with the density per area p_ij = q_i pdf_i cos_y / d^2, so
+//! all of them are one estimate by the balance heuristic (Veach 1997), visibility V included:
+//!
+//! pixel i gets  w_i f_ij cos_x cos_y / d^2 V_ij L_j / sum_k q_k p_kj V_kj,
+//!
+//! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is counted does not
+//! depend on who has found it. Testing all 64 segments to a suffix would cost more than the paths. So the segments are put into
+//! [`CLASSES`] classes, and those of one class, chosen by hash, are traced. When none is blocked, the sums are taken as if none at
+//! all were: W. When one is, all others are traced too, which gives W', and W + (W' - W)/Q is taken, where Q, the share of classes
+//! that hold a blocked segment, is the probability that this was noticed. The expectation is W'; single samples can be negative.
+//! A suffix is always seen by the member that has found it.
+//!
+//! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and glass behind x
+//! and the light that the ray itself meets stay with the path's own pixel.
+
+use super::materials::Bsdf;
+use super::surface::Surface;
+use crate::engine::batch::{Batch, Group, Members, PATHS, Shadows, Suffixes, member_kind, path};
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::sampling::sampler::hash3;
+use crate::scene::NONE;
+
+/// Classes of segments.
+const CLASSES: usize = 16;
+
+/// The members of each class, a bit each: i, i / 4 and i / 16 mixed, so that a class is spread over the item.
+const CLASS: [u64; CLASSES] = {
+    let mut class = [0; CLASSES];
+    let mut i = 0;
+    while i < 64 {
+        class[(i ^ i >> 2 ^ i >> 4) & (CLASSES - 1)] |= 1 << i;
+        i += 1;
+    }
+    class
+};
+
+/// Adds the lanes of the mask to the members.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+pub fn add_members<F: Lanes>(
+    members: &mut Members,
+    bsdf: &Bsdf<F>,
+    s: &Surface<F>,
+    wo: V3<F>,
+    weight: V3<F>,
+    survival: F,
+    slot: F::U,
+    primitive: F::U,
+    instance: F::U,
+    mask: F::M,
+) {
+    let kind = F::U::splat;
+    let raised = s.smooth & !s.start.sub(s.p).dot(s.ng).le(s.offset);
+    let glossy = F::U::select(bsdf.conserving, kind(member_kind::CONSERVING), kind(member_kind::GLOSSY));
+    let scatters = F::U::select(bsdf.glossy, glossy, kind(member_kind::DIFFUSE));
+    let k = members.len;
+    s.start.compress(mask, &mut members.start, k);
+    s.ns.compress(mask, &mut members.normal, k);
+    s.ng.compress(mask, &mut members.geometric, k);
+    wo.compress(mask, &mut members.wo, k);
+    weight.compress(mask, &mut members.weight, k);
+    bsdf.parameter.compress(mask, &mut members.parameter[k..]);
+    bsdf.specular.compress(mask, &mut members.specular[k..]);
+    survival.compress(mask, &mut members.survival[k..]);
+    F::U::select(raised, scatters | kind(member_kind::RAISED), scatters).compress(mask, &mut members.kind[k..]);
+    slot.compress(mask, &mut members.slot[k..]);
+    primitive.compress(mask, &mut members.primitive[k..]);
+    instance.compress(mask, &mut members.instance[k..]);
+    members.len += mask.count();
+}
+
+/// Adds the lanes of the mask to the suffixes.
+#[inline(always)]
+pub fn add_suffixes<F: Lanes>(
+    suffixes: &mut Suffixes,
+    s: &Surface<F>,
+    slot: F::U,
+    primitive: F::U,
+    instance: F::U,
+    mask: F::M,
+) {
+    let k = suffixes.len;
+    s.ng.mad(s.offset, s.p).compress(mask, &mut suffixes.point, k);
+    s.ng.compress(mask, &mut suffixes.normal, k);
+    (slot & F::U::splat(path::SLOT)).compress(mask, &mut suffixes.slot[k..]);
+    primitive.compress(mask, &mut suffixes.primitive[k..]);
+    instance.compress(mask, &mut suffixes.instance[k..]);
+    suffixes.len += mask.count();
+}
+
+/// Which segments are to be traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Round {
+    /// Those of one class per suffix.
+    Look,
+    /// All others of the suffixes where one was blocked.
+    Rest,
+}
+
+/// Which class of segments to the suffix of a slot is looked at.
+fn looked_at(seed: u32, item_z: u32, sample: u32, slot: u32) -> usize {
+    let salt = hash3(seed, sample, 0x5e6_3e47) as u32;
+    hash3(salt, item_z, slot & 63) as usize % CLASSES
+}
+
+/// A suffix, the same in all lanes.
+struct Target<F: Lanes> {
+    point: V3<F>,
+    normal: V3<F>,
+    slot: F::U,
+}
+
+impl<F: Lanes> Target<F> {
+    #[inline(always)]
+    fn new(suffixes: &Suffixes, j: usize) -> Self {
+        let at = |columns: &[Vec<f32>; 3]| [columns[0][j], columns[1][j], columns[2][j]];
+        Target {
+            point: V3::splat(at(&suffixes.point)),
+            normal: V3::splat(at(&suffixes.normal)),
+            slot: F::U::splat(suffixes.slot[j]),
+        }
+    }
+}
+
+/// The light that leaves suffix j.
+#[inline(always)]
+fn light(batch: &Batch, j: usize) -> [f32; 3] {
+    let at = PATHS + batch.suffixes.slot[j] as usize;
+    [batch.radiance[0][at], batch.radiance[1][at], batch.radiance[2][at]]
+}
+
+/// Members i .. i + N seen from a suffix.
+struct Pairs<F: Lanes> {
+    /// From the member to the suffix; unit.
+    direction: V3<F>,
+    distance: F,
+    cos_member: F,
+    cos_suffix: F,
+    /// The member that has found the suffix.
+    own: F::M,
+}
+
+impl<F: Lanes> Pairs<F> {
+    #[inline(always)]
+    fn new(members: &Members, i: usize, target: &Target<F>) -> Self {
+        let c = F::splat;
+        let to = target.point.sub(V3::load(&members.start, i));
+        let distance2 = to.dot(to).max(c(1e-30));
+        let distance = distance2.sqrt();
+        let direction = to.scale(c(1.0) / distance);
+        Pairs {
+            direction,
+            distance,
+            cos_member: V3::load(&members.normal, i).dot(direction),
+            cos_suffix: -target.normal.dot(direction),
+            own: F::U::load(&members.slot[i..]).eq(target.slot),
+        }
+    }
+}
+
+/// Fills `batch.segments` with rays from suffix `next` on; gives the suffix to go on with. The tag of a ray, in `slot`, is its
+/// suffix times 64 plus its member's place in the group.
+#[inline(always)]
+pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
+    let c = F::splat;
+    batch.segments.len = 0;
+    let mut j = next;
+    while j < batch.suffixes.len && batch.segments.len + 64 <= PATHS {
+        if round == Round::Rest && batch.groups.blocked[j] == 0 || light(batch, j) == [0.0; 3] {
+            j += 1;
+            continue;
+        }
+        let slot = batch.suffixes.slot[j];
+        let item = (slot >> 6) as usize;
+        let looked = CLASS[looked_at(seed, batch.item_z[item], batch.items[item].sample, slot)];
+        let wanted = if round == Round::Look { looked } else { !looked };
+        let group = batch.groups.list[batch.groups.of_suffix[j] as usize];
+        let target = Target::<F>::new(&batch.suffixes, j);
+        let (members, rays): (&Members, &mut Shadows) = (&batch.members, &mut batch.segments);
+        let (primitive, instance) = (batch.suffixes.primitive[j], batch.suffixes.instance[j]);
+        for base in (0..group.len as usize).step_by(F::N) {
+            let lanes = F::first(group.len as usize - base);
+            let of_class = lanes & F::M::from_bits((wanted >> base) as u32 & F::first(F::N).bits());
+            if !of_class.any() {
+                continue;
+            }
+            let i = group.first as usize + base;
+            let pairs = Pairs::new(members, i, &target);
+            let faces = c(0.0).lt(pairs.cos_member) & c(0.0).lt(pairs.cos_suffix);
+            let cast = of_class & faces & !pairs.own;
+            let kind = F::U::load(&members.kind[i..]);
+            let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
+            let sinks = raised & pairs.direction.dot(V3::load(&members.geometric, i)).le(c(0.0));
+            let from = F::U::select(sinks, F::U::splat(NONE), F::U::load(&members.primitive[i..]));
+            let k = rays.len;
+            V3::<F>::load(&members.start, i).compress(cast, &mut rays.origin, k);
+            pairs.direction.compress(cast, &mut rays.direction, k);
+            pairs.distance.compress(cast, &mut rays.t_max[k..]);
+            from.compress(cast, &mut rays.from_primitive[k..]);
+            F::U::load(&members.instance[i..]).compress(cast, &mut rays.from_instance[k..]);
+            F::U::splat(primitive).compress(cast, &mut rays.target_primitive[k..]);
+            F::U::splat(instance).compress(cast, &mut rays.target_instance[k..]);
+            let tag = F::U::load(&PLACES[base..]) + F::U::splat((j * 64) as u32);
+            tag.compress(cast, &mut rays.slot[k..]);
+            rays.len += cast.count();
+        }
+        j += 1;
+    }
+    batch.counters.segments += batch.segments.len as u64;
+    j
+}
+
+const PLACES: [u32; 64] = {
+    let mut table = [0; 64];
+    let mut k = 0;
+    while k < 64 {
+        table[k] = k as u32;
+        k += 1;
+    }
+    table
+};
+
+/// Gives every member its share of every suffix.
+#[inline(always)]
+pub fn share_gather<F: Lanes>(batch: &mut Batch) {
+    for column in &mut batch.groups.gathered {
+        column[..batch.members.len].fill(0.0);
+    }
+    for j in 0..batch.suffixes.len {
+        let light = light(batch, j);
+        if light == [0.0; 3] {
+            continue;
+        }
+        let group = batch.groups.list[batch.groups.of_suffix[j] as usize];
+        let blocked = batch.groups.blocked[j];
+        let target = Target::<F>::new(&batch.suffixes, j);
+        let mut pairs = PairTerms { density: [0.0; 64], value: [0.0; 64] };
+        for base in (0..group.len as usize).step_by(F::N) {
+            pairs.fill::<F>(&batch.members, group, base, &target);
+        }
+        let (all, unblocked) = pairs.sums(blocked);
+        // A finder that could not have found it, by rounding.
+        if unblocked <= 0.0 {
+            continue;
+        }
+        // What a segment that is seen counts, and what one that is not.
+        let (seen, hidden) = if blocked == 0 {
+            (1.0 / all, 1.0 / all)
+        } else {
+            let noticed = CLASS.iter().filter(|&&class| class & blocked != 0).count() as f32 / CLASSES as f32;
+            let untested = (1.0 - 1.0 / noticed) / all;
+            (untested + 1.0 / (unblocked * noticed), untested)
+        };
+        let light = V3::<F>::splat(light);
+        for base in (0..group.len as usize).step_by(F::N) {
+            let i = group.first as usize + base;
+            let hides = F::M::from_bits((blocked >> base) as u32 & F::first(F::N).bits());
+            let share = F::load(&pairs.value[base..]) * F::select(hides, F::splat(hidden), F::splat(seen));
+            let lit = V3::load(&batch.members.weight, i).mul(light).scale(share);
+            // Beyond the group's end the share is zero.
+            V3::load(&batch.groups.gathered, i).add(lit).store(&mut batch.groups.gathered, i);
+        }
+    }
+}
+
+/// Density and value of the pairs of one suffix, per member of the group; zero beyond its end.
+struct PairTerms {
+    density: [f32; 64],
+    value: [f32; 64],
+}
+
+impl PairTerms {
+    /// Members base .. base + N of the group.
+    #[inline(always)]
+    fn fill<F: Lanes>(&mut self, members: &Members, group: Group, base: usize, target: &Target<F>) {
+        let c = F::splat;
+        let i = group.first as usize + base;
+        let lanes = F::first(group.len as usize - base);
+        let p = Pairs::new(members, i, target);
+        // The finder's cosines are positive but for rounding.
+        let least = F::select(p.own, c(1e-12), c(0.0));
+        let cos_member = p.cos_member.max(least);
+        let geometry = p.cos_suffix.max(least) / (p.distance * p.distance);
+        let mut density = cos_member * c(std::f32::consts::FRAC_1_PI);
+        let mut value = density;
+        let kind = F::U::load(&members.kind[i..]) & F::U::splat(member_kind::GLOSSY | member_kind::CONSERVING);
+        let glossy = lanes & !kind.eq(F::U::splat(member_kind::DIFFUSE));
+        if glossy.any() {
+            let none = F::M::from_bits(0);
+            let bsdf = Bsdf {
+                color: V3::grey(c(1.0)),
+                parameter: F::load(&members.parameter[i..]),
+                specular: F::load(&members.specular[i..]),
+                diffuse: lanes & !glossy,
+                mirror: none,
+                transparent: none,
+                glossy,
+                conserving: glossy & kind.eq(F::U::splat(member_kind::CONSERVING)),
+            };
+            let (ns, wo) = (V3::load(&members.normal, i), V3::load(&members.wo, i));
+            let (f, pdf) = bsdf.evaluate(ns, wo, p.direction, cos_member);
+            let usable = glossy & c(0.0).lt(cos_member);
+            density = F::select(glossy, F::select(usable, pdf, c(0.0)), density);
+            value = F::select(glossy, F::select(usable, f.0 * cos_member, c(0.0)), value);
+        }
+        let survival = F::load(&members.survival[i..]);
+        F::select(lanes, density * geometry * survival, c(0.0)).store(&mut self.density[base..]);
+        F::select(lanes, value * geometry, c(0.0)).store(&mut self.value[base..]);
+    }
+
+    /// The sum of all densities, and of those that are not blocked; in an order that does not depend on the number of lanes.
+    #[inline(always)]
+    fn sums(&self, blocked: u64) -> (f32, f32) {
+        let (mut all, mut unblocked) = ([0.0f32; 16], [0.0f32; 16]);
+        for (row, densities) in self.density.chunks_exact(16).enumerate() {
+            let bits = (blocked >> (16 * row)) as u32;
+            for (k, &density) in densities.iter().enumerate() {
+                all[k] += density;
+                unblocked[k] += if bits >> k & 1 == 0 { density } else { 0.0 };
+            }
+        }
+        (sum_of_16(&all), sum_of_16(&unblocked))
+    }
+}
+
+#[inline(always)]
+fn sum_of_16(x: &[f32; 16]) -> f32 {
+    let mut half = [0.0f32; 8];
+    for (k, sum) in half.iter_mut().enumerate() {
+        *sum = x[k] + x[k + 8];
+    }
+    ((half[0] + half[4]) + (half[1] + half[5])) + ((half[2] + half[6]) + (half[3] + half[7]))
+}
