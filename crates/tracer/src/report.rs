@@ -98,6 +98,8 @@ pub struct Rays {
     pub scattered: u64,
     /// From surfaces to lights.
     pub shadow: u64,
+    /// From surfaces to what other pixels have found (`render.reuse`).
+    pub segments: u64,
     /// All.
     pub total: u64,
     /// All, per second of `seconds.render`.
@@ -111,7 +113,7 @@ pub struct Samples {
     pub total: u64,
     /// Per second of `seconds.render`.
     pub per_second: f64,
-    /// Not finite or negative, and left out of the picture.
+    /// Not finite, and left out of the picture.
     pub dropped: u64,
 }
 

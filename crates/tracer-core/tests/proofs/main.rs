@@ -8,6 +8,7 @@
 mod analytic;
 mod figures;
 mod random_scenes;
+mod reuse;
 mod same_bytes;
 mod sampler;
 mod seams;

@@ -1,8 +1,9 @@
-//! The engine's picture against the reference's.
+//! The engine's picture against the reference's, and against itself with other settings.
 
 use super::{effort, film};
 use scene_format::SceneDesc;
-use tracer_core::Film;
+use scene_format::desc::Reuse;
+use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
 use tracer_reference::{Smoothing, render};
 
@@ -26,70 +27,105 @@ pub struct Samples {
     pub reference: u32,
 }
 
+/// A rectangle of pixels: left, top, right, bottom.
+type Rectangle = [u32; 4];
+
+fn pixels([left, top, right, bottom]: Rectangle) -> impl Iterator<Item = (u32, u32)> {
+    (top..bottom).flat_map(move |y| (left..right).map(move |x| (x, y)))
+}
+
+fn area([left, top, right, bottom]: Rectangle) -> f64 {
+    f64::from((right - left) * (bottom - top))
+}
+
+/// Renderings of one scene with independent seeds.
+struct Renderings(Vec<Film>);
+
+impl Renderings {
+    fn new(scene: &Scene, samples: u32, first_seed: u32) -> Self {
+        Renderings((first_seed..first_seed + SEEDS).map(|seed| film(scene, samples, seed)).collect())
+    }
+
+    /// Mean of a channel over a rectangle. However the pixels of one rendering hang together, the renderings tell its variance.
+    fn estimate(&self, rectangle: Rectangle, channel: usize) -> Estimate {
+        let mean =
+            |film: &Film| pixels(rectangle).map(|(x, y)| film.radiance(x, y)[channel]).sum::<f64>() / area(rectangle);
+        Estimate::of(&self.0.iter().map(mean).collect::<Vec<_>>())
+    }
+}
+
 /// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all tiles of all
 /// scenes together (Šidák), and the means of the channels within three standard errors.
 pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     let scene = super::compiled(desc);
-    let [width, height] = scene.size;
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
-    let films: Vec<Film> = (0..SEEDS).map(|seed| film(&scene, engine_samples, 1000 + seed)).collect();
+    let engine = Renderings::new(&scene, engine_samples, 1000);
     let reference = render(&scene, samples.reference * effort(), 7, Smoothing::Hanika);
-
-    let estimates = |x0: u32, y0: u32, x1: u32, y1: u32, channel: usize| {
-        let count = f64::from((x1 - x0) * (y1 - y0));
-        let pixels = || (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)));
-        let means: Vec<f64> =
-            films.iter().map(|f| pixels().map(|(x, y)| f.radiance(x, y)[channel]).sum::<f64>() / count).collect();
-        let at = |(x, y): (u32, u32)| (y * width + x) as usize;
-        let theirs = Estimate {
-            mean: pixels().map(|p| reference.mean[at(p)][channel]).sum::<f64>() / count,
-            variance: pixels().map(|p| reference.variance[at(p)][channel]).sum::<f64>() / (count * count),
-            freedom: f64::INFINITY,
-        };
-        (Estimate::of(&means), theirs)
+    let at = |(x, y): (u32, u32)| (y * scene.size[0] + x) as usize;
+    let theirs = |rectangle: Rectangle, channel: usize| Estimate {
+        mean: pixels(rectangle).map(|p| reference.mean[at(p)][channel]).sum::<f64>() / area(rectangle),
+        variance: pixels(rectangle).map(|p| reference.variance[at(p)][channel]).sum::<f64>() / area(rectangle).powi(2),
+        freedom: f64::INFINITY,
     };
-    let tiles: Vec<(u32, u32)> =
-        (0..height.div_ceil(TILE)).flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| (x, y))).collect();
-    let level = sidak(sidak(FAMILY_LEVEL, SCENES), 3 * tiles.len());
+    assert_agree(name, scene.size, SCENES, &|r, c| engine.estimate(r, c), &theirs);
+}
+
+/// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture; enough samples
+/// that both shapes of items occur (see `engine::batch`). `scenes`: how many are compared so in all.
+pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
+    let rendered = |reuse: Reuse, samples: u32, first_seed: u32| {
+        let mut desc = desc.clone();
+        desc.render.reuse = reuse;
+        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
+    };
+    let size = [desc.image.width.value, desc.image.height.value];
+    let (shared, alone) = (rendered(Reuse::Blocks, 24, 2000), rendered(Reuse::None, 64, 3000));
+    assert_agree(name, size, scenes, &|r, c| shared.estimate(r, c), &|r, c| alone.estimate(r, c));
+}
+
+/// Tiles and means of two pictures of the same scene, one of `scenes`.
+fn assert_agree(
+    name: &str,
+    [width, height]: [u32; 2],
+    scenes: usize,
+    one: &dyn Fn(Rectangle, usize) -> Estimate,
+    other: &dyn Fn(Rectangle, usize) -> Estimate,
+) {
+    let tiles: Vec<Rectangle> = (0..height.div_ceil(TILE))
+        .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| (x, y)))
+        .map(|(x, y)| [x * TILE, y * TILE, width.min((x + 1) * TILE), height.min((y + 1) * TILE)])
+        .collect();
+    let level = sidak(sidak(FAMILY_LEVEL, scenes), 3 * tiles.len());
     let mut faults = Vec::new();
     let mut worst = 0.0f64;
-    for &(x, y) in &tiles {
+    let line = |place: String, ours: &Estimate, theirs: &Estimate, z: f64| {
+        let (a, b) = (ours.mean, theirs.mean);
+        format!("{place}: {a:.6} +- {:.6}, against {b:.6} +- {:.6}, z {z:.2}", ours.error(), theirs.error())
+    };
+    for tile in tiles {
         for channel in 0..3 {
-            let (ours, theirs) =
-                estimates(x * TILE, y * TILE, width.min((x + 1) * TILE), height.min((y + 1) * TILE), channel);
+            let (ours, theirs) = (one(tile, channel), other(tile, channel));
             let comparison = agree(&ours, &theirs);
             worst = worst.max(comparison.z.abs());
             // False for no number, too.
             let same = comparison.probability >= level;
             if !same {
-                faults.push(format!(
-                    "tile ({x}, {y}) channel {channel}: engine {:.6} +- {:.6}, reference {:.6} +- {:.6}, z {:.2}",
-                    ours.mean,
-                    ours.error(),
-                    theirs.mean,
-                    theirs.error(),
-                    comparison.z
-                ));
+                faults.push(line(format!("pixels {tile:?} channel {channel}"), &ours, &theirs, comparison.z));
             }
         }
     }
     for channel in 0..3 {
-        let (ours, theirs) = estimates(0, 0, width, height, channel);
+        let whole = [0, 0, width, height];
+        let (ours, theirs) = (one(whole, channel), other(whole, channel));
         let z = agree(&ours, &theirs).z;
-        let line = format!(
-            "mean of channel {channel}: engine {:.6} +- {:.6}, reference {:.6} +- {:.6}, z {z:.2}",
-            ours.mean,
-            ours.error(),
-            theirs.mean,
-            theirs.error()
-        );
+        let line = line(format!("mean of channel {channel}"), &ours, &theirs, z);
         println!("{name}: {line}; worst tile z {worst:.2}");
         let same = z.abs() <= MEANS;
         if !same {
             faults.push(line);
         }
     }
-    assert!(faults.is_empty(), "{name} differs from the reference:\n{}", faults.join("\n"));
+    assert!(faults.is_empty(), "{name} differs:\n{}", faults.join("\n"));
 }
 
 /// Compares, allowing for the rounding of `f32` where there is no noise to hide it: a picture of 10 operations per vertex and 10

@@ -85,7 +85,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
 
     if film.counters.dropped > 0 {
         shell.say(&format!(
-            "warning: {} samples were not finite or negative and are left out; repeat with: {}",
+            "warning: {} samples were not finite and are left out; repeat with: {}",
             film.counters.dropped,
             repeat::command(args, &desc)
         ));
@@ -213,7 +213,7 @@ fn report(
 ) -> Report {
     let statistics = scene.statistics();
     let counters = film.counters;
-    let rays = counters.camera_rays + counters.scattered_rays + counters.shadow_rays;
+    let rays = counters.camera_rays + counters.scattered_rays + counters.shadow_rays + counters.segments;
     let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
@@ -239,6 +239,7 @@ fn report(
             camera: counters.camera_rays,
             scattered: counters.scattered_rays,
             shadow: counters.shadow_rays,
+            segments: counters.segments,
             total: rays,
             per_second: per_second(rays),
         },
