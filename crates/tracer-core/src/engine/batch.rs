@@ -52,7 +52,13 @@ impl Item {
     /// The Z-order number in the tile of its pixel k is (k << `shift`) | `offset`.
     #[inline(always)]
     pub fn z_of_pixels(&self) -> (u32, u32) {
-        if self.sample < SQUARE_FROM { (2, self.quarter) } else { (0, self.quarter << 6) }
+        if self.is_spread() { (2, self.quarter) } else { (0, self.quarter << 6) }
+    }
+
+    /// Its pixels lie two apart.
+    #[inline(always)]
+    pub fn is_spread(&self) -> bool {
+        self.sample < SQUARE_FROM
     }
 
     /// Its pixels by their Z-order numbers in the tile.
@@ -68,7 +74,7 @@ impl Item {
         }
         static SPREAD: [[u8; BLOCK_PIXELS]; 4] = [table(2, 0), table(2, 1), table(2, 2), table(2, 3)];
         static SQUARE: [[u8; BLOCK_PIXELS]; 4] = [table(0, 0), table(0, 64), table(0, 128), table(0, 192)];
-        let tables = if self.sample < SQUARE_FROM { &SPREAD } else { &SQUARE };
+        let tables = if self.is_spread() { &SPREAD } else { &SQUARE };
         &tables[(self.quarter % QUARTERS) as usize]
     }
 }

@@ -42,7 +42,7 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
             batch.groups.of_suffix[j] = groups_before[(batch.suffixes.slot[j] >> 6) as usize];
         }
         group(members, batch, &mut groups_before);
-        occluded(scene, kernels, batch);
+        occluded(scene, kernels, Coherence::Incoherent, batch);
         deposit(batch);
         vertex += 1;
     }
@@ -75,7 +75,9 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
         while next < batch.suffixes.len {
             next = kernels.share_segments(seed, round, next, batch);
             std::mem::swap(&mut batch.shadows, &mut batch.segments);
-            occluded(scene, kernels, batch);
+            // All rays of the rest go to the same point.
+            let coherence = if round == Round::Rest { Coherence::Coherent } else { Coherence::Incoherent };
+            occluded(scene, kernels, coherence, batch);
             std::mem::swap(&mut batch.shadows, &mut batch.segments);
             let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
             for (&occluded, &tag) in occluded[..*len].iter().zip(tags) {
@@ -125,7 +127,7 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
 }
 
 /// Which of the shadow rays something blocks.
-fn occluded(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
+fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
     kernels.occluded(scene, batch);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);
@@ -138,5 +140,5 @@ fn occluded(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
         occluded: &mut shadows.occluded[..len],
     };
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive, &shadows.from_instance, len);
-    accel.occluded(&rays, &batch.active[..batch.active_len], &mut occlusion, Coherence::Incoherent);
+    accel.occluded(&rays, &batch.active[..batch.active_len], &mut occlusion, coherence);
 }

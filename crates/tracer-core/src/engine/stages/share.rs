@@ -9,7 +9,7 @@
 //!
 //! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is counted does not
 //! depend on who has found it. Testing all 64 segments to a suffix would cost more than the paths. So the segments are put into
-//! [`CLASSES`] classes, and those of one class, chosen by hash, are traced. When none is blocked, the sums are taken as if none at
+//! 16 or 32 classes ([`classes_of`]), and those of one class, chosen by hash, are traced. When none is blocked, the sums are taken as if none at
 //! all were: W. When one is, all others are traced too, which gives W', and W + (W' - W)/Q is taken, where Q, the share of classes
 //! that hold a blocked segment, is the probability that this was noticed. The expectation is W'; single samples can be negative.
 //! A suffix is always seen by the member that has found it.
@@ -19,25 +19,31 @@
 
 use super::materials::Bsdf;
 use super::surface::Surface;
-use crate::engine::batch::{Batch, Group, Members, PATHS, Shadows, Suffixes, member_kind, path};
+use crate::engine::batch::{Batch, Group, Item, Members, PATHS, Shadows, Suffixes, member_kind, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::hash3;
 use crate::scene::NONE;
 
-/// Classes of segments.
-const CLASSES: usize = 16;
-
 /// The members of each class, a bit each: i, i / 4 and i / 16 mixed, so that a class is spread over the item.
-const CLASS: [u64; CLASSES] = {
-    let mut class = [0; CLASSES];
+const fn classes<const COUNT: usize>() -> [u64; COUNT] {
+    let mut class = [0; COUNT];
     let mut i = 0;
     while i < 64 {
-        class[(i ^ i >> 2 ^ i >> 4) & (CLASSES - 1)] |= 1 << i;
+        class[(i ^ i >> 2 ^ i >> 4) & (COUNT - 1)] |= 1 << i;
         i += 1;
     }
     class
-};
+}
+
+/// The classes of an item. More of them mean fewer segments, and stronger corrections where one is blocked: those are seen while there
+/// are few samples.
+#[inline(always)]
+fn classes_of(item: &Item) -> &'static [u64] {
+    static EARLY: [u64; 16] = classes();
+    static LATE: [u64; 32] = classes();
+    if item.is_spread() { &EARLY } else { &LATE }
+}
 
 /// Adds the lanes of the mask to the members.
 #[inline(always)]
@@ -102,10 +108,11 @@ pub enum Round {
     Rest,
 }
 
-/// Which class of segments to the suffix of a slot is looked at.
-fn looked_at(seed: u32, item_z: u32, sample: u32, slot: u32) -> usize {
-    let salt = hash3(seed, sample, 0x5e6_3e47) as u32;
-    hash3(salt, item_z, slot & 63) as usize % CLASSES
+/// The members whose segments to the suffix of a slot are looked at.
+fn looked_at(seed: u32, item_z: u32, item: &Item, slot: u32) -> u64 {
+    let salt = hash3(seed, item.sample, 0x5e6_3e47) as u32;
+    let classes = classes_of(item);
+    classes[hash3(salt, item_z, slot & 63) as usize % classes.len()]
 }
 
 /// A suffix, the same in all lanes.
@@ -136,9 +143,11 @@ fn light(batch: &Batch, j: usize) -> [f32; 3] {
 
 /// Members i .. i + N seen from a suffix.
 struct Pairs<F: Lanes> {
-    /// From the member to the suffix; unit.
-    direction: V3<F>,
-    distance: F,
+    /// From the member to the suffix.
+    to: V3<F>,
+    /// Its squared length.
+    distance2: F,
+    /// The cosines at both ends times the distance.
     cos_member: F,
     cos_suffix: F,
     /// The member that has found the suffix.
@@ -148,16 +157,12 @@ struct Pairs<F: Lanes> {
 impl<F: Lanes> Pairs<F> {
     #[inline(always)]
     fn new(members: &Members, i: usize, target: &Target<F>) -> Self {
-        let c = F::splat;
         let to = target.point.sub(V3::load(&members.start, i));
-        let distance2 = to.dot(to).max(c(1e-30));
-        let distance = distance2.sqrt();
-        let direction = to.scale(c(1.0) / distance);
         Pairs {
-            direction,
-            distance,
-            cos_member: V3::load(&members.normal, i).dot(direction),
-            cos_suffix: -target.normal.dot(direction),
+            to,
+            distance2: to.dot(to).max(F::splat(1e-15)),
+            cos_member: V3::load(&members.normal, i).dot(to),
+            cos_suffix: -target.normal.dot(to),
             own: F::U::load(&members.slot[i..]).eq(target.slot),
         }
     }
@@ -177,7 +182,7 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
         }
         let slot = batch.suffixes.slot[j];
         let item = (slot >> 6) as usize;
-        let looked = CLASS[looked_at(seed, batch.item_z[item], batch.items[item].sample, slot)];
+        let looked = looked_at(seed, batch.item_z[item], &batch.items[item], slot);
         let wanted = if round == Round::Look { looked } else { !looked };
         let group = batch.groups.list[batch.groups.of_suffix[j] as usize];
         let target = Target::<F>::new(&batch.suffixes, j);
@@ -195,12 +200,13 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
             let cast = of_class & faces & !pairs.own;
             let kind = F::U::load(&members.kind[i..]);
             let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
-            let sinks = raised & pairs.direction.dot(V3::load(&members.geometric, i)).le(c(0.0));
+            let sinks = raised & pairs.to.dot(V3::load(&members.geometric, i)).le(c(0.0));
             let from = F::U::select(sinks, F::U::splat(NONE), F::U::load(&members.primitive[i..]));
             let k = rays.len;
             V3::<F>::load(&members.start, i).compress(cast, &mut rays.origin, k);
-            pairs.direction.compress(cast, &mut rays.direction, k);
-            pairs.distance.compress(cast, &mut rays.t_max[k..]);
+            let distance = pairs.distance2.sqrt();
+            pairs.to.scale(c(1.0) / distance).compress(cast, &mut rays.direction, k);
+            distance.compress(cast, &mut rays.t_max[k..]);
             from.compress(cast, &mut rays.from_primitive[k..]);
             F::U::load(&members.instance[i..]).compress(cast, &mut rays.from_instance[k..]);
             F::U::splat(primitive).compress(cast, &mut rays.target_primitive[k..]);
@@ -243,7 +249,8 @@ pub fn share_gather<F: Lanes>(batch: &mut Batch) {
         for base in (0..group.len as usize).step_by(F::N) {
             pairs.fill::<F>(&batch.members, group, base, &target);
         }
-        let (all, unblocked) = pairs.sums(blocked);
+        let all = pairs.sum(0);
+        let unblocked = if blocked == 0 { all } else { pairs.sum(blocked) };
         // A finder that could not have found it, by rounding.
         if unblocked <= 0.0 {
             continue;
@@ -252,7 +259,12 @@ pub fn share_gather<F: Lanes>(batch: &mut Batch) {
         let (seen, hidden) = if blocked == 0 {
             (1.0 / all, 1.0 / all)
         } else {
-            let noticed = CLASS.iter().filter(|&&class| class & blocked != 0).count() as f32 / CLASSES as f32;
+            let classes = classes_of(&batch.items[(batch.suffixes.slot[j] >> 6) as usize]);
+            let mut noticing = 0;
+            for class in classes {
+                noticing += usize::from(class & blocked != 0);
+            }
+            let noticed = noticing as f32 / classes.len() as f32;
             let untested = (1.0 - 1.0 / noticed) / all;
             (untested + 1.0 / (unblocked * noticed), untested)
         };
@@ -285,8 +297,10 @@ impl PairTerms {
         // The finder's cosines are positive but for rounding.
         let least = F::select(p.own, c(1e-12), c(0.0));
         let cos_member = p.cos_member.max(least);
-        let geometry = p.cos_suffix.max(least) / (p.distance * p.distance);
-        let mut density = cos_member * c(std::f32::consts::FRAC_1_PI);
+        let cos_suffix = p.cos_suffix.max(least);
+        // cos_member cos_suffix / (pi d^2), each cosine with its distance.
+        let inverse = c(1.0) / p.distance2;
+        let mut density = (cos_member * inverse) * (cos_suffix * inverse) * c(std::f32::consts::FRAC_1_PI);
         let mut value = density;
         let kind = F::U::load(&members.kind[i..]) & F::U::splat(member_kind::GLOSSY | member_kind::CONSERVING);
         let glossy = lanes & !kind.eq(F::U::splat(member_kind::DIFFUSE));
@@ -303,28 +317,30 @@ impl PairTerms {
                 conserving: glossy & kind.eq(F::U::splat(member_kind::CONSERVING)),
             };
             let (ns, wo) = (V3::load(&members.normal, i), V3::load(&members.wo, i));
-            let (f, pdf) = bsdf.evaluate(ns, wo, p.direction, cos_member);
+            let inverse_length = inverse.sqrt();
+            let cos_i = cos_member * inverse_length;
+            let (f, pdf) = bsdf.evaluate(ns, wo, p.to.scale(inverse_length), cos_i);
+            let geometry = cos_suffix * inverse_length * inverse;
             let usable = glossy & c(0.0).lt(cos_member);
-            density = F::select(glossy, F::select(usable, pdf, c(0.0)), density);
-            value = F::select(glossy, F::select(usable, f.0 * cos_member, c(0.0)), value);
+            density = F::select(glossy, F::select(usable, pdf * geometry, c(0.0)), density);
+            value = F::select(glossy, F::select(usable, f.0 * cos_i * geometry, c(0.0)), value);
         }
         let survival = F::load(&members.survival[i..]);
-        F::select(lanes, density * geometry * survival, c(0.0)).store(&mut self.density[base..]);
-        F::select(lanes, value * geometry, c(0.0)).store(&mut self.value[base..]);
+        F::select(lanes, density * survival, c(0.0)).store(&mut self.density[base..]);
+        F::select(lanes, value, c(0.0)).store(&mut self.value[base..]);
     }
 
-    /// The sum of all densities, and of those that are not blocked; in an order that does not depend on the number of lanes.
+    /// The sum of the densities that are not blocked, in an order that does not depend on the number of lanes.
     #[inline(always)]
-    fn sums(&self, blocked: u64) -> (f32, f32) {
-        let (mut all, mut unblocked) = ([0.0f32; 16], [0.0f32; 16]);
+    fn sum(&self, blocked: u64) -> f32 {
+        let mut sums = [0.0f32; 16];
         for (row, densities) in self.density.chunks_exact(16).enumerate() {
             let bits = (blocked >> (16 * row)) as u32;
             for (k, &density) in densities.iter().enumerate() {
-                all[k] += density;
-                unblocked[k] += if bits >> k & 1 == 0 { density } else { 0.0 };
+                sums[k] += if bits >> k & 1 == 0 { density } else { 0.0 };
             }
         }
-        (sum_of_16(&all), sum_of_16(&unblocked))
+        sum_of_16(&sums)
     }
 }
 
