@@ -21,7 +21,7 @@ pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<Strin
     let tree = parse(text, from, &mut sink);
     let Some(root) = tree.root() else { return Ok(String::new()) };
     let mut converter = Converter { tree: &tree, next_comment: 0, to };
-    // What stands before a RON scene is the file's; in TOML it belongs to the first line.
+    // What stands at the file's top stays there: a headline, a licence, how to render it.
     let before = match from {
         Syntax::Ron => converter.comments_before(root.span().start),
         Syntax::Toml => converter.comments_of_the_file(),
@@ -58,20 +58,17 @@ impl Converter<'_, '_> {
         taken
     }
 
-    /// Comments at the head of a TOML file that an empty line parts from the first entry.
+    /// The comments at the head of a TOML file, up to an empty line or the first entry: those are the file's.
     fn comments_of_the_file(&mut self) -> Vec<String> {
         let text = self.text();
-        let head = text.len() - text.trim_start_matches('\u{feff}').trim_start().len();
-        let mut end = head;
-        for line in text[head..].split_inclusive('\n') {
-            match line.trim() {
-                "" => return self.comments_before(end as u32),
-                line if line.starts_with('#') => {}
-                _ => break,
+        let mut end = text.len() - text.trim_start_matches('\u{feff}').trim_start().len();
+        for line in text[end..].split_inclusive('\n') {
+            if !line.trim_start().starts_with('#') {
+                break;
             }
             end += line.len();
         }
-        Vec::new()
+        self.comments_before(end as u32)
     }
 
     /// A comment on the same line, with nothing but a comma between.

@@ -23,6 +23,7 @@ pub mod render;
 mod schema;
 mod suggest;
 mod syntax;
+mod tape;
 mod tree;
 mod words;
 mod write;

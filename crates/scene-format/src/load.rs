@@ -7,6 +7,7 @@ use crate::overrides::{self, Override};
 use crate::read;
 use crate::syntax::{Sink, Syntax, ron, toml};
 use crate::tree::{Builder, Text, Tree};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Scene files may have this many bytes (1 GiB).
@@ -144,12 +145,12 @@ fn load_string(
 
 /// The tree of a text, whatever is wrong with it.
 pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
-    let mut builder = Builder::new(0, text.len());
-    let comments = match syntax {
-        Syntax::Ron => ron::parse(text, &mut builder, sink),
+    let mut builder = Builder::new(0);
+    let (comments, added) = match syntax {
+        Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
         Syntax::Toml => toml::parse(text, &mut builder, sink),
     };
-    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, comments }
+    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments }
 }
 
 fn too_large(name: String) -> LoadError {

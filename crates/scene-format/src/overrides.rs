@@ -45,6 +45,9 @@ const MAX_OVERRIDES: usize = u16::MAX as usize - 1;
 
 /// Edits the tree, one override after the other.
 pub(crate) fn apply<'s>(tree: &mut Tree<'s>, overrides: &'s [Override], sink: &mut Sink) {
+    if !overrides.is_empty() {
+        tree.flatten();
+    }
     for (index, set) in overrides.iter().take(MAX_OVERRIDES).enumerate() {
         let source = index as u16 + 1;
         tree.texts.push(Text { text: &set.argument, syntax: Syntax::Ron });
@@ -65,7 +68,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         .hint("put quotes around it in the shell if it has spaces or brackets: --set 'camera.fov=40'")
     })?;
     let steps = steps(&argument[..equals], source)?;
-    let mut builder = Builder { nodes: Vec::new(), source };
+    let mut builder = Builder::new(source);
     let faults = sink.errors;
     if argument[equals + 1..].trim().is_empty() {
         return Err(Diagnostic::error(
@@ -83,7 +86,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         // An empty file: it has no root to put the field into.
         tree.nodes.push(Node { start: 0, end: 0, size: 1, source: 0, kind: Kind::Struct });
     }
-    Setter { source, value: builder.nodes }.set(tree, &steps)
+    Setter { source, value: builder.nodes.iter().copied().collect() }.set(tree, &steps)
 }
 
 /// The first `=` outside quotes and brackets.
@@ -441,5 +444,8 @@ fn splice(tree: &mut Tree<'_>, inside: usize, range: std::ops::Range<usize>, nod
             node.size = (node.size as usize + new - old) as u32;
         }
     }
-    tree.nodes.splice(range, nodes);
+    let rest: Vec<Node> = (range.end..tree.nodes.len()).map(|index| tree.nodes[index]).collect();
+    tree.nodes.truncate(range.start);
+    tree.nodes.extend(nodes);
+    tree.nodes.extend(rest);
 }

@@ -3,10 +3,15 @@
 //! The tree is a tape of 16-byte nodes in the order of writing (a node is followed by its children), so that reading a scene of
 //! 10^5 objects allocates nothing per node. Nodes hold positions only; names, numbers and texts are read from the source text
 //! when somebody asks. This is the stage where `include`, `vars` and `repeat` will expand.
+//!
+//! TOML may go on with a table after others were written. What comes later stands in an `Added` node where it was written: it
+//! belongs not to the node around it but to the table that `added` names, after what that table has already.
 
 use crate::diagnostic::Span;
 use crate::syntax::{Syntax, decode};
+use crate::tape::Tape;
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,14 +42,27 @@ pub(crate) enum Kind {
     Map,
     /// The key of the value that follows.
     Key,
+    /// A table of TOML that a header of a table inside it made; to readers a `Map`, like the next two.
+    ImpliedTable,
+    /// A table of TOML that its own header made.
+    HeaderTable,
+    /// A table of TOML that a dotted key made.
+    DottedTable,
+    /// `[[name]]` in TOML; to readers a `List`.
+    TableList,
+    /// What belongs to a table elsewhere; `start` is the next node of this kind for the same table. Readers never see it.
+    Added,
 }
+
+/// In place of an index: there is none.
+pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// One entry of the tape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
     pub start: u32,
     pub end: u32,
-    /// Nodes in this subtree, this one included.
+    /// Nodes in this subtree, this one included; 0 while it is open: then it goes to the end of the tape.
     pub size: u32,
     pub source: u16,
     pub kind: Kind,
@@ -61,9 +79,11 @@ pub(crate) struct Text<'s> {
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<'s> {
     pub texts: Vec<Text<'s>>,
-    pub nodes: Vec<Node>,
+    pub nodes: Tape<Node>,
+    /// Tables that were gone on with, and the first `Added` node of each.
+    pub added: HashMap<u32, u32>,
     /// Comments of the scene file in order of writing.
-    pub comments: Vec<Span>,
+    pub comments: Tape<Span>,
 }
 
 impl<'s> Tree<'s> {
@@ -71,19 +91,32 @@ impl<'s> Tree<'s> {
     pub fn root(&self) -> Option<Item<'_, 's>> {
         (!self.nodes.is_empty()).then_some(Item { tree: self, index: 0 })
     }
+
+    /// Puts everything below the node that it belongs to, so that the tape can be edited.
+    pub fn flatten(&mut self) {
+        if self.added.is_empty() {
+            return;
+        }
+        let mut nodes = Tape::default();
+        if let Some(root) = self.root() {
+            root.copy_to(&mut nodes);
+        }
+        self.nodes = nodes;
+        self.added.clear();
+    }
 }
 
 /// Writes a tape in order.
 #[derive(Debug, Default)]
 pub(crate) struct Builder {
-    pub nodes: Vec<Node>,
+    pub nodes: Tape<Node>,
     pub source: u16,
 }
 
 impl Builder {
-    /// A builder for a text of `bytes` bytes: one node for every seven bytes is what scenes have.
-    pub fn new(source: u16, bytes: usize) -> Builder {
-        Builder { nodes: Vec::with_capacity(bytes / 7 + 8), source }
+    /// A builder of an empty tape for the text `source`.
+    pub fn new(source: u16) -> Builder {
+        Builder { nodes: Tape::default(), source }
     }
 
     pub fn leaf(&mut self, kind: Kind, start: usize, end: usize) {
@@ -92,7 +125,12 @@ impl Builder {
 
     /// Begins a node with children; `close` ends it.
     pub fn open(&mut self, start: usize) -> usize {
-        self.leaf(Kind::Broken, start, start);
+        self.open_as(Kind::Broken, start, start)
+    }
+
+    /// As `open`, for a node whose kind and span are known.
+    pub fn open_as(&mut self, kind: Kind, start: usize, end: usize) -> usize {
+        self.nodes.push(Node { start: start as u32, end: end as u32, size: 0, source: self.source, kind });
         self.nodes.len() - 1
     }
 
@@ -124,12 +162,26 @@ impl<'t, 's> Item<'t, 's> {
     }
 
     pub fn kind(&self) -> Kind {
-        self.node().kind
+        match self.node().kind {
+            Kind::ImpliedTable | Kind::HeaderTable | Kind::DottedTable => Kind::Map,
+            Kind::TableList => Kind::List,
+            kind => kind,
+        }
     }
 
     pub fn span(&self) -> Span {
         let node = self.node();
         Span { source: u32::from(node.source), start: node.start, end: node.end }
+    }
+
+    /// Writes the subtree to the end of a tape, without `Added` nodes.
+    fn copy_to(&self, nodes: &mut Tape<Node>) {
+        let at = nodes.len();
+        nodes.push(Node { kind: self.kind(), ..*self.node() });
+        for child in self.children() {
+            child.copy_to(nodes);
+        }
+        nodes[at].size = (nodes.len() - at) as u32;
     }
 
     pub fn syntax(&self) -> Syntax {
@@ -208,8 +260,17 @@ impl<'t, 's> Item<'t, 's> {
 
     /// Children; for structs and maps see [`Item::fields`].
     pub fn children(&self) -> Children<'t, 's> {
-        let index = self.index + 1;
-        Children { tree: self.tree, index, end: self.index + self.node().size as usize }
+        let added = match self.tree.added.is_empty() {
+            true => NOWHERE,
+            false => self.tree.added.get(&(self.index as u32)).copied().unwrap_or(NOWHERE),
+        };
+        Children { tree: self.tree, index: self.index + 1, end: self.index + self.node().size as usize, added }
+    }
+
+    /// How many nodes of this subtree stand before a child, and how many from it on.
+    pub fn nodes_around(&self, child: Item<'_, '_>) -> (usize, usize) {
+        let before = child.index.saturating_sub(self.index + 1);
+        (before, (self.node().size as usize).saturating_sub(before + 1))
     }
 
     /// Children that could be read.
@@ -224,8 +285,11 @@ impl<'t, 's> Item<'t, 's> {
 
     /// Whether a syntax error stands anywhere inside.
     pub fn holds_damage(&self) -> bool {
-        let end = self.index + self.node().size as usize;
-        self.tree.nodes[self.index..end].iter().any(|node| node.kind == Kind::Broken)
+        if self.tree.added.is_empty() {
+            let end = self.index + self.node().size as usize;
+            return (self.index..end).any(|index| self.tree.nodes[index].kind == Kind::Broken);
+        }
+        self.kind() == Kind::Broken || self.children().any(|child| child.holds_damage())
     }
 
     /// Whether a syntax error stands directly inside: what is missing may have been there.
@@ -239,18 +303,28 @@ pub(crate) struct Children<'t, 's> {
     tree: &'t Tree<'s>,
     index: usize,
     end: usize,
+    /// The `Added` node to go on with.
+    added: u32,
 }
 
 impl<'t, 's> Iterator for Children<'t, 's> {
     type Item = Item<'t, 's>;
 
     fn next(&mut self) -> Option<Item<'t, 's>> {
-        if self.index >= self.end {
-            return None;
+        loop {
+            if self.index >= self.end {
+                let added = *self.tree.nodes.get(self.added as usize)?;
+                self.index = self.added as usize + 1;
+                self.end = self.added as usize + added.size as usize;
+                self.added = added.start;
+                continue;
+            }
+            let item = Item { tree: self.tree, index: self.index };
+            self.index += item.node().size as usize;
+            if item.node().kind != Kind::Added {
+                return Some(item);
+            }
         }
-        let item = Item { tree: self.tree, index: self.index };
-        self.index += item.node().size as usize;
-        Some(item)
     }
 }
 

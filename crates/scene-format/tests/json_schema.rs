@@ -24,6 +24,28 @@ fn right_scenes_validate() {
     let mut scenes = vec![FULL_TOML.to_owned()];
     let ron = examples().into_iter().map(|example| example.ron).chain([FULL_RON.to_owned()]);
     scenes.extend(ron.map(|ron| convert("scene", &ron, Syntax::Ron, Syntax::Toml).expect("the scene is right")));
+    // All scenes of the repository: the figures, the gallery, the goldens, the templates.
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut folders = ["scenes", "golden", "crates/tracer/templates"].map(|folder| top.join(folder)).to_vec();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if let Some(syntax) = Syntax::from_path(&path) {
+                let text = std::fs::read_to_string(&path).expect("a scene");
+                let name = path.display().to_string();
+                let toml = match syntax {
+                    Syntax::Toml => text,
+                    Syntax::Ron => {
+                        convert(&name, &text, syntax, Syntax::Toml).unwrap_or_else(|error| panic!("{name}: {error:?}"))
+                    }
+                };
+                scenes.push(format!("# {name}\n{toml}"));
+            }
+        }
+    }
+    assert!(scenes.len() > 60, "only {} scenes", scenes.len());
     for scene in scenes {
         let errors: Vec<String> = validator.iter_errors(&value(&scene)).map(|error| error.to_string()).collect();
         assert!(errors.is_empty(), "{errors:#?}\n{scene}");

@@ -72,6 +72,17 @@ pub enum Placements {
     File(Spanned<PathBuf>),
 }
 
+/// The text in `File("..")` or `{ File = ".." }`: the name of a file needs no word around it.
+fn wrapped_text(item: Item<'_, '_>) -> Option<String> {
+    let mut inside = match item.kind() {
+        Kind::Map if item.lexeme().starts_with('{') => item.fields().map(|(_, value)| value).collect::<Vec<_>>(),
+        Kind::Tuple => item.children().collect(),
+        _ => Vec::new(),
+    };
+    let only = inside.pop().filter(|only| only.kind() == Kind::Text && inside.is_empty())?;
+    Some(only.lexeme().to_owned())
+}
+
 impl Words for Placements {
     const TYPE: Type = Type::OneOf(&[Type::List(&Type::List(&Transform::TYPE)), Type::File]);
 
@@ -82,7 +93,10 @@ impl Words for Placements {
                 let list = <Vec<Vec<Spanned<Transform>>>>::read(reader, item, at)?;
                 Some(if list.is_empty() { Placements::One } else { Placements::List(list) })
             }
-            _ => reader.wrong_type(item, at, "a list of lists of transforms, or the name of a placements file"),
+            _ => {
+                let expected = "a list of lists of transforms, or the name of a placements file between quotes";
+                reader.wrong_kind(item, at.noun, expected, wrapped_text(item))
+            }
         }
     }
 

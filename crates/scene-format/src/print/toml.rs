@@ -7,6 +7,7 @@ use crate::form::{Entry, Form};
 pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String {
     let mut out = String::new();
     comments(&mut out, before);
+    blank(&mut out);
     let Form::Struct { fields, .. } = scene else { return out };
     // Plain values come first: after a header they would belong to it.
     for entry in fields.iter().filter(|entry| !is_table(&entry.value)) {

@@ -36,7 +36,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let missing = match objects {
         Some(list) => (list.kind() == Kind::List && list.children().next().is_none()).then(|| list.span()),
         None => {
-            let mistyped = root.fields().any(|(key, _)| {
+            let mistyped = root.fields().take(super::LOOK_AT).any(|(key, _)| {
                 let key = key.text();
                 Scene::DEF.field(&key).is_none() && suggest::nearest(&key, super::names(&Scene::DEF)) == Some("objects")
             });
@@ -155,6 +155,7 @@ impl Reader<'_> {
                 self.materials.used.push(false);
             }
             if let Some(material) = Material::read(self, value, at) {
+                super::make_room(&mut list, item, key);
                 list.push(NamedMaterial { name: Spanned { value: name, span: key.span() }, material });
             }
             self.path.pop();
@@ -208,6 +209,9 @@ impl Reader<'_> {
     fn unused_materials(&mut self) {
         let materials = std::mem::take(&mut self.materials);
         for (name, _) in materials.names.iter().zip(&materials.used).filter(|(_, used)| !**used) {
+            if self.sink.is_full() {
+                break;
+            }
             self.path = vec![Step::Field("materials"), Step::Key(name.value.clone())];
             self.report(
                 Diagnostic::warning(

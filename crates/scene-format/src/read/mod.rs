@@ -64,6 +64,18 @@ pub(crate) struct Fields<'t, 's> {
 const LOOK_AT: usize = 64;
 /// No struct of the language has more fields.
 const MAX_FIELDS: usize = 12;
+/// Lists of fewer items get room for all of them at once.
+const SHORT_LIST: usize = 64;
+
+/// Makes room in the list that `item` is read into, `child` being read next. A list that grows by doubling is in memory one and a
+/// half times too often; after a few items one can tell how many more there will be.
+fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_, '_>) {
+    if list.len() == list.capacity() && list.len() >= SHORT_LIST {
+        let (read, rest) = item.nodes_around(child);
+        let more = (rest * list.len() / read.max(1)).max(list.len() / 4);
+        list.reserve_exact(if list.len() < 16 * SHORT_LIST { more.min(list.len()) } else { more });
+    }
+}
 
 impl<'r> Reader<'r> {
     pub fn new(sink: &'r mut Sink) -> Reader<'r> {
@@ -308,7 +320,7 @@ impl<'r> Reader<'r> {
         if item.kind() != Kind::List {
             return self.not_a_list(item, at);
         }
-        let mut list = Vec::new();
+        let mut list = Vec::with_capacity(item.children().take(SHORT_LIST).count());
         for (index, child) in item.children().enumerate() {
             if self.sink.is_full() {
                 break;
@@ -317,7 +329,10 @@ impl<'r> Reader<'r> {
                 continue;
             }
             self.path.push(Step::Index(index));
-            list.extend(T::read(self, child, at));
+            if let Some(value) = T::read(self, child, at) {
+                make_room(&mut list, item, child);
+                list.push(value);
+            }
             self.path.pop();
         }
         Some(list)
@@ -373,7 +388,6 @@ impl<'r> Reader<'r> {
 /// A value in words, for "cannot be ..".
 pub(crate) fn describe(item: Item<'_, '_>) -> String {
     match item.kind() {
-        Kind::Broken => "this".to_owned(),
         Kind::Bool => format!("`{}`", item.lexeme()),
         Kind::Integer | Kind::Float => format!("the number {}", shortened(item.lexeme())),
         Kind::Text => format!("the text {}", shortened(item.lexeme())),
@@ -396,6 +410,8 @@ pub(crate) fn describe(item: Item<'_, '_>) -> String {
         },
         Kind::Struct => "a group of fields".to_owned(),
         Kind::Map => "a table of fields".to_owned(),
+        // The rest is syntax that readers do not see.
+        _ => "this".to_owned(),
     }
 }
 

@@ -9,6 +9,7 @@ mod ron_scan;
 pub(crate) mod toml;
 mod toml_brackets;
 mod toml_literal;
+mod toml_names;
 mod toml_tables;
 
 use crate::diagnostic::{Diagnostic, Span};
@@ -77,6 +78,12 @@ impl Sink {
     /// Whether no more is taken: readers stop then.
     pub fn is_full(&self) -> bool {
         self.full
+    }
+
+    /// Says that reading makes no sense after this fault.
+    pub fn push_last(&mut self, diagnostic: Diagnostic) {
+        self.push(diagnostic);
+        self.full = true;
     }
 
     pub fn push(&mut self, diagnostic: Diagnostic) {

@@ -4,30 +4,33 @@ use super::brackets::{self, Fate, Open};
 use super::{MAX_DEPTH, Sink};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
-use crate::tree::{Builder, Kind, Node};
+use crate::tape::Tape;
+use crate::tree::{Builder, Kind};
 
 /// Reads one text into `builder`; returns the comments.
-pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<Span> {
-    let (comments, nodes, faults) = attempt(text, builder.source, Trust::Brackets);
-    let (mut comments, mut nodes, mut faults) = (comments, nodes, faults);
+pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Tape<Span> {
+    let (mut comments, mut faults) = attempt(text, builder, Trust::Brackets);
     if faults.diagnostics.iter().any(|fault| matches!(fault.code, codes::UNCLOSED_BRACKET | codes::STRAY_BRACKET)) {
-        // Brackets do not match: where the lines are indented, that may say better what was meant.
-        let second = attempt(text, builder.source, Trust::Indentation);
-        if second.2.errors <= faults.errors {
-            (comments, nodes, faults) = second;
+        // Brackets do not match: where the lines are indented, that may say better what was meant. One tree at a time, for a
+        // large file's tree is large.
+        let errors = faults.errors;
+        drop((comments, faults));
+        (comments, faults) = attempt(text, builder, Trust::Indentation);
+        if faults.errors > errors {
+            drop((comments, faults));
+            (comments, faults) = attempt(text, builder, Trust::Brackets);
         }
     }
-    builder.nodes = nodes;
     faults.diagnostics.into_iter().for_each(|fault| sink.push(fault));
     comments
 }
 
-fn attempt(text: &str, source: u16, trust: Trust) -> (Vec<Span>, Vec<Node>, Sink) {
-    let mut builder = Builder::new(source, text.len());
+fn attempt(text: &str, builder: &mut Builder, trust: Trust) -> (Tape<Span>, Sink) {
+    builder.nodes.truncate(0);
     let mut sink = Sink::default();
-    let mut parser = Parser::new(text, 0, trust, &mut builder, &mut sink);
+    let mut parser = Parser::new(text, 0, trust, builder, &mut sink);
     parser.document();
-    (parser.comments, builder.nodes, sink)
+    (parser.comments, sink)
 }
 
 /// Reads a value that stands at `start..` of `text` (an argument of `--set`).
@@ -52,7 +55,7 @@ pub(super) struct Parser<'p> {
     pub at: usize,
     pub builder: &'p mut Builder,
     pub sink: &'p mut Sink,
-    pub comments: Vec<Span>,
+    pub comments: Tape<Span>,
     /// Brackets that are open, outermost first.
     pub open: Vec<Open>,
     /// Whether an open bracket was reported at the end of the file.
@@ -82,7 +85,7 @@ impl<'p> Parser<'p> {
             at,
             builder,
             sink,
-            comments: Vec::new(),
+            comments: Tape::default(),
             open: Vec::new(),
             at_end_reported: false,
             separated: false,

@@ -3,19 +3,23 @@
 
 use super::brackets::{self, Open};
 use super::toml_brackets::too_deep;
-use super::toml_tables::{Key, Tables, key_span};
+use super::toml_tables::{Inline, Key, Tables, key_span};
 use super::{MAX_DEPTH, Sink, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::tape::Tape;
 use crate::tree::{Builder, Kind};
+use std::collections::HashMap;
 use toml_parser::Source;
 use toml_parser::lexer::{Lexer, Token, TokenKind};
 
-/// Reads one text into `builder`; returns the comments.
-pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<Span> {
+/// Reads one text into `builder`; returns the comments,
+/// and the first `Added` node of each table that has some.
+pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> (Tape<Span>, HashMap<u32, u32>) {
     let mut lexer = Source::new(text).lex();
     let end = toml_parser::Span::new_unchecked(text.len(), text.len());
-    let Some(current) = lexer.next() else { return Vec::new() };
+    let Some(current) = lexer.next() else { return Default::default() };
+    let tables = Tables::new(text, builder);
     let mut parser = Parser {
         text,
         lexer,
@@ -23,11 +27,12 @@ pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<S
         span: current.span(),
         end,
         previous_end: 0,
-        values: Builder::new(builder.source, text.len()),
-        tables: Tables::new(text),
+        values: builder,
+        tables,
         sink,
-        comments: Vec::new(),
+        comments: Tape::default(),
         open: Vec::new(),
+        inline: None,
         unwinding: false,
         spare_path: Vec::new(),
         colon: None,
@@ -36,8 +41,7 @@ pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Vec<S
     };
     parser.document();
     let Parser { tables, comments, values, .. } = parser;
-    tables.emit(&values.nodes, builder);
-    comments
+    (comments, tables.finish(values))
 }
 
 pub(super) struct Parser<'p> {
@@ -48,11 +52,13 @@ pub(super) struct Parser<'p> {
     pub end: toml_parser::Span,
     /// End of the last token that was neither space nor comment.
     pub previous_end: usize,
-    pub values: Builder,
+    pub values: &'p mut Builder,
     pub tables: Tables<'p>,
     pub sink: &'p mut Sink,
-    pub comments: Vec<Span>,
+    pub comments: Tape<Span>,
     pub open: Vec<Open>,
+    /// The innermost bracket is an inline table whose keys have dots.
+    pub inline: Option<Inline>,
     /// A bracket was found to be open where a new statement begins: all brackets end here.
     pub unwinding: bool,
     /// Where the current line begins.
@@ -91,13 +97,13 @@ impl Parser<'_> {
                         Diagnostic::error(codes::MISSING_NAME, found, "there is no name before `=`")
                             .expected("name = value"),
                     );
-                    self.tables.add_broken();
+                    self.tables.add_broken(self.values);
                     self.skip_line();
                 }
                 _ if self.at_key() => self.statement(),
                 _ => {
                     self.unexpected("a line begins with a name or with a [header]");
-                    self.tables.add_broken();
+                    self.tables.add_broken(self.values);
                     self.skip_line();
                 }
             }
@@ -139,7 +145,7 @@ impl Parser<'_> {
             self.sink
                 .push(Diagnostic::error(codes::MISSING_NAME, found, "this header has no name").expected("[camera]"));
         }
-        self.tables.header(&path, many, start..end, self.values.source, self.sink);
+        self.tables.header(&path, many, &(start..end), self.values, self.sink);
         if closed { self.end_of_line("the header") } else { self.skip_line() }
     }
 
@@ -147,18 +153,16 @@ impl Parser<'_> {
     pub(super) fn statement(&mut self) {
         let path = self.key_path();
         if path.is_empty() {
-            self.tables.add_broken();
+            self.tables.add_broken(self.values);
             return self.skip_line();
         }
         if !self.equals(&path) {
-            self.tables.add_broken();
+            self.tables.add_broken(self.values);
             return self.skip_line();
         }
-        let first = self.values.nodes.len();
-        self.value();
-        let value = first..self.values.nodes.len();
-        self.tables.add_value(&path, value, self.values.source, self.sink);
+        self.tables.begin_value(&path, self.values, self.sink);
         self.spare_path = path;
+        self.value();
         if self.unwinding {
             self.unwinding = false;
             self.open.clear();

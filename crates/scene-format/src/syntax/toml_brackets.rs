@@ -2,7 +2,6 @@
 
 use super::brackets::{self, Fate, Open};
 use super::toml::Parser;
-use super::toml_tables::regroup;
 use super::{MAX_DEPTH, line_ahead};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -46,12 +45,21 @@ impl Parser<'_> {
         false
     }
 
+    /// Something in the innermost bracket could not be read.
+    fn damage(&mut self, end: usize) {
+        if let Some(inline) = self.inline {
+            self.tables.reach_inline(inline, self.values);
+        }
+        self.values.leaf(Kind::Broken, self.span.start(), end);
+    }
+
     pub(super) fn array(&mut self) {
         let start = self.span.start();
         if !self.open_bracket(b'[') {
             return;
         }
         let node = self.values.open(start);
+        let outer = self.inline.take();
         loop {
             if self.sink.is_full() {
                 self.unwinding = true;
@@ -72,7 +80,7 @@ impl Parser<'_> {
                     Diagnostic::error(codes::MIXED_FIELDS, found, "the items of a list have no names")
                         .expected("[a, b, c], or { name = value } for fields"),
                 );
-                self.values.leaf(Kind::Broken, self.span.start(), self.span.end());
+                self.damage(self.span.end());
                 self.skip_entry();
                 continue;
             }
@@ -80,6 +88,7 @@ impl Parser<'_> {
             self.separator();
         }
         self.open.pop();
+        self.inline = outer;
         self.values.close(node, Kind::List, self.previous_end);
     }
 
@@ -89,7 +98,7 @@ impl Parser<'_> {
             return;
         }
         let node = self.values.open(start);
-        let mut dotted = false;
+        let outer = self.inline.take();
         loop {
             if self.sink.is_full() {
                 self.unwinding = true;
@@ -106,28 +115,32 @@ impl Parser<'_> {
             }
             if !self.at_key() {
                 self.unexpected("a table in braces holds `name = value`");
-                self.values.leaf(Kind::Broken, self.span.start(), self.span.end());
+                self.damage(self.span.end());
                 self.bump_value();
                 self.skip_entry();
                 continue;
             }
             let path = self.key_path();
             if path.is_empty() || !self.equals(&path) {
-                self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
+                self.damage(self.span.start());
                 self.skip_entry();
                 continue;
             }
-            dotted |= path.len() > 1;
-            for key in &path {
-                self.values.leaf(Kind::Key, key.start, key.end);
+            if path.len() > 1 && self.inline.is_none() {
+                self.inline = Some(self.tables.open_inline(node));
+            }
+            match (self.inline, path.first()) {
+                (Some(inline), _) => self.tables.begin_inline_value(inline, &path, self.values, self.sink),
+                (None, Some(key)) => self.values.leaf(Kind::Key, key.start, key.end),
+                (None, None) => {}
             }
             self.spare_path = path;
             self.value();
             self.separator();
         }
         self.open.pop();
-        if dotted {
-            regroup(self.text, &mut self.values, node);
+        if let Some(inline) = std::mem::replace(&mut self.inline, outer) {
+            self.tables.close_inline(inline, self.values);
         }
         self.values.close(node, Kind::Map, self.previous_end);
     }
@@ -135,7 +148,7 @@ impl Parser<'_> {
     /// What comes next in a bracket that `right` closes.
     fn bracket_ends(&mut self, right: u8) -> Next {
         if self.unwinding {
-            self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
+            self.damage(self.span.start());
             return Next::End;
         }
         let close = match self.kind {
@@ -165,7 +178,7 @@ impl Parser<'_> {
                 if let Some(&open) = self.open.last() {
                     self.sink.push(brackets::unclosed(self.values.source, open, Some(self.span.start())));
                 }
-                self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
+                self.damage(self.span.start());
                 Next::End
             }
             Fate::Stray => {
@@ -185,7 +198,7 @@ impl Parser<'_> {
         if let Some(&open) = self.open.last() {
             self.sink.push(brackets::unclosed(self.values.source, open, noticed));
         }
-        self.values.leaf(Kind::Broken, self.span.start(), self.span.start());
+        self.damage(self.span.start());
         self.unwinding = true;
     }
 
