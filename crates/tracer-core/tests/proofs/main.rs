@@ -6,10 +6,13 @@
 #![allow(clippy::disallowed_methods)]
 
 mod analytic;
+mod compiling;
 mod figures;
 mod random_scenes;
 mod same_bytes;
 mod sampler;
 mod seams;
+mod sequence;
 mod support;
 mod surfaces;
+mod textures;
