@@ -7,6 +7,7 @@
 
 mod analytic;
 mod compiling;
+mod convergence;
 mod figures;
 mod random_scenes;
 mod same_bytes;

@@ -90,6 +90,37 @@ enum Outcome {
     TooSlow,
 }
 
+/// Where the engine's stages are compiled per CPU level.
+const KERNELS: &str = "crates/tracer-core/src/engine/kernels.rs";
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx2() -> bool {
+    // What `tracer_core`'s levels ask for.
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt")
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn has_avx2() -> bool {
+    false
+}
+
+/// The source of the entry functions with every level running those of AVX2.
+fn slimmed(text: &str) -> anyhow::Result<String> {
+    let mut slim = text.to_owned();
+    for other in ["portable", "scalar_fma", "avx512"] {
+        let find = format!("=> {other}::KERNELS,");
+        ensure!(slim.matches(&find).count() == 1, "{find:?} does not occur once in {KERNELS}");
+        slim = slim.replace(&find, "=> avx2::KERNELS,");
+    }
+    // The other entry functions are now unused, which is no fault here.
+    Ok(format!("#![allow(dead_code)]\n{slim}"))
+}
+
 /// A copy of the repository, with its own build folder that is kept between runs.
 struct Copy {
     tree: PathBuf,
@@ -102,13 +133,27 @@ impl Copy {
         let place = root.join("target/mutants");
         let copy = Copy { tree: place.join("tree"), build: place.join("build") };
         mirror(&root, &copy.tree, &|path| [root.join("target"), root.join(".git")].iter().any(|p| p == path))?;
+        copy.slim()?;
         Ok(copy)
+    }
+
+    /// Compiles the engine's stages for one lane type instead of four: most of the time goes into them, and all make the same bytes,
+    /// which `same_bytes` proves. Where the CPU lacks it, all four stay.
+    fn slim(&self) -> anyhow::Result<()> {
+        if !has_avx2() {
+            return Ok(());
+        }
+        let path = self.tree.join(KERNELS);
+        let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        std::fs::write(&path, slimmed(&text)?).with_context(|| format!("cannot write {}", path.display()))
     }
 
     /// Builds a test program; `None` where it does not compile.
     fn build(&self, program: Option<&str>) -> anyhow::Result<Option<PathBuf>> {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(&self.tree).env("CARGO_TARGET_DIR", &self.build).env("CARGO_INCREMENTAL", "1");
+        // Debug information takes time, and nobody looks at it.
+        cargo.args(["--config", "profile.dev.package.tracer-core.debug=0"]);
         cargo.args(["test", "--quiet", "--locked", "--no-run", "--message-format=json", "-p", "tracer-core"]);
         match program {
             Some(name) => cargo.args(["--test", name]),
@@ -233,6 +278,13 @@ mod tests {
         assert!(to.join("a.txt").exists());
         assert!(!to.join("old").exists() && !to.join("stray.txt").exists() && !to.join("target").exists());
         std::fs::remove_dir_all(folder).expect("removed");
+    }
+
+    #[test]
+    fn the_stages_can_be_compiled_for_one_lane_type() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let text = std::fs::read_to_string(root.join(KERNELS)).expect("the entry functions");
+        assert_eq!(slimmed(&text).expect("slimmed").matches("avx2::KERNELS,").count(), 4);
     }
 
     #[test]
