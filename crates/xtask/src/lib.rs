@@ -1,9 +1,10 @@
-//! Programs that make what the repository holds; but for [`golden`], each is a pure function from nothing to files: no randomness,
+//! Programs that make what the repository holds, and [`mutants`], which tries its tests; but for these and [`golden`], each is a pure function from nothing to files: no randomness,
 //! no network.
 
 pub mod cat;
 pub mod gallery;
 pub mod golden;
+pub mod mutants;
 pub mod noise;
 pub mod picture;
 

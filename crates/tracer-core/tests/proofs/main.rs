@@ -6,11 +6,15 @@
 #![allow(clippy::disallowed_methods)]
 
 mod analytic;
+mod compiling;
+mod convergence;
 mod figures;
 mod random_scenes;
 mod reuse;
 mod same_bytes;
 mod sampler;
 mod seams;
+mod sequence;
 mod support;
 mod surfaces;
+mod textures;

@@ -7,7 +7,7 @@ use tracer_reference::Random;
 use tracer_reference::statistics::{Estimate, chi_square, sidak};
 
 /// A point of the sampler.
-fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
+pub(crate) fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
     let part = pair.sample_part(z_order(x / 16, y / 16), sample);
     let z = ArrayU::splat(z_order(x, y).reverse_bits());
     let (u, v) = pair.points::<ArrayF<1>>(z, ArrayU::splat(part.x), ArrayU::splat(part.y));
@@ -18,7 +18,7 @@ fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
 }
 
 /// The pairs that a path uses, with a deep one of each kind.
-const PURPOSES: [Purpose; 10] = [
+pub(crate) const PURPOSES: [Purpose; 10] = [
     Purpose::Pixel,
     Purpose::Lens,
     Purpose::Direction(0),
@@ -31,11 +31,12 @@ const PURPOSES: [Purpose; 10] = [
     Purpose::Roulette(6),
 ];
 
-const SIZE: u32 = 64;
+/// Pixels along the picture's side.
+pub(crate) const SIZE: u32 = 64;
 
 /// Where points come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Source {
+pub(crate) enum Source {
     Sampler,
     Independent,
     /// Sobol' points, nested uniform scrambling (Owen 1995) drawn anew for each pixel and pair.
@@ -43,7 +44,7 @@ enum Source {
 }
 
 /// Nested uniform scrambling: each bit is flipped by a hash of those above it.
-fn scrambled(x: u32, key: u64) -> u32 {
+pub(crate) fn scrambled(x: u32, key: u64) -> u32 {
     (0..24).fold(0, |word, bit| {
         let above = u64::from(x) >> (32 - bit);
         let flip = Random::new(key ^ (above << 5 | bit) << 20).bits() as u32 & 1;
@@ -52,7 +53,7 @@ fn scrambled(x: u32, key: u64) -> u32 {
 }
 
 /// The second Sobol' dimension (Bratley and Fox 1988: the polynomial x + 1, direction numbers by v ^= v >> 1).
-fn second_dimension(i: u32) -> u32 {
+pub(crate) fn second_dimension(i: u32) -> u32 {
     let mut v = 1u32 << 31;
     let mut word = 0;
     for bit in 0..32 {
@@ -64,12 +65,12 @@ fn second_dimension(i: u32) -> u32 {
     word
 }
 
-fn to_unit(x: u32) -> f64 {
+pub(crate) fn to_unit(x: u32) -> f64 {
     f64::from(x) / 4_294_967_296.0
 }
 
 /// The first `n` points of a pair in each pixel of the picture.
-fn points(source: Source, purpose: Purpose, seed: u32, n: u32) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn points(source: Source, purpose: Purpose, seed: u32, n: u32) -> Vec<Vec<[f64; 2]>> {
     let pair = Pair::new(seed, purpose);
     let key = u64::from(seed) << 40 ^ (format!("{purpose:?}").bytes().fold(7, |h: u64, b| h * 31 + u64::from(b)) << 8);
     let pixels = (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)));
@@ -92,14 +93,14 @@ fn points(source: Source, purpose: Purpose, seed: u32, n: u32) -> Vec<Vec<[f64; 
 }
 
 /// What is integrated over the unit square, and its integral.
-struct Integrand {
-    name: &'static str,
-    f: fn([f64; 2]) -> f64,
-    integral: f64,
+pub(crate) struct Integrand {
+    pub name: &'static str,
+    pub f: fn([f64; 2]) -> f64,
+    pub integral: f64,
 }
 
 /// A soft shadow's edge, a round light or lens, and something smooth.
-fn integrands() -> [Integrand; 3] {
+pub(crate) fn integrands() -> [Integrand; 3] {
     [
         Integrand { name: "edge", f: |[u, v]| if u + 0.3 * v < 0.6 { 1.0 } else { 0.0 }, integral: 0.45 },
         Integrand {
@@ -118,7 +119,7 @@ fn errors(points: &[Vec<[f64; 2]>], integrand: &Integrand) -> Vec<f64> {
 }
 
 /// Mean power of the frequencies up to `limit` cycles per picture against that of all, both without the mean.
-fn low_frequencies(image: &[f64], limit: f64) -> [f64; 2] {
+pub(crate) fn low_frequencies(image: &[f64], limit: f64) -> [f64; 2] {
     let n = SIZE as usize;
     let wave: Vec<(f64, f64)> =
         (0..n).map(|k| (std::f64::consts::TAU * k as f64 / n as f64).sin_cos()).map(|(s, c)| (c, -s)).collect();
@@ -158,16 +159,16 @@ fn low_frequencies(image: &[f64], limit: f64) -> [f64; 2] {
 }
 
 /// What a source of points is worth for an integrand at some number of samples.
-struct Worth {
+pub(crate) struct Worth {
     /// Mean squared error of a pixel.
-    pixel: f64,
+    pub pixel: f64,
     /// Mean squared error of the picture's mean.
-    picture: f64,
+    pub picture: f64,
     /// Power of the lowest eighth of the frequencies against that of all.
-    low: f64,
+    pub low: f64,
 }
 
-fn worth(source: Source, purpose: Purpose, integrand: &Integrand, n: u32, seeds: u32) -> Worth {
+pub(crate) fn worth(source: Source, purpose: Purpose, integrand: &Integrand, n: u32, seeds: u32) -> Worth {
     let (mut pixel, mut picture, mut low, mut all) = (0.0, 0.0, 0.0, 0.0);
     for seed in 0..seeds {
         let e = errors(&points(source, purpose, seed * 97 + 5, n), integrand);

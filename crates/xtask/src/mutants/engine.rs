@@ -1,0 +1,331 @@
+//! Faults in the engine: scattering, surfaces, lights, camera, sampling.
+
+use super::{Mutant, proofs, units};
+
+const MATERIALS: &str = "crates/tracer-core/src/engine/stages/materials.rs";
+const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
+const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights.rs";
+const CAMERA: &str = "crates/tracer-core/src/engine/stages/camera.rs";
+const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
+const SPHERES: &str = "crates/tracer-core/src/engine/stages/spheres.rs";
+const TEXTURES: &str = "crates/tracer-core/src/engine/stages/textures.rs";
+const SAMPLER: &str = "crates/tracer-core/src/sampling/sampler.rs";
+const WARP: &str = "crates/tracer-core/src/sampling/warp.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    // Scattering.
+    Mutant {
+        name: "cosine-twice",
+        file: SHADE,
+        find: "scale(cos_i / l.pdf",
+        replace: "scale(cos_i * cos_i / l.pdf",
+        caught_by: proofs(&["analytic::a_sphere_light_above_and_partly_below_the_horizon"]),
+    },
+    Mutant {
+        name: "glossy-cosine-twice",
+        file: MATERIALS,
+        find: "cos_i / F::select(usable, density, c(1.0))",
+        replace: "cos_i * cos_i / F::select(usable, density, c(1.0))",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "glossy-pdf-without-jacobian",
+        file: MATERIALS,
+        find: "let half_pdf = lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h;",
+        replace: "let half_pdf = lobe * ((alpha + c(1.0)) * c(0.5 * FRAC_1_PI));",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "glossy-norm-alpha-plus-one",
+        file: MATERIALS,
+        find: "(alpha + c(2.0)) * c(0.5 * FRAC_1_PI)",
+        replace: "(alpha + c(1.0)) * c(0.5 * FRAC_1_PI)",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "diffuse-share-not-lessened-by-glossy",
+        file: MATERIALS,
+        find: "let value = (c(1.0) - s).fma(lambert, s * glossy);",
+        replace: "let value = s.fma(glossy, lambert);",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "fresnel-wrong-side",
+        file: MATERIALS,
+        find: "F::select(s.outside, one / ior, ior)",
+        replace: "F::select(s.outside, ior, one / ior)",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "fresnel-cosines-swapped",
+        file: MATERIALS,
+        find: "let (a, b) = (eta * cos_i, eta * cos_t);",
+        replace: "let (a, b) = (eta * cos_t, eta * cos_i);",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "fresnel-one-polarisation",
+        file: MATERIALS,
+        find: "rs.fma(rs, rp * rp) * F::splat(0.5)",
+        replace: "rp.fma(rp, rp * rp) * F::splat(0.5)",
+        caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "radiance-not-scaled-in-glass",
+        file: MATERIALS,
+        find: "eta2: F::select(refracted, eta * eta, one),",
+        replace: "eta2: F::select(refracted, one, one),",
+        caught_by: proofs(&["analytic::a_light_within_glass"]),
+    },
+    Mutant {
+        name: "radiance-scaled-the-wrong-way",
+        file: MATERIALS,
+        find: "eta2: F::select(refracted, eta * eta, one),",
+        replace: "eta2: F::select(refracted, one / (eta * eta), one),",
+        caught_by: proofs(&["analytic::a_light_within_glass"]),
+    },
+    Mutant {
+        name: "roulette-without-one-over-q",
+        file: SHADE,
+        find: "carried = carried.scale(one / F::select(zero.lt(q), q, one));",
+        replace: "carried = carried.scale(one);",
+        caught_by: proofs(&["analytic::a_lambertian_furnace_is_one_over_one_minus_albedo"]),
+    },
+    Mutant {
+        name: "mis-by-the-balance-heuristic-one-sided",
+        file: SHADE,
+        find: "F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))",
+        replace: "F::splat(1.0) / ratio.fma(ratio, F::splat(0.5))",
+        caught_by: units(&["engine::stages::shade"]),
+    },
+    // Surfaces.
+    Mutant {
+        name: "sphere-normal-flipped",
+        file: SURFACE,
+        find: "V3::select(outside, outward, outward.neg())",
+        replace: "V3::select(outside, outward.neg(), outward)",
+        caught_by: proofs(&["analytic::a_diffuse_ball_in_a_white_furnace", "figures::figure_6"]),
+    },
+    Mutant {
+        name: "smooth-normal-flipped",
+        file: SURFACE,
+        find: "let facing = V3::select(turned, unit.neg(), unit);",
+        replace: "let facing = V3::select(turned, unit, unit.neg());",
+        caught_by: proofs(&["figures::figure_5"]),
+    },
+    Mutant {
+        name: "barycentrics-swapped",
+        file: SURFACE,
+        find: "[b0 * rescale, b1 * rescale, b2 * rescale]",
+        replace: "[b0 * rescale, b2 * rescale, b1 * rescale]",
+        caught_by: proofs(&["figures::figure_1"]),
+    },
+    Mutant {
+        name: "instance-normal-by-the-matrix",
+        file: SURFACE,
+        find: "V3(b.cross(c).dot(n), c.cross(a).dot(n), a.cross(b).dot(n))",
+        replace: "V3(a.dot(n), b.dot(n), c.dot(n))",
+        caught_by: proofs(&["random_scenes"]),
+    },
+    Mutant {
+        name: "mirrored-instance-inside-out",
+        file: SURFACE,
+        find: "mirrored = transformed & placement.determinant().lt(zero);",
+        replace: "mirrored = transformed & placement.determinant().lt(-c(f32::INFINITY));",
+        caught_by: proofs(&["random_scenes"]),
+    },
+    Mutant {
+        name: "shading-starts-on-the-triangle",
+        file: SURFACE,
+        find: "start = V3::select(smooth, moved, p);",
+        replace: "start = V3::select(smooth, p, p);",
+        caught_by: proofs(&["surfaces::the_terminator_of_a_low_poly_ball_is_smooth"]),
+    },
+    Mutant {
+        name: "no-offset-from-meshes",
+        file: SURFACE,
+        find: "let start = ng.mad(offset, start);",
+        replace: "let start = ng.mad(zero, start);",
+        caught_by: proofs(&["seams", "figures::figure_2", "analytic::n_bounces"]),
+    },
+    Mutant {
+        name: "longitude-half-a-turn-off",
+        file: SURFACE,
+        find: "(turns + c(0.5), acos",
+        replace: "(turns, acos",
+        caught_by: proofs(&["random_scenes", "textures"]),
+    },
+    Mutant {
+        name: "small-spheres-only-from-outside",
+        file: SPHERES,
+        find: "let candidate = F::select(zero.lt(first), first, second);",
+        replace: "let candidate = first;",
+        caught_by: proofs(&["surfaces::the_camera_on_and_within_surfaces", "figures::figure_4"]),
+    },
+    Mutant {
+        name: "spheres-beyond-the-light-shade",
+        file: SPHERES,
+        find: "let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);",
+        replace: "let dips = beta.lt(zero) & zero.lt(disc);",
+        caught_by: proofs(&["figures::figure_6"]),
+    },
+    Mutant {
+        name: "sphere-meets-itself",
+        file: SPHERES,
+        find: "(beta, F::select(own, c(0.0), gamma))",
+        replace: "(beta, gamma)",
+        caught_by: proofs(&["surfaces::huge_spheres_have_no_rings", "figures::figure_6"]),
+    },
+    // Lights.
+    Mutant {
+        name: "light-sample-without-the-choice-of-light",
+        file: LIGHTS,
+        find: "pdf: F::gather(&lights.probability, k) / (opening * c(TWO_PI)),",
+        replace: "pdf: c(1.0) / (opening * c(TWO_PI)),",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "mis-without-the-choice-of-light",
+        file: LIGHTS,
+        find: "    F::gather(&lights.probability, k) / (opening * F::splat(TWO_PI))",
+        replace: "    F::splat(1.0) / (opening * F::splat(TWO_PI))",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "cone-as-a-disc",
+        file: LIGHTS,
+        find: "F::select(inside, F::splat(2.0), sin2 / (one + cos))",
+        replace: "F::select(inside, F::splat(2.0), sin2 / (one + one))",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "far-side-of-a-light-from-within",
+        file: LIGHTS,
+        find: "F::select(inside, along + half_chord, along - half_chord)",
+        replace: "along - half_chord",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "alias-kept-the-wrong-way",
+        file: LIGHTS,
+        find: "F::U::select(v.lt(F::gather(&lights.keep, k)), k, F::U::gather(&lights.alias, k))",
+        replace: "F::U::select(v.lt(F::gather(&lights.keep, k)), F::U::gather(&lights.alias, k), k)",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    // Camera and filters.
+    Mutant {
+        name: "picture-upside-down",
+        file: CAMERA,
+        find: "c(-2.0 / height as f32)",
+        replace: "c(2.0 / height as f32)",
+        caught_by: proofs(&["figures::figure_6"]),
+    },
+    Mutant {
+        name: "box-filter-off-centre",
+        file: CAMERA,
+        find: "Filter::Box => (u - c(0.5), v - c(0.5)),",
+        replace: "Filter::Box => (u, v),",
+        caught_by: proofs(&["analytic::the_other_filters_have_their_step_responses"]),
+    },
+    Mutant {
+        name: "gaussian-sigma-as-a-variance",
+        file: CAMERA,
+        find: "* c(sigma as f32);",
+        replace: "* c(sigma as f32).sqrt();",
+        caught_by: proofs(&["analytic::a_gaussian_filter_has_its_step_response"]),
+    },
+    Mutant {
+        name: "lens-moved-the-wrong-way",
+        file: CAMERA,
+        find: "direction.scale(c(camera.focus_distance as f32)).sub(offset)",
+        replace: "direction.scale(c(camera.focus_distance as f32)).add(offset)",
+        caught_by: proofs(&["analytic::the_blur_disc_is_that_of_a_thin_lens", "figures::figure_7"]),
+    },
+    // Textures.
+    Mutant {
+        name: "texture-v-flipped",
+        file: TEXTURES,
+        find: "let (x, y) = (u, c(1.0) - v);",
+        replace: "let (x, y) = (u, v);",
+        caught_by: proofs(&["figures::figure_1"]),
+    },
+    Mutant {
+        name: "texels-shifted-by-a-half",
+        file: TEXTURES,
+        find: "F::select(nearest, c(0.0), c(0.5))",
+        replace: "F::select(nearest, c(0.5), c(0.0))",
+        caught_by: proofs(&["textures", "figures::figure_1"]),
+    },
+    Mutant {
+        name: "mirror-wrap-as-a-saw",
+        file: TEXTURES,
+        find: "F::select(c(1.0).lt(wave), c(2.0) - wave, wave)",
+        replace: "F::select(c(1.0).lt(wave), wave - c(1.0), wave)",
+        caught_by: proofs(&["textures"]),
+    },
+    Mutant {
+        name: "repeat-clamped-at-its-seam",
+        file: TEXTURES,
+        find: "F::U::select(before, F::U::select(clamp_edge, F::U::splat(0), last), first - one)",
+        replace: "F::U::select(before, F::U::splat(0), first - one)",
+        caught_by: proofs(&["textures"]),
+    },
+    // Sampling.
+    Mutant {
+        name: "disc-without-a-root",
+        file: WARP,
+        find: "let r = u.sqrt();",
+        replace: "let r = u;",
+        caught_by: units(&["sampling::warp"]),
+    },
+    Mutant {
+        name: "cosine-lobe-not-of-unit-length",
+        file: WARP,
+        find: "V3(x, y, (F::splat(1.0) - u).sqrt())",
+        replace: "V3(x, y, F::splat(1.0) - u)",
+        caught_by: units(&["sampling::warp"]),
+    },
+    Mutant {
+        name: "glossy-lobe-of-the-wrong-exponent",
+        file: WARP,
+        find: "(F::splat(2.0) / (alpha + one))",
+        replace: "(F::splat(2.0) / (alpha + one + one))",
+        caught_by: units(&["sampling::warp"]),
+    },
+    Mutant {
+        name: "light-points-reuse-the-direction's",
+        file: SAMPLER,
+        find: "Purpose::Light(k) => 5 + 4 * k,",
+        replace: "Purpose::Light(k) => 4 + 4 * k,",
+        caught_by: proofs(&["sampler::points_are_uniform_over_seeds_and_pairs_unrelated"]),
+    },
+    Mutant {
+        name: "bounces-share-their-light-points",
+        file: SAMPLER,
+        find: "Purpose::Light(k) => 5 + 4 * k,",
+        replace: "Purpose::Light(k) => 5 + 0 * k,",
+        caught_by: proofs(&["sampler::points_are_uniform_over_seeds_and_pairs_unrelated"]),
+    },
+    Mutant {
+        name: "seed-reused",
+        file: SAMPLER,
+        find: "let b = hash3(seed, purpose.id(), 0x0ddc_0ffe);",
+        replace: "let b = hash3(0, purpose.id(), 0x0ddc_0ffe);",
+        caught_by: proofs(&["sampler::means_over_64_seeds_are_right", "sampler::points_are_uniform"]),
+    },
+    Mutant {
+        name: "pixels-share-their-points",
+        file: SAMPLER,
+        find: "let x = sample_x ^ pascal_lower(z);",
+        replace: "let x = sample_x;",
+        caught_by: units(&["sampling::sampler"]),
+    },
+    Mutant {
+        name: "numbers-reach-one",
+        file: SAMPLER,
+        find: "F::splat(1.0 / 16_777_216.0)",
+        replace: "F::splat(1.0 / 16_777_215.0)",
+        caught_by: proofs(&["sequence::numbers_stay_below_one"]),
+    },
+];

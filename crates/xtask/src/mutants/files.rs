@@ -1,0 +1,100 @@
+//! Faults in what reads meshes, placements, materials and textures.
+
+use super::{Mutant, suite, units};
+
+const PIECE: &str = "crates/tracer-core/src/mesh/obj/piece.rs";
+const MESH: &str = "crates/tracer-core/src/mesh/mod.rs";
+const NORMALS: &str = "crates/tracer-core/src/mesh/normals.rs";
+const POLYGON: &str = "crates/tracer-core/src/mesh/polygon.rs";
+const PLACEMENTS: &str = "crates/tracer-core/src/mesh/placements.rs";
+const MTL: &str = "crates/tracer-core/src/mesh/mtl/library.rs";
+const SRGB: &str = "crates/tracer-core/src/texture/srgb.rs";
+const TEXTURE: &str = "crates/tracer-core/src/texture/mod.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "obj-negative-index-off-by-one",
+        file: PIECE,
+        find: "(count as i64).saturating_add(number)",
+        replace: "(count as i64).saturating_add(number - 1)",
+        caught_by: suite("mesh_obj", &["negative_indices_count_back_from_the_face"]),
+    },
+    Mutant {
+        name: "obj-indices-from-zero",
+        file: PIECE,
+        find: "u32::try_from(number - 1).ok()",
+        replace: "u32::try_from(number).ok()",
+        caught_by: suite("mesh_obj", &["faces_of_positions_alone"]),
+    },
+    Mutant {
+        name: "obj-normal-counted-among-texture-coordinates",
+        file: PIECE,
+        find: "normal = parse_index(cursor, self.normals.len(), start)?;",
+        replace: "normal = parse_index(cursor, self.uvs.len(), start)?;",
+        caught_by: suite("mesh_obj", &[]),
+    },
+    Mutant {
+        name: "barycentre-by-the-triangles",
+        file: MESH,
+        find: "for position in &self.positions {",
+        replace: "for position in self.triangles.as_flattened().iter().map(|&k| &self.positions[k as usize]) {",
+        caught_by: suite("mesh_obj", &["the_barycentre_is_the_mean_of_all_vertices"]),
+    },
+    Mutant {
+        name: "vertex-normals-without-angles",
+        file: NORMALS,
+        find: "sum[axis] += angle * normal[axis];",
+        replace: "sum[axis] += normal[axis] + 0.0 * angle;",
+        caught_by: units(&["mesh::normals"]),
+    },
+    Mutant {
+        name: "quadrilateral-along-the-worse-diagonal",
+        file: POLYGON,
+        find: "let halves = if first >= second",
+        replace: "let halves = if first < second",
+        caught_by: units(&["mesh::polygon"]),
+    },
+    Mutant {
+        name: "rotation-by-the-left-hand-rule",
+        file: PLACEMENTS,
+        find: "+ cross * sin + outer",
+        replace: "- cross * sin + outer",
+        caught_by: units(&["mesh::placements", "compile::placing"]),
+    },
+    Mutant {
+        name: "placement-matrix-by-columns",
+        file: PLACEMENTS,
+        find: "DMat3::from_cols_array(&[a, d, g, b, e, h, c, f, i])",
+        replace: "DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i])",
+        caught_by: units(&["mesh::placements"]),
+    },
+    Mutant {
+        name: "mtl-transparency-for-opacity",
+        file: MTL,
+        find: "self.opacity = Some(1.0 - parse_number(cursor)?)",
+        replace: "self.opacity = Some(parse_number(cursor)?)",
+        caught_by: suite("mesh_load", &["materials_of_mtl_become_ours"]),
+    },
+    Mutant {
+        name: "srgb-left-out",
+        file: SRGB,
+        find: "if code <= 0.04045 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) }",
+        replace: "code",
+        caught_by: units(&["texture::srgb"]),
+    },
+    Mutant {
+        name: "texture-blue-for-red",
+        file: TEXTURE,
+        find: "u32::from_le_bytes([p[0], p[1], p[2], 0])",
+        replace: "u32::from_le_bytes([p[2], p[1], p[0], 0])",
+        caught_by: suite("texture_load", &["eight_bit_pictures_keep_their_code_values_row_by_row_from_the_top"]),
+    },
+    Mutant {
+        name: "sixteen-bits-by-65536",
+        file: SRGB,
+        find: "linear(f64::from(value) / 65535.0)",
+        replace: "linear(f64::from(value) / 65536.0)",
+        caught_by: units(&["texture::srgb"]),
+    },
+];

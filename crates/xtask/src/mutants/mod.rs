@@ -1,0 +1,104 @@
+//! Faults seeded on purpose: each is one exact change of the source, and tests other than the goldens must notice it.
+//!
+//! A list of plausible slips, not of random ones: what a person gets wrong in a path tracer. One that no test notices is a missing
+//! test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
+
+mod engine;
+mod files;
+mod run;
+mod scene;
+
+pub use run::{Options, run};
+
+/// A fault.
+#[derive(Clone, Copy, Debug)]
+pub struct Mutant {
+    /// Says what is wrong.
+    pub name: &'static str,
+    /// From the root of the repository.
+    pub file: &'static str,
+    /// Occurs once in the file.
+    pub find: &'static str,
+    /// What stands there instead.
+    pub replace: &'static str,
+    /// The tests of which at least one must fail.
+    pub caught_by: Tests,
+}
+
+/// Tests of one test program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Tests {
+    /// `None`: the unit tests of `tracer-core`; else the name of one of its test programs.
+    pub program: Option<&'static str>,
+    /// What the names of the tests contain; all of the program's when empty.
+    pub filters: &'static [&'static str],
+}
+
+/// Unit tests of `tracer-core`.
+const fn units(filters: &'static [&'static str]) -> Tests {
+    Tests { program: None, filters }
+}
+
+/// Tests of `tests/proofs`.
+const fn proofs(filters: &'static [&'static str]) -> Tests {
+    suite("proofs", filters)
+}
+
+/// Tests of another program in `tests`.
+const fn suite(program: &'static str, filters: &'static [&'static str]) -> Tests {
+    Tests { program: Some(program), filters }
+}
+
+/// All faults.
+pub fn all() -> impl Iterator<Item = &'static Mutant> {
+    [engine::MUTANTS, scene::MUTANTS, files::MUTANTS].into_iter().flatten()
+}
+
+impl Mutant {
+    /// The text of the file with the fault in it.
+    ///
+    /// # Errors
+    /// What is to be replaced does not occur exactly once, or the replacement is no change.
+    pub fn apply(&self, text: &str) -> Result<String, String> {
+        let count = text.matches(self.find).count();
+        if count != 1 {
+            return Err(format!("{}: {:?} occurs {count} times in {}", self.name, self.find, self.file));
+        }
+        if self.find == self.replace {
+            return Err(format!("{}: changes nothing", self.name));
+        }
+        Ok(text.replacen(self.find, self.replace, 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    /// The list keeps up with the source: a patch that no longer applies is rewritten, not dropped.
+    #[test]
+    fn every_fault_applies_to_the_source() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let faults: Vec<String> = all()
+            .filter_map(|mutant| {
+                let text = std::fs::read_to_string(root.join(mutant.file)).map_err(|e| format!("{}: {e}", mutant.file));
+                text.and_then(|text| mutant.apply(&text)).err()
+            })
+            .collect();
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
+
+    #[test]
+    fn names_are_their_own_and_there_are_enough() {
+        let names: BTreeSet<&str> = all().map(|m| m.name).collect();
+        assert_eq!(names.len(), all().count());
+        assert!(names.len() >= 45, "{}", names.len());
+    }
+
+    #[test]
+    fn goldens_are_not_among_the_tests() {
+        assert!(all().all(|m| m.caught_by.program != Some("goldens")));
+    }
+}

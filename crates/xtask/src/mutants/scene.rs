@@ -1,0 +1,206 @@
+//! Faults in compiling, the scene's tables, the tree, the film and developing.
+
+use super::{Mutant, proofs, suite, units};
+
+const COMPILE: &str = "crates/tracer-core/src/compile/mod.rs";
+const MESHES: &str = "crates/tracer-core/src/compile/meshes.rs";
+const PLACING: &str = "crates/tracer-core/src/compile/placing.rs";
+const LIGHT: &str = "crates/tracer-core/src/scene/light.rs";
+const SPHERE: &str = "crates/tracer-core/src/scene/sphere.rs";
+const FILM: &str = "crates/tracer-core/src/film.rs";
+const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "one-bounce-too-many",
+        file: COMPILE,
+        find: "max_bounces: desc.render.max_bounces.value,",
+        replace: "max_bounces: desc.render.max_bounces.value + 1,",
+        caught_by: proofs(&["analytic::n_bounces_are_the_partial_sum_of_a_series"]),
+    },
+    Mutant {
+        name: "lens-radius-for-its-diameter",
+        file: COMPILE,
+        find: "frame.length(l.aperture.value / 2.0)",
+        replace: "frame.length(l.aperture.value)",
+        caught_by: proofs(&["analytic::the_blur_disc_is_that_of_a_thin_lens"]),
+    },
+    Mutant {
+        name: "field-of-view-for-its-half",
+        file: COMPILE,
+        find: "desc.camera.fov.value.to_radians() / 2.0;",
+        replace: "desc.camera.fov.value.to_radians();",
+        caught_by: proofs(&["surfaces::huge_spheres_have_no_rings"]),
+    },
+    Mutant {
+        name: "width-taken-for-square",
+        file: COMPILE,
+        find: "half_height * f64::from(desc.image.width.value) / f64::from(desc.image.height.value)",
+        replace: "half_height",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "up-is-down",
+        file: COMPILE,
+        find: "let up = right.cross(forward);",
+        replace: "let up = forward.cross(right);",
+        caught_by: proofs(&["surfaces::huge_spheres_have_no_rings"]),
+    },
+    Mutant {
+        name: "power-of-a-hemisphere",
+        file: COMPILE,
+        find: "x / (4.0 * std::f64::consts::PI * disc)",
+        replace: "x / (2.0 * std::f64::consts::PI * disc)",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "intensity-over-the-sphere's-surface",
+        file: COMPILE,
+        find: "i.map(|x| x / disc)",
+        replace: "i.map(|x| x / (4.0 * disc))",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "light-of-the-neighbour",
+        file: COMPILE,
+        find: "*index = k as u32;",
+        replace: "*index = (k as u32).saturating_sub(1);",
+        caught_by: proofs(&["figures::figure_6"]),
+    },
+    Mutant {
+        name: "mirrored-mesh-keeps-its-winding",
+        file: MESHES,
+        find: "if mirrored { [a, c, b] } else { [a, b, c] }",
+        replace: "if mirrored { [a, b, c] } else { [a, b, c] }",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "normals-moved-like-points",
+        file: MESHES,
+        find: "let inverse = map.matrix3.inverse().transpose();",
+        replace: "let inverse = map.matrix3;",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "smooth-without-normals",
+        file: MESHES,
+        find: "Shading::Auto => !loaded.files[file].normals.is_empty(),",
+        replace: "Shading::Auto => true,",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "copies-forget-their-own-material",
+        file: MESHES,
+        find: "Instance { mesh, material: whole, placement: Some(",
+        replace: "Instance { mesh, material: 0, placement: Some(",
+        caught_by: proofs(&["compiling", "random_scenes"]),
+    },
+    Mutant {
+        name: "transforms-last-to-first",
+        file: PLACING,
+        find: "map = step * map;",
+        replace: "map = map * step;",
+        caught_by: units(&["compile::placing"]),
+    },
+    Mutant {
+        name: "barycentre-left-behind",
+        file: PLACING,
+        find: "|| map.transform_point3(barycentre)",
+        replace: "|| barycentre",
+        caught_by: units(&["compile::placing"]),
+    },
+    Mutant {
+        name: "fixed-point-moves",
+        file: PLACING,
+        find: "translation: point - matrix * point",
+        replace: "translation: matrix * point - point",
+        caught_by: units(&["compile::placing"]),
+    },
+    Mutant {
+        name: "dropped-by-too-much",
+        file: PLACING,
+        find: "y - lowest(&map)",
+        replace: "y + lowest(&map)",
+        caught_by: units(&["compile::placing"]),
+    },
+    Mutant {
+        name: "alias-table-takes-too-much",
+        file: LIGHT,
+        find: "scaled[l] -= 1.0 - scaled[s];",
+        replace: "scaled[l] -= scaled[s];",
+        caught_by: units(&["scene::light"]),
+    },
+    Mutant {
+        name: "curvature-is-the-radius",
+        file: SPHERE,
+        find: "let k = 1.0 / s.radius;",
+        replace: "let k = s.radius;",
+        caught_by: proofs(&["surfaces::huge_spheres_have_no_rings"]),
+    },
+    // Film and picture.
+    Mutant {
+        name: "film-z-order-transposed",
+        file: FILM,
+        find: "z_order(x % BLOCK, y % BLOCK)",
+        replace: "z_order(y % BLOCK, x % BLOCK)",
+        caught_by: proofs(&["figures::figure_6"]),
+    },
+    Mutant {
+        name: "film-sums-as-they-come",
+        file: FILM,
+        find: "coarse_sums[pixel] += coarse;",
+        replace: "coarse_sums[pixel] += x - fine;",
+        caught_by: units(&["film"]),
+    },
+    Mutant {
+        name: "film-keeps-negative-samples",
+        file: FILM,
+        find: "(0.0..=LARGEST).contains(&x)",
+        replace: "(-LARGEST..=LARGEST).contains(&x)",
+        caught_by: units(&["film"]),
+    },
+    Mutant {
+        name: "variance-of-a-sample-not-of-the-mean",
+        file: FILM,
+        find: "((block.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)",
+        replace: "(block.squares[pixel] / n - mean * mean).max(0.0)",
+        caught_by: proofs(&["compiling"]),
+    },
+    Mutant {
+        name: "exposure-sign",
+        file: DEVELOP,
+        find: "libm::exp2(look.exposure)",
+        replace: "libm::exp2(-look.exposure)",
+        caught_by: proofs(&["analytic::exposure_and_tone_maps"]),
+    },
+    Mutant {
+        name: "srgb-as-a-pure-power",
+        file: DEVELOP,
+        find: "1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055",
+        replace: "libm::pow(linear, 1.0 / 2.2)",
+        caught_by: units(&["develop"]),
+    },
+    // Tree.
+    Mutant {
+        name: "boxes-not-padded",
+        file: "crates/tracer-core/src/bvh/ray_space.rs",
+        find: "pub(crate) const PAD: f32 = 1.0 / 524_288.0;",
+        replace: "pub(crate) const PAD: f32 = 0.0;",
+        caught_by: suite("bvh_watertight", &["closed_meshes_do_not_leak"]),
+    },
+    Mutant {
+        name: "triangle-edges-leak",
+        file: "crates/tracer-core/src/bvh/triangle.rs",
+        find: "let w = b[0] * a[1] - b[1] * a[0];",
+        replace: "let w = b[0] * a[1] - b[1] * a[0] - 1e-6;",
+        caught_by: suite("bvh_closest", &["coplanar_grid", "few_triangles", "soup"]),
+    },
+    Mutant {
+        name: "boxes-of-a-corner-too-few",
+        file: "crates/tracer-core/src/bvh/bounds.rs",
+        find: "self.upper = self.upper.max(other.upper);",
+        replace: "self.upper = self.upper.min(other.upper).max(self.lower);",
+        caught_by: suite("bvh_closest", &["soup", "few_triangles"]),
+    },
+];
