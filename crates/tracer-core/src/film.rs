@@ -4,7 +4,7 @@
 //! A sample is split into a multiple of 2^-20 and a rest that is rounded to a multiple of 2^-50; each part is summed in its own f64, exactly as long as the sum of up to 2^20 samples stays below 2^32
 //! (Demmel and Nguyen: Fast Reproducible Floating-Point Summation, 2013, with two fixed bins).
 
-use crate::engine::Counters;
+use crate::engine::{Counters, Statistics};
 use crate::lanes::level::Level;
 
 /// Pixels along a tile's side; see `engine::batch`.
@@ -108,6 +108,8 @@ pub struct Film {
     tiles: Vec<Tile>,
     /// Rays and dropped samples.
     pub counters: Counters,
+    /// Where the time went, if that was asked for.
+    pub statistics: Option<Statistics>,
     /// Lane type that was used.
     pub level: Level,
     /// Threads that were used.
@@ -128,6 +130,7 @@ impl Film {
             tile_columns,
             tiles: vec![Tile::new(); count],
             counters: Counters::default(),
+            statistics: None,
             level: Level::best(),
             threads: 1,
         }

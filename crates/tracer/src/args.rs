@@ -177,6 +177,9 @@ pub struct RenderArgs {
     /// Write a report of times, rays and memory as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Tell where the time goes, stage by stage; in the report too
+    #[arg(long)]
+    pub stats: bool,
     /// Print errors only
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,

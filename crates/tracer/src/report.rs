@@ -1,6 +1,7 @@
 //! The report of a rendering as JSON; `docs/report.md` is its documentation.
 
 use serde::Serialize;
+use tracer_core::{Stage, Statistics, TreeWork};
 
 /// Changes whenever a field changes its meaning or goes; new fields may come at any time.
 pub const VERSION: u32 = 1;
@@ -36,6 +37,8 @@ pub struct Report {
     pub tree: Option<Tree>,
     /// Memory.
     pub memory: Memory,
+    /// Where the time of rendering went; null unless `--stats` asked for it.
+    pub stats: Option<Stats>,
     /// What it ran on.
     pub machine: Machine,
     /// The pictures.
@@ -104,6 +107,73 @@ pub struct Rays {
     pub total: u64,
     /// All, per second of `seconds.render`.
     pub per_second: f64,
+}
+
+/// Where the time of rendering went.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stats {
+    /// The stages of the engine.
+    pub stages: Vec<StageSeconds>,
+    /// Share of the lanes that held a path while surfaces were shaded.
+    pub lanes_used: f64,
+    /// What a closest hit costs the tree.
+    pub closest: PerRay,
+    /// What a shadow ray, or a segment between pixels, costs the tree.
+    pub occluded: PerRay,
+}
+
+/// One stage.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageSeconds {
+    /// One word.
+    pub name: &'static str,
+    /// Summed over threads.
+    pub seconds: f64,
+}
+
+/// What a ray costs the tree, on average over every 64th batch; null where it was not asked about one.
+#[derive(Clone, Debug, Serialize)]
+pub struct PerRay {
+    /// Nodes of eight boxes.
+    pub nodes: Option<f64>,
+    /// Leaves.
+    pub leaves: Option<f64>,
+}
+
+impl Stats {
+    /// From what the engine kept.
+    pub fn new(statistics: &Statistics) -> Self {
+        let per_ray = |work: TreeWork| {
+            let part = |count: u64| (work.rays > 0).then(|| count as f64 / work.rays as f64);
+            PerRay { nodes: part(work.nodes), leaves: part(work.leaves) }
+        };
+        Stats {
+            stages: Stage::ALL
+                .iter()
+                .zip(statistics.seconds)
+                .map(|(stage, seconds)| StageSeconds { name: stage.name(), seconds })
+                .collect(),
+            lanes_used: statistics.vertices as f64 / statistics.lanes.max(1) as f64,
+            closest: per_ray(statistics.closest),
+            occluded: per_ray(statistics.occluded),
+        }
+    }
+
+    /// A few lines for people.
+    pub fn to_text(&self) -> String {
+        let total: f64 = self.stages.iter().map(|stage| stage.seconds).sum();
+        let mut text = String::from("where the time went (seconds of all threads)\n");
+        for StageSeconds { name, seconds } in &self.stages {
+            text += &format!("  {name:<9} {seconds:8.3}  {:4.1} %\n", 100.0 * seconds / total.max(1e-9));
+        }
+        text += &format!("  lanes used in shade: {:.1} %", 100.0 * self.lanes_used);
+        for (what, cost) in [("closest hit", &self.closest), ("shadow ray", &self.occluded)] {
+            if let PerRay { nodes: Some(nodes), leaves: Some(leaves) } = cost {
+                text += &format!("\n  a {what} that reaches the tree: {nodes:.1} nodes, {leaves:.1} leaves");
+            }
+        }
+        text
+    }
 }
 
 /// Camera samples.

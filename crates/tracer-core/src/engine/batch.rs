@@ -3,6 +3,7 @@
 //! A batch is up to [`ITEMS`] items; an item is a quarter of a tile of 16x16 pixels, 64 of them, at one sample index. Slot s is
 //! pixel s % 64 of item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
+use super::statistics::Watch;
 use crate::scene::NONE;
 
 /// Pixels along a tile's side.
@@ -323,6 +324,8 @@ pub struct Batch {
     pub active_len: usize,
     /// Counters.
     pub counters: Counters,
+    /// Statistics, if they are wanted.
+    pub watch: Watch,
 }
 
 impl Batch {
@@ -370,6 +373,7 @@ impl Batch {
             active: words(),
             active_len: 0,
             counters: Counters::default(),
+            watch: Watch::default(),
         }
     }
 }

@@ -7,9 +7,11 @@ mod batch;
 mod kernels;
 mod lane_io;
 mod stages;
+mod statistics;
 mod trace;
 
 pub use batch::Counters;
+pub use statistics::{Stage, Statistics, TreeWork};
 
 use crate::film::{Crop, Film};
 use crate::lanes::level::Level;
@@ -35,6 +37,8 @@ pub struct RenderOptions {
     pub level: Option<Level>,
     /// Whether the pixels of a block share what they find.
     pub reuse: Option<bool>,
+    /// Whether to keep [`Statistics`].
+    pub statistics: bool,
 }
 
 /// How far a rendering is.
@@ -68,8 +72,11 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let level = options.level.unwrap_or_else(Level::best);
     let kernels = Kernels::new(level);
     let samples = options.samples.unwrap_or(scene.samples);
-    let pass_options =
-        trace::Pass { seed: options.seed.unwrap_or(scene.seed), reuse: options.reuse.unwrap_or(scene.reuse) };
+    let pass_options = trace::Pass {
+        seed: options.seed.unwrap_or(scene.seed),
+        reuse: options.reuse.unwrap_or(scene.reuse),
+        lanes: level.lanes(),
+    };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
     let mut film = Film::new(scene.size, crop, pass_options.seed);
@@ -101,6 +108,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                             batch.items.extend(quarters.map(|quarter| Item { tile_x, tile_y, quarter, sample }));
                         }
                     }
+                    batch.watch.start(options.statistics);
                     trace::trace(scene, &kernels, pass_options, batch);
                     let items_of_tile = (count * QUARTERS) as usize;
                     for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
@@ -111,6 +119,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                         }
                         tile.count(count);
                     }
+                    batch.watch.lap(Stage::Film);
                     sample += count;
                     let added = mine.len() * items_of_tile * batch::BLOCK_PIXELS;
                     let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
@@ -136,9 +145,12 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         }
         observer.pass(&film);
     }
+    let mut statistics = Statistics::default();
     for worker in &workers {
         film.counters.add(&lock(worker).batch.counters);
+        statistics.add(&lock(worker).batch.watch.statistics);
     }
+    film.statistics = options.statistics.then_some(statistics);
     film.level = level;
     film.threads = threads;
     film

@@ -4,6 +4,7 @@ use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
 use super::stages::share::Round;
+use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::sampling::sampler::z_order;
 use crate::scene::Scene;
@@ -15,6 +16,8 @@ pub struct Pass {
     pub seed: u32,
     /// Pixels share what they find ([`super::stages::share`]).
     pub reuse: bool,
+    /// Lanes of the kernels; for the statistics.
+    pub lanes: usize,
 }
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
@@ -28,22 +31,29 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
     batch.suffixes.len = 0;
     batch.groups.list.clear();
     kernels.camera(scene, pass.seed, batch);
+    batch.watch.lap(Stage::Camera);
     let mut groups_before = [0; ITEMS];
     let mut vertex = 0;
     while batch.paths.len > 0 {
         kernels.closest(scene, batch);
+        batch.watch.lap(Stage::Spheres);
         if let Some(accel) = &scene.accel {
             kernels.reach_closest(accel.top_boxes(), batch);
+            batch.watch.lap(Stage::Reach);
             closest_in_tree(accel, vertex == 0, batch);
+            batch.watch.lap(Stage::Closest);
         }
+        batch.watch.shaded(batch.paths.len, pass.lanes);
         let (members, suffixes) = (batch.members.len, batch.suffixes.len);
         kernels.shade(scene, pass, vertex, batch);
         for j in suffixes..batch.suffixes.len {
             batch.groups.of_suffix[j] = groups_before[(batch.suffixes.slot[j] >> 6) as usize];
         }
         group(members, batch, &mut groups_before);
+        batch.watch.lap(Stage::Shade);
         occluded(scene, kernels, Coherence::Incoherent, batch);
         deposit(batch);
+        batch.watch.lap(Stage::Deposit);
         vertex += 1;
     }
     if batch.suffixes.len > 0 {
@@ -74,6 +84,7 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
         let mut next = 0;
         while next < batch.suffixes.len {
             next = kernels.share_segments(seed, round, next, batch);
+            batch.watch.lap(Stage::Share);
             std::mem::swap(&mut batch.shadows, &mut batch.segments);
             // All rays of the rest go to the same point.
             let coherence = if round == Round::Rest { Coherence::Coherent } else { Coherence::Incoherent };
@@ -86,6 +97,7 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
         }
     }
     kernels.share_gather(batch);
+    batch.watch.lap(Stage::Share);
     for (channel, gathered) in batch.radiance.iter_mut().zip(&batch.groups.gathered) {
         for (&slot, &light) in batch.members.slot[..batch.members.len].iter().zip(gathered) {
             channel[slot as usize] += light;
@@ -123,14 +135,22 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     };
     let coherence = if camera { Coherence::Coherent } else { Coherence::Incoherent };
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive, &paths.from_instance, len);
-    accel.closest(&rays, &batch.active[..batch.active_len], &mut hits, coherence);
+    let active = &batch.active[..batch.active_len];
+    if batch.watch.counts_tree() {
+        let counters = accel.closest_counted(&rays, active, &mut hits, coherence);
+        batch.watch.statistics.closest.add(active.len(), &counters);
+    } else {
+        accel.closest(&rays, active, &mut hits, coherence);
+    }
 }
 
 /// Which of the shadow rays something blocks.
 fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
     kernels.occluded(scene, batch);
+    batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);
+    batch.watch.lap(Stage::Reach);
     let len = batch.shadows.len;
     let shadows = &mut batch.shadows;
     let mut occlusion = Occlusion {
@@ -140,5 +160,12 @@ fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut 
         occluded: &mut shadows.occluded[..len],
     };
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive, &shadows.from_instance, len);
-    accel.occluded(&rays, &batch.active[..batch.active_len], &mut occlusion, coherence);
+    let active = &batch.active[..batch.active_len];
+    if batch.watch.counts_tree() {
+        let counters = accel.occluded_counted(&rays, active, &mut occlusion, coherence);
+        batch.watch.statistics.occluded.add(active.len(), &counters);
+    } else {
+        accel.occluded(&rays, active, &mut occlusion, coherence);
+    }
+    batch.watch.lap(Stage::Occluded);
 }

@@ -34,10 +34,10 @@ fn fields_are_the_documented_ones() {
     let mut found = BTreeSet::new();
     // One scene without a tree, one with it.
     fields(&report(&sandbox, &[]), "", &mut found);
-    assert!(found.contains("tree"), "it is null");
+    assert!(found.contains("tree") && found.contains("stats"), "they are null");
     let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));
-    fields(&report(&sandbox, &["--size", "8x8"]), "", &mut found);
+    fields(&report(&sandbox, &["--size", "8x8", "--stats"]), "", &mut found);
     let documentation = std::fs::read_to_string(repository().join("docs/report.md")).expect("documentation");
     let documented: BTreeSet<String> = documentation
         .lines()
@@ -64,8 +64,12 @@ fn numbers_fit_together() {
     let report = report(&sandbox, &["--threads", "3"]);
     let number = |path: &str| report.pointer(path).and_then(Value::as_u64).unwrap_or_else(|| panic!("{path}"));
     assert_eq!(number("/report_version"), 1);
-    assert_eq!(number("/samples/total"), 40 * 24 * 2);
-    assert_eq!(number("/rays/camera") + number("/rays/scattered") + number("/rays/shadow"), number("/rays/total"));
+    // 40x24 pixels lie in whole tiles of 16x16.
+    assert_eq!(number("/samples/total"), 48 * 32 * 2);
+    assert_eq!(
+        ["camera", "scattered", "shadow", "segments"].map(|kind| number(&format!("/rays/{kind}"))).iter().sum::<u64>(),
+        number("/rays/total")
+    );
     assert_eq!((number("/picture/samples_min"), number("/picture/samples_max")), (2, 2));
     assert_eq!((number("/primitives/spheres"), number("/primitives/lights")), (4, 1));
     assert_eq!((number("/machine/threads"), number("/samples/dropped")), (3, 0));

@@ -8,8 +8,8 @@ use crate::failure::{Failure, exit};
 use crate::loading::{compile, is_dash, load, use_threads};
 use crate::progress::{Watch, rate};
 use crate::report::{
-    FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport, Seconds, Tree,
-    VERSION,
+    FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport, Seconds, Stats,
+    Tree, VERSION,
 };
 use crate::shell::Shell;
 use crate::write::{Place, Provenance, Setting, save, write};
@@ -45,6 +45,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         crop: Some(crop),
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
+        statistics: args.stats,
         ..RenderOptions::default()
     };
     let film = render(&scene, &options, &watch);
@@ -83,6 +84,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         total: clock.last.duration_since(started).as_secs_f64(),
     };
 
+    if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
+        shell.say(&Stats::new(statistics).to_text());
+    }
     if film.counters.dropped > 0 {
         shell.say(&format!(
             "warning: {} samples were not finite and are left out; repeat with: {}",
@@ -270,6 +274,7 @@ fn report(
             textures: statistics.texture_bytes,
             film: film.bytes() as u64,
         },
+        stats: film.statistics.as_ref().map(Stats::new),
         machine: Machine {
             threads: film.threads,
             simd: film.level.name(),

@@ -1,0 +1,152 @@
+//! Where the time of a rendering goes, and how well lanes and tree are used.
+
+use std::time::Instant;
+
+/// The stages of a batch, in the order of their first turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Camera rays.
+    Camera,
+    /// Rays against the spheres that every ray tests, closest hits and shadows.
+    Spheres,
+    /// Which rays the tree is asked about.
+    Reach,
+    /// Closest hits in the tree.
+    Closest,
+    /// Surfaces, materials, lights and the next rays.
+    Shade,
+    /// Shadow rays, and segments between pixels, in the tree.
+    Occluded,
+    /// Light of shadow rays to their pixels.
+    Deposit,
+    /// What pixels share: which segments, and each one's part.
+    Share,
+    /// Samples onto the film.
+    Film,
+}
+
+impl Stage {
+    /// All of them.
+    pub const ALL: [Stage; 9] = [
+        Stage::Camera,
+        Stage::Spheres,
+        Stage::Reach,
+        Stage::Closest,
+        Stage::Shade,
+        Stage::Occluded,
+        Stage::Deposit,
+        Stage::Share,
+        Stage::Film,
+    ];
+
+    /// One word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Camera => "camera",
+            Stage::Spheres => "spheres",
+            Stage::Reach => "reach",
+            Stage::Closest => "closest",
+            Stage::Shade => "shade",
+            Stage::Occluded => "occluded",
+            Stage::Deposit => "deposit",
+            Stage::Share => "share",
+            Stage::Film => "film",
+        }
+    }
+}
+
+/// What the tree did for a sample of the batches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TreeWork {
+    /// Rays it was asked about.
+    pub rays: u64,
+    /// Nodes of eight boxes tested.
+    pub nodes: u64,
+    /// Leaves tested.
+    pub leaves: u64,
+}
+
+impl TreeWork {
+    pub(crate) fn add(&mut self, rays: usize, counters: &crate::bvh::Counters) {
+        self.rays += rays as u64;
+        self.nodes += counters.nodes;
+        self.leaves += counters.triangle_leaves + counters.sphere_leaves;
+    }
+}
+
+/// Where the time went, summed over threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Seconds of each stage, as in [`Stage::ALL`].
+    pub seconds: [f64; Stage::ALL.len()],
+    /// Vertices of paths shaded.
+    pub vertices: u64,
+    /// Lanes that this took, those without a path included.
+    pub lanes: u64,
+    /// Closest hits.
+    pub closest: TreeWork,
+    /// Shadow rays and segments.
+    pub occluded: TreeWork,
+}
+
+impl Statistics {
+    /// Adds another thread's.
+    pub(crate) fn add(&mut self, other: &Statistics) {
+        for (sum, seconds) in self.seconds.iter_mut().zip(other.seconds) {
+            *sum += seconds;
+        }
+        self.vertices += other.vertices;
+        self.lanes += other.lanes;
+        for (sum, work) in [(&mut self.closest, other.closest), (&mut self.occluded, other.occluded)] {
+            sum.rays += work.rays;
+            sum.nodes += work.nodes;
+            sum.leaves += work.leaves;
+        }
+    }
+}
+
+/// Every so many batches the tree counts what it does, which costs it a few per cent.
+const COUNTED: u32 = 64;
+
+/// Keeps the statistics of a thread, or nothing.
+#[derive(Debug, Default)]
+pub(crate) struct Watch {
+    last: Option<Instant>,
+    batches: u32,
+    pub statistics: Statistics,
+}
+
+impl Watch {
+    /// Starts the time of a batch; `on`: there is somebody to tell.
+    pub fn start(&mut self, on: bool) {
+        self.last = on.then(Instant::now);
+        self.batches = self.batches.wrapping_add(1);
+    }
+
+    /// Whether statistics are kept.
+    pub fn is_on(&self) -> bool {
+        self.last.is_some()
+    }
+
+    /// Whether the tree is to count in this batch.
+    pub fn counts_tree(&self) -> bool {
+        self.is_on() && self.batches % COUNTED == 1
+    }
+
+    /// All time since the last lap was spent on this stage.
+    pub fn lap(&mut self, stage: Stage) {
+        if let Some(last) = &mut self.last {
+            let now = Instant::now();
+            self.statistics.seconds[stage as usize] += now.duration_since(*last).as_secs_f64();
+            *last = now;
+        }
+    }
+
+    /// So many paths were shaded, over so many lanes at a time.
+    pub fn shaded(&mut self, paths: usize, lanes: usize) {
+        if self.is_on() {
+            self.statistics.vertices += paths as u64;
+            self.statistics.lanes += paths.next_multiple_of(lanes) as u64;
+        }
+    }
+}
