@@ -7,7 +7,9 @@ const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
 const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights.rs";
 const CAMERA: &str = "crates/tracer-core/src/engine/stages/camera.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
+const SHARE: &str = "crates/tracer-core/src/engine/stages/share.rs";
 const SPHERES: &str = "crates/tracer-core/src/engine/stages/spheres.rs";
+const TRACE: &str = "crates/tracer-core/src/engine/trace.rs";
 const TEXTURES: &str = "crates/tracer-core/src/engine/stages/textures.rs";
 const SAMPLER: &str = "crates/tracer-core/src/sampling/sampler.rs";
 const WARP: &str = "crates/tracer-core/src/sampling/warp.rs";
@@ -88,7 +90,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "roulette-without-one-over-q",
         file: SHADE,
-        find: "carried = carried.scale(one / F::select(zero.lt(q), q, one));",
+        find: "carried = carried.scale(one / F::select(zero.lt(survival), survival, one));",
         replace: "carried = carried.scale(one);",
         caught_by: proofs(&["analytic::a_lambertian_furnace_is_one_over_one_minus_albedo"]),
     },
@@ -98,6 +100,35 @@ pub const MUTANTS: &[Mutant] = &[
         find: "F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))",
         replace: "F::splat(1.0) / ratio.fma(ratio, F::splat(0.5))",
         caught_by: units(&["engine::stages::shade"]),
+    },
+    // What pixels share.
+    Mutant {
+        name: "sharing-without-one-over-the-chance-to-notice",
+        file: SHARE,
+        find: "(untested + 1.0 / (unblocked * noticed), untested)",
+        replace: "(untested + 1.0 / unblocked, untested)",
+        caught_by: proofs(&["reuse::"]),
+    },
+    Mutant {
+        name: "sharing-without-the-second-cosine",
+        file: SHARE,
+        find: "(cos_member * inverse) * (cos_suffix * inverse)",
+        replace: "(cos_member * inverse) * inverse",
+        caught_by: proofs(&["reuse::"]),
+    },
+    Mutant {
+        name: "sharing-through-walls",
+        file: TRACE,
+        find: "u64::from(occluded) << (tag & 63)",
+        replace: "u64::from(occluded & 0) << (tag & 63)",
+        caught_by: proofs(&["reuse::"]),
+    },
+    Mutant {
+        name: "sharing-forgets-roulette",
+        file: SHARE,
+        find: "density * survival",
+        replace: "density",
+        caught_by: proofs(&["reuse::"]),
     },
     // Surfaces.
     Mutant {

@@ -142,8 +142,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "film-z-order-transposed",
         file: FILM,
-        find: "z_order(x % BLOCK, y % BLOCK)",
-        replace: "z_order(y % BLOCK, x % BLOCK)",
+        find: "z_order(x % TILE, y % TILE)",
+        replace: "z_order(y % TILE, x % TILE)",
         caught_by: proofs(&["figures::figure_6"]),
     },
     Mutant {
@@ -154,17 +154,17 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: units(&["film"]),
     },
     Mutant {
-        name: "film-keeps-negative-samples",
+        name: "film-drops-negative-samples",
         file: FILM,
-        find: "(0.0..=LARGEST).contains(&x)",
-        replace: "(-LARGEST..=LARGEST).contains(&x)",
+        find: "x.abs() <= LARGEST",
+        replace: "(0.0..=LARGEST).contains(&x)",
         caught_by: units(&["film"]),
     },
     Mutant {
         name: "variance-of-a-sample-not-of-the-mean",
         file: FILM,
-        find: "((block.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)",
-        replace: "(block.squares[pixel] / n - mean * mean).max(0.0)",
+        find: "((tile.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)",
+        replace: "(tile.squares[pixel] / n - mean * mean).max(0.0)",
         caught_by: proofs(&["compiling"]),
     },
     Mutant {
