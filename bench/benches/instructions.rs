@@ -1,0 +1,55 @@
+//! Instructions that the hot paths take, counted by valgrind: no noise, so a gate. `cargo bench --bench instructions`, in this
+//! folder; needs valgrind and `cargo install gungraun-runner --version 0.20.0`.
+//!
+//! Valgrind knows AVX2 but no AVX-512, so the counts are those of the AVX2 kernels. The limits are the counts of the commit that set
+//! them plus three per cent; whoever makes something cheaper lowers its limit, whoever must make it dearer says why beside it.
+
+use gungraun::prelude::*;
+use gungraun::{Callgrind, EventKind};
+use scene_format::{Loaded, Syntax, load_str};
+use std::hint::black_box;
+use std::path::Path;
+use tracer_bench::{alone, balls, copies, hills, lamps, many_spheres, rendered};
+use tracer_core::{Film, Image, Scene, develop};
+
+/// At most so many instructions.
+fn at_most(instructions: u64) -> LibraryBenchmarkConfig {
+    let mut config = LibraryBenchmarkConfig::default();
+    config.tool(Callgrind::with_args(["--cache-sim=no"]).hard_limits([(EventKind::Ir, instructions)]));
+    config
+}
+
+// Pixels that share: 64x64 pixels, 4 samples.
+#[library_benchmark]
+#[bench::balls(args = (balls(64, 4)), config = at_most(108_700_000))]
+#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(259_200_000))]
+#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_217_200_000))]
+#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(213_600_000))]
+fn sharing(scene: Scene) -> Film {
+    black_box(rendered(black_box(&scene), 1))
+}
+
+// Each pixel for itself.
+#[library_benchmark]
+#[bench::balls(args = (alone(balls(64, 4))), config = at_most(41_500_000))]
+#[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(87_100_000))]
+fn plain(scene: Scene) -> Film {
+    black_box(rendered(black_box(&scene), 1))
+}
+
+// Film to picture.
+#[library_benchmark]
+#[bench::balls(args = (rendered(&balls(256, 1), 1)), config = at_most(48_400_000))]
+fn developed(film: Film) -> Image {
+    black_box(develop(black_box(&film), &Default::default()))
+}
+
+// Reading and checking a scene file of 1000 spheres.
+#[library_benchmark]
+#[bench::ron(args = (many_spheres(1_000)), config = at_most(14_900_000))]
+fn read(text: String) -> Loaded {
+    black_box(load_str("many.ron", black_box(&text), Syntax::Ron, Path::new("."), &[]).expect("a scene that is right"))
+}
+
+library_benchmark_group!(name = hot_paths, benchmarks = [sharing, plain, developed, read]);
+main!(library_benchmark_groups = hot_paths);
