@@ -1,6 +1,7 @@
-//! Luminous spheres and how one of them is chosen.
+//! Luminous spheres, and the tree by which one of them is chosen.
 
 use super::{Sphere, padded};
+use glam::DVec3;
 
 /// A light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub enum Light {
     },
 }
 
-/// Lights as look-up tables, index = light.
+/// Lights as look-up tables, index = light, and the tree by which one of them is chosen.
 pub(crate) struct LightTable {
     /// Number of lights.
     pub len: u32,
@@ -23,96 +24,106 @@ pub(crate) struct LightTable {
     pub radiance: [Vec<f32>; 3],
     /// Primitive id of the light's sphere.
     pub primitive: Vec<u32>,
-    /// Probability that the light is chosen.
-    pub probability: Vec<f32>,
-    /// Alias method (Walker 1977): keep entry k when the second random number is below `keep[k]`, else take `alias[k]`.
-    pub keep: Vec<f32>,
-    pub alias: Vec<u32>,
+    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, squared radius and
+    /// power of the lights below, and the bits of the first child's index, or of [`LightTable::LEAF`] and a light.
+    pub tree: Vec<f32>,
+    /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
+    pub trail: Vec<u32>,
+    /// Steps from the root to the deepest light.
+    pub depth: u32,
+}
+
+struct Emitter {
+    center: DVec3,
+    radius: f64,
+    radiance: [f64; 3],
+    primitive: u32,
+}
+
+impl Emitter {
+    /// Power but for a factor: radius^2 times the sum of the channels.
+    fn power(&self) -> f64 {
+        self.radius * self.radius * self.radiance.iter().sum::<f64>()
+    }
 }
 
 impl LightTable {
-    /// Lights are chosen by power: radius^2 times the sum of the channels.
+    /// Numbers of a node.
+    pub const STRIDE: u32 = 8;
+    /// Marks a node that is a light.
+    pub const LEAF: u32 = 1 << 31;
+
     pub fn new(lights: &[Light], spheres: &[Sphere]) -> Self {
-        struct Emitter {
-            center: [f32; 3],
-            radius: f32,
-            radiance: [f32; 3],
-            primitive: u32,
-        }
         let emitters: Vec<Emitter> = lights
             .iter()
             .filter_map(|light| {
-                let Light::Sphere { sphere, radiance } = light;
-                spheres.get(*sphere as usize).map(|s| Emitter {
-                    center: s.center.as_vec3().to_array(),
-                    radius: s.radius as f32,
-                    radiance: radiance.map(|x| x as f32),
-                    primitive: *sphere,
-                })
+                let Light::Sphere { sphere, radiance } = *light;
+                let s = spheres.get(sphere as usize)?;
+                Some(Emitter { center: s.center, radius: s.radius, radiance, primitive: sphere })
             })
             .collect();
-        let weight: Vec<f64> = emitters
-            .iter()
-            .map(|e| f64::from(e.radius) * f64::from(e.radius) * e.radiance.iter().map(|&x| f64::from(x)).sum::<f64>())
-            .collect();
-        let total: f64 = weight.iter().sum();
-        let n = emitters.len();
-        let probability: Vec<f64> =
-            weight.iter().map(|w| if total > 0.0 { w / total } else { 1.0 / n as f64 }).collect();
-        let (keep, alias) = alias_table(&probability);
-        let column = |f: &dyn Fn(&Emitter) -> f32| padded(emitters.iter().map(f).collect());
+        let column = |f: &dyn Fn(&Emitter) -> f64| padded(emitters.iter().map(|e| f(e) as f32).collect());
         let pad = |mut v: Vec<u32>| {
             v.resize(v.len().max(16), 0);
             v
         };
+        let mut builder = Builder { emitters: &emitters, tree: Vec::new(), trail: vec![0; emitters.len()], depth: 0 };
+        if !emitters.is_empty() {
+            let mut order: Vec<u32> = (0..emitters.len() as u32).collect();
+            builder.tree.resize(Self::STRIDE as usize, 0.0);
+            builder.node(0, &mut order, 0, 0);
+        }
         LightTable {
-            len: n as u32,
+            len: emitters.len() as u32,
             center: [0, 1, 2].map(|a| column(&|e| e.center[a])),
             radius: column(&|e| e.radius),
             radiance: [0, 1, 2].map(|a| column(&|e| e.radiance[a])),
             primitive: pad(emitters.iter().map(|e| e.primitive).collect()),
-            probability: padded(probability.iter().map(|&p| p as f32).collect()),
-            keep: padded(keep),
-            alias: pad(alias),
+            depth: builder.depth,
+            trail: pad(builder.trail),
+            tree: padded(builder.tree),
         }
     }
 }
 
-/// Vose's construction of the alias table, in the order of the entries.
-fn alias_table(probability: &[f64]) -> (Vec<f32>, Vec<u32>) {
-    let n = probability.len();
-    let mut scaled: Vec<f64> = probability.iter().map(|p| p * n as f64).collect();
-    let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..n).partition(|&k| scaled[k] < 1.0);
-    let mut keep = vec![1.0; n];
-    let mut alias: Vec<u32> = (0..n as u32).collect();
-    while let (Some(s), Some(&l)) = (small.pop(), large.last()) {
-        keep[s] = scaled[s] as f32;
-        alias[s] = l as u32;
-        scaled[l] -= 1.0 - scaled[s];
-        if scaled[l] < 1.0 {
-            large.pop();
-            small.push(l);
-        }
-    }
-    (keep, alias)
+/// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their number.
+struct Builder<'a> {
+    emitters: &'a [Emitter],
+    tree: Vec<f32>,
+    trail: Vec<u32>,
+    depth: u32,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn alias_table_gives_back_the_probabilities() {
-        let p = [0.5, 0.01, 0.2, 0.09, 0.2];
-        let (keep, alias) = alias_table(&p);
-        let mut q = [0.0; 5];
-        for k in 0..5 {
-            q[k] += f64::from(keep[k]) / 5.0;
-            q[alias[k] as usize] += (1.0 - f64::from(keep[k])) / 5.0;
+impl Builder<'_> {
+    /// Fills node `at` with these lights, which lie `depth` steps below the root along `trail`.
+    fn node(&mut self, at: usize, lights: &mut [u32], trail: u32, depth: u32) {
+        let emitters = self.emitters;
+        let of = |light: u32| &emitters[light as usize];
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &light in lights.iter() {
+            (low, high) = (low.min(of(light).center), high.max(of(light).center));
         }
-        for k in 0..5 {
-            // keep is held in f32.
-            assert!((p[k] - q[k]).abs() < 1e-6, "{k}: {} {}", p[k], q[k]);
-        }
+        let center = (low + high) * 0.5;
+        let radius = lights.iter().map(|&l| (of(l).center - center).length() + of(l).radius).fold(0.0, f64::max);
+        let power: f64 = lights.iter().map(|&l| of(l).power()).sum();
+        let content = if let [light] = *lights {
+            self.trail[light as usize] = trail;
+            self.depth = self.depth.max(depth);
+            LightTable::LEAF | light
+        } else {
+            let size = high - low;
+            let axis = (0..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest });
+            // The index decides between equal places, so that the tree depends on nothing else.
+            lights.sort_unstable_by(|&a, &b| of(a).center[axis].total_cmp(&of(b).center[axis]).then(a.cmp(&b)));
+            let first = self.tree.len();
+            self.tree.resize(first + 2 * LightTable::STRIDE as usize, 0.0);
+            let (left, right) = lights.split_at_mut(lights.len() / 2);
+            self.node(first, left, trail, depth + 1);
+            self.node(first + LightTable::STRIDE as usize, right, trail | 1 << depth, depth + 1);
+            first as u32 / LightTable::STRIDE
+        };
+        let numbers = [center.x, center.y, center.z, radius * radius, power].map(|x| x as f32);
+        self.tree[at..at + 5].copy_from_slice(&numbers);
+        self.tree[at + 5] = f32::from_bits(content);
     }
 }

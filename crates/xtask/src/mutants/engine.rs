@@ -212,14 +212,14 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "light-sample-without-the-choice-of-light",
         file: LIGHTS,
-        find: "pdf: F::gather(&lights.probability, k) / (opening * c(TWO_PI)),",
+        find: "pdf: choice.probability / (opening * c(TWO_PI)),",
         replace: "pdf: c(1.0) / (opening * c(TWO_PI)),",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "mis-without-the-choice-of-light",
         file: LIGHTS,
-        find: "    F::gather(&lights.probability, k) / (opening * F::splat(TWO_PI))",
+        find: "    probability(lights, k, p) / (opening * F::splat(TWO_PI))",
         replace: "    F::splat(1.0) / (opening * F::splat(TWO_PI))",
         caught_by: units(&["engine::stages::lights"]),
     },
@@ -238,10 +238,10 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
-        name: "alias-kept-the-wrong-way",
+        name: "light-tree-takes-the-other-child",
         file: LIGHTS,
-        find: "F::U::select(v.lt(F::gather(&lights.keep, k)), k, F::U::gather(&lights.alias, k))",
-        replace: "F::U::select(v.lt(F::gather(&lights.keep, k)), F::U::gather(&lights.alias, k), k)",
+        find: "let second = step.first.le(u);",
+        replace: "let second = u.lt(step.first);",
         caught_by: units(&["engine::stages::lights"]),
     },
     // Camera and filters.

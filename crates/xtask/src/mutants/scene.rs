@@ -125,11 +125,11 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: units(&["compile::placing"]),
     },
     Mutant {
-        name: "alias-table-takes-too-much",
+        name: "light-tree-forgets-the-way",
         file: LIGHT,
-        find: "scaled[l] -= 1.0 - scaled[s];",
-        replace: "scaled[l] -= scaled[s];",
-        caught_by: units(&["scene::light"]),
+        find: "trail | 1 << depth, depth + 1",
+        replace: "trail, depth + 1",
+        caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "curvature-is-the-radius",

@@ -20,14 +20,110 @@ pub struct LightSample<F: Lanes> {
     pub primitive: F::U,
 }
 
-/// Which light: proportional to power, by the alias method.
+/// A light, and how likely it was to be chosen.
+pub struct Choice<F: Lanes> {
+    /// Which one.
+    pub light: F::U,
+    /// Its probability.
+    pub probability: F,
+}
+
+/// Which light to ask from `p`: down the tree of lights, at each step to one of two children by what they may send, power over
+/// squared distance (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018). Unlike there
+/// neither normals nor the direction of the lights count (spheres shine everywhere), so that the probability of a light that was hit
+/// is known from the point alone.
 #[inline(always)]
-pub fn choose<F: Lanes>(lights: &LightTable, u: F, v: F) -> F::U {
-    let n = F::splat(lights.len as f32);
-    let last = F::U::splat(lights.len - 1);
-    let k = (u * n).to_int();
-    let k = F::U::select(last.lt(k), last, k);
-    F::U::select(v.lt(F::gather(&lights.keep, k)), k, F::U::gather(&lights.alias, k))
+pub fn choose<F: Lanes>(lights: &LightTable, p: V3<F>, u: F, v: F) -> Choice<F> {
+    let (mut u, mut node, mut probability) = (u, F::U::splat(0), F::splat(1.0));
+    for level in 0..lights.depth {
+        // Each step takes a bit of a number of 24.
+        if level == SECOND_NUMBER {
+            u = v;
+        }
+        let step = Step::new(lights, node, p);
+        let second = step.first.le(u);
+        let chance = F::select(second, F::splat(1.0) - step.first, step.first);
+        let rest = F::select(second, u - step.first, u) / chance;
+        u = F::select(step.inner, rest.min(F::splat(ALMOST_ONE)), u);
+        probability = F::select(step.inner, probability * chance, probability);
+        node = step.child(second, node);
+    }
+    Choice { light: light_of::<F>(lights, node), probability }
+}
+
+/// From this step on the second random number is used.
+const SECOND_NUMBER: u32 = 11;
+const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
+
+/// The probability that [`choose`] takes this light from `p`.
+#[inline(always)]
+fn probability<F: Lanes>(lights: &LightTable, light: F::U, p: V3<F>) -> F {
+    let (mut node, mut probability) = (F::U::splat(0), F::splat(1.0));
+    let mut trail = F::U::gather(&lights.trail, light);
+    for _ in 0..lights.depth {
+        let step = Step::new(lights, node, p);
+        let second = (trail & F::U::splat(1)).eq(F::U::splat(1));
+        trail = trail.shr::<1>();
+        let chance = F::select(second, F::splat(1.0) - step.first, step.first);
+        probability = F::select(step.inner, probability * chance, probability);
+        node = step.child(second, node);
+    }
+    probability
+}
+
+/// One step down the tree.
+struct Step<F: Lanes> {
+    /// The node has children.
+    inner: F::M,
+    /// Its first child.
+    children: F::U,
+    /// Probability of the first one.
+    first: F,
+}
+
+impl<F: Lanes> Step<F> {
+    #[inline(always)]
+    fn new(lights: &LightTable, node: F::U, p: V3<F>) -> Self {
+        let content = content::<F>(lights, node);
+        let inner = content.lt(F::U::splat(LightTable::LEAF));
+        let children = F::U::select(inner, content, F::U::splat(0));
+        let (a, b) = (importance(lights, children, p), importance(lights, children + F::U::splat(1), p));
+        let sum = a + b;
+        let any = F::splat(0.0).lt(sum);
+        let first = F::select(any, a / F::select(any, sum, F::splat(1.0)), F::splat(0.5));
+        Step { inner, children, first }
+    }
+    #[inline(always)]
+    fn child(&self, second: F::M, node: F::U) -> F::U {
+        let one = F::U::splat(1);
+        let child = F::U::select(second, self.children + one, self.children);
+        F::U::select(self.inner, child, node)
+    }
+}
+
+/// What the lights below a node may send to `p`, but for a factor: their power over the squared distance of their middle; within
+/// the sphere around them no distance says more than its radius.
+#[inline(always)]
+fn importance<F: Lanes>(lights: &LightTable, node: F::U, p: V3<F>) -> F {
+    let at = node * F::U::splat(LightTable::STRIDE);
+    let tree = &lights.tree;
+    let (one, two) = (F::U::splat(1), F::U::splat(2));
+    let center = V3(F::gather(tree, at), F::gather(tree, at + one), F::gather(tree, at + two));
+    let (radius2, power) = (F::gather(tree, at + one + two), F::gather(tree, at + two + two));
+    let to = center.sub(p);
+    power / to.dot(to).max(radius2)
+}
+
+/// What a node holds; see [`LightTable::tree`].
+#[inline(always)]
+fn content<F: Lanes>(lights: &LightTable, node: F::U) -> F::U {
+    F::gather(&lights.tree, node * F::U::splat(LightTable::STRIDE) + F::U::splat(5)).to_bits()
+}
+
+/// The light of a leaf.
+#[inline(always)]
+fn light_of<F: Lanes>(lights: &LightTable, leaf: F::U) -> F::U {
+    content::<F>(lights, leaf) & F::U::splat(!LightTable::LEAF)
 }
 
 /// 1 - cos of the half angle under which a sphere is seen from squared distance d2, without cancellation; 2 (all directions) from
@@ -41,9 +137,10 @@ fn one_minus_cos<F: Lanes>(d2: F, r2: F) -> F {
     F::select(inside, F::splat(2.0), sin2 / (one + cos))
 }
 
-/// A direction from `p` to light k, uniform in the solid angle under which it is seen.
+/// A direction from `p` to the chosen light, uniform in the solid angle under which it is seen.
 #[inline(always)]
-pub fn sample<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F) -> LightSample<F> {
+pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
+    let k = choice.light;
     let c = F::splat;
     let center = V3(F::gather(&lights.center[0], k), F::gather(&lights.center[1], k), F::gather(&lights.center[2], k));
     let radius = F::gather(&lights.radius, k);
@@ -64,7 +161,7 @@ pub fn sample<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F) -> L
     LightSample {
         wi,
         distance,
-        pdf: F::gather(&lights.probability, k) / (opening * c(TWO_PI)),
+        pdf: choice.probability / (opening * c(TWO_PI)),
         radiance: radiance(lights, k),
         primitive: F::U::gather(&lights.primitive, k),
     }
@@ -77,7 +174,7 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>) -> F {
     let radius = F::gather(&lights.radius, k);
     let to_center = center.sub(p);
     let opening = one_minus_cos(to_center.dot(to_center), radius * radius);
-    F::gather(&lights.probability, k) / (opening * F::splat(TWO_PI))
+    probability(lights, k, p) / (opening * F::splat(TWO_PI))
 }
 
 /// Radiance of light k.

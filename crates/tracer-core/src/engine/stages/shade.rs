@@ -109,14 +109,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch
 
         // Light sampled from here.
         if rough.any() && tables.lights.len > 0 {
-            let light = if tables.lights.len == 1 {
-                F::U::splat(0)
-            } else {
-                let (u, v) = choices.points(&pixel);
-                lights::choose(&tables.lights, u, v)
-            };
+            let (u, v) = if tables.lights.len == 1 { (zero, zero) } else { choices.points(&pixel) };
+            let choice = lights::choose(&tables.lights, s.start, u, v);
             let (u, v) = light_points.points(&pixel);
-            let l = lights::sample(&tables.lights, light, s.start, u, v);
+            let l = lights::sample(&tables.lights, &choice, s.start, u, v);
             let cos_i = s.ns.dot(l.wi);
             let lit = rough & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {

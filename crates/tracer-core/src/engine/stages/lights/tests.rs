@@ -85,7 +85,8 @@ fn samples_meet_the_light() {
             let p = (center + distance * random.direction()).as_vec3();
             let v = V3::<S>::splat(p.to_array());
             let k = <S as Lanes>::U::splat(0);
-            let sample = sample(&lights, k, v, number(&mut random), number(&mut random));
+            let choice = Choice { light: k, probability: S::splat(1.0) };
+            let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random));
             assert_eq!(scalar(sample.pdf), scalar(pdf(&lights, k, v)), "distance {distance}");
             let (wi, t) = (point(sample.wi), scalar(sample.distance));
             assert!((wi.length() - 1.0).abs() < 2e-6);
@@ -119,8 +120,9 @@ fn directions_are_uniform_in_the_cone() {
         let (x, y) = axis.any_orthonormal_pair();
         let mut cells = vec![0u64; 128];
         for _ in 0..50_000 {
-            let k = <S as Lanes>::U::splat(0);
-            let wi = point(sample(&lights, k, V3::splat(p.to_array()), number(&mut random), number(&mut random)).wi);
+            let only = Choice { light: <S as Lanes>::U::splat(0), probability: S::splat(1.0) };
+            let wi =
+                point(sample(&lights, &only, V3::splat(p.to_array()), number(&mut random), number(&mut random)).wi);
             // 1 - cos from the chord, which keeps its digits.
             let share = 0.5 * (wi - axis).length_squared() / opening;
             let turn = libm::atan2(wi.dot(y), wi.dot(x)).rem_euclid(TAU) / TAU;
@@ -131,25 +133,69 @@ fn directions_are_uniform_in_the_cone() {
     }
 }
 
-/// Lights are chosen as their probabilities say, and these are in the ratio of their powers.
+/// Lights are chosen as their probabilities say, from near, from afar and from between them; the probabilities sum to one.
 #[test]
-fn lights_are_chosen_by_power() {
+fn lights_are_chosen_as_their_probabilities_say() {
+    let place = |k: u32| DVec3::new(f64::from(k % 5), f64::from(k * k % 7), f64::from(k / 5));
     let lights: Vec<(DVec3, f64, f64)> =
-        (0..23).map(|k| (DVec3::splat(f64::from(k)), 0.1 + f64::from(k % 5), 0.3 + f64::from(k % 7))).collect();
+        (0..23).map(|k| (3.0 * place(k), 0.1 + f64::from(k % 4) * 0.2, 0.3 + f64::from(k % 7))).collect();
     let table = table(&lights);
-    let power = |&(_, r, l): &(DVec3, f64, f64)| r * r * (l + 0.5);
-    let total: f64 = lights.iter().map(power).sum();
     let mut random = Random::new(4);
-    let mut counts = vec![0u64; lights.len()];
-    let n = 200_000;
-    for _ in 0..n {
-        let mut out = [0];
-        choose::<S>(&table, number(&mut random), number(&mut random)).store(&mut out);
-        counts[out[0] as usize] += 1;
+    let points = [[6.0, 9.0, 6.0], [0.0, 0.05, 0.0], [-300.0, 200.0, 100.0], [7.0, -2.0, 3.0]];
+    let level = sidak(0.05, points.len());
+    for p in points {
+        let p = V3::<S>::splat(p);
+        let chance = |k: u32| scalar(probability(&table, <S as Lanes>::U::splat(k), p));
+        let chances: Vec<f64> = (0..23).map(chance).collect();
+        // 23 products of up to 5 factors that are rounded to 2^-24.
+        assert!((chances.iter().sum::<f64>() - 1.0).abs() < 23.0 * 5.0 * 6e-8);
+        let mut counts = vec![0u64; lights.len()];
+        let n = 200_000;
+        for _ in 0..n {
+            let choice = choose::<S>(&table, p, number(&mut random), number(&mut random));
+            let mut out = [0];
+            choice.light.store(&mut out);
+            counts[out[0] as usize] += 1;
+            assert_eq!(scalar(choice.probability), chances[out[0] as usize]);
+        }
+        let expected: Vec<f64> = chances.iter().map(|c| c * f64::from(n)).collect();
+        assert!(chi_square(&counts, &expected) > level, "{counts:?} {expected:.0?}");
     }
-    let expected: Vec<f64> = lights.iter().map(|l| power(l) / total * f64::from(n)).collect();
-    for (k, e) in expected.iter().enumerate() {
-        assert!((f64::from(table.probability[k]) * f64::from(n) / e - 1.0).abs() < 1e-6);
+}
+
+/// Far away two lights are chosen by power; close to one of them, that one.
+#[test]
+fn near_lights_are_chosen_more_often() {
+    let table = table(&[(DVec3::ZERO, 0.1, 1.0), (DVec3::X * 10.0, 0.1, 2.5)]);
+    let chance = |p: [f32; 3]| scalar(probability(&table, <S as Lanes>::U::splat(0), V3::<S>::splat(p)));
+    // (1 + 0.5) / (1 + 0.5 + 2.5 + 0.5), see `table`.
+    assert!((chance([5.0, 1e6, 0.0]) - 1.0 / 3.0).abs() < 1e-5);
+    let near = 1.5 / (1.5 + 3.0 / 81.0);
+    assert!((chance([1.0, 0.0, 0.0]) - near).abs() < 1e-5);
+}
+
+/// A thousand lights, and ten thousand at one place: the way to none is longer than the logarithm, and none is out
+/// of reach.
+#[test]
+fn many_lights_are_all_found() {
+    let spread: Vec<_> =
+        (0..1000).map(|k| (DVec3::splat(f64::from(k % 10)) + DVec3::Y * f64::from(k), 0.1, 1.0)).collect();
+    let stacked = vec![(DVec3::ONE, 0.1, 1.0); 10_000];
+    for (lights, depth) in [(spread, 10), (stacked, 14)] {
+        let table = table(&lights);
+        assert_eq!(table.depth, depth);
+        let mut random = Random::new(6);
+        let p = V3::<S>::splat([3.0, 400.0, 2.0]);
+        let mut seen = vec![false; lights.len()];
+        for k in 0..lights.len() as u32 {
+            assert!(scalar(probability(&table, <S as Lanes>::U::splat(k), p)) > 0.0);
+        }
+        for _ in 0..20 * lights.len() {
+            let mut out = [0];
+            choose::<S>(&table, p, number(&mut random), number(&mut random)).light.store(&mut out);
+            seen[out[0] as usize] = true;
+        }
+        // 20 n choices among n lights that are alike leave n e^-20 = 2e-5 of them unseen; among those spread out the far ones are rare.
+        assert!(depth == 10 || seen.iter().all(|&s| s));
     }
-    assert!(chi_square(&counts, &expected) > 0.05);
 }
