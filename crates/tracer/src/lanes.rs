@@ -21,7 +21,8 @@ pub fn from_environment() -> Result<Level, Failure> {
         }
     };
     Level::from_lanes(lanes).ok_or_else(|| {
-        let has: Vec<String> = Level::available().iter().map(|level| level.lanes().to_string()).collect();
+        let mut has: Vec<String> = Level::available().iter().map(|level| level.lanes().to_string()).collect();
+        has.dedup();
         Failure::could_not(format!(
             "TRACER_LANES is {lanes}, but this CPU computes in {} lanes only; unset TRACER_LANES",
             has.join(" or ")
