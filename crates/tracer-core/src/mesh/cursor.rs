@@ -45,6 +45,7 @@ impl Fault {
 }
 
 /// 1-based line of a byte.
+#[expect(clippy::indexing_slicing, reason = "cut to the text's length")]
 pub(super) fn line_of(text: &[u8], at: usize) -> u64 {
     // A fault at the end of the text belongs to the last line that has something in it, not to the empty one after it.
     let before = &text[..at.min(text.len())];
@@ -53,6 +54,7 @@ pub(super) fn line_of(text: &[u8], at: usize) -> u64 {
 }
 
 /// A word as messages show it: cut to a sensible length, unprintable characters escaped.
+#[expect(clippy::indexing_slicing, reason = "cut to the word's length")]
 pub(super) fn shown(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text = String::from_utf8_lossy(&word[..word.len().min(4 * LONGEST)]);
@@ -98,6 +100,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Bytes from here on.
+    #[expect(clippy::indexing_slicing, reason = "the cursor never goes beyond the end of its text")]
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.text[self.at..]
     }
@@ -204,6 +207,7 @@ impl<'a> Cursor<'a> {
 
     /// The word here, stepped over; empty at the end of the statement.
     #[inline]
+    #[expect(clippy::indexing_slicing, reason = "the cursor never goes beyond the end of its text")]
     pub(super) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while !self.is_at_end_of_word() {
@@ -213,6 +217,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The rest of the line without blanks around it, as a name: only a `#` after a blank starts a comment.
+    #[expect(clippy::indexing_slicing, reason = "places found in the line itself")]
     pub(super) fn name(&mut self) -> &'a [u8] {
         self.skip_blanks();
         let line = self.rest();
@@ -225,6 +230,10 @@ impl<'a> Cursor<'a> {
 
     /// A finite number, stepped over. The fault says what stands here instead; the caller fills in what was expected.
     #[inline]
+    #[expect(
+        clippy::indexing_slicing,
+        reason = "the power is compared with 22 first, and the cursor never goes beyond the end of its text"
+    )]
     pub(super) fn number(&mut self) -> Result<f64, Box<Fault>> {
         let start = self.at;
         let negative = self.peek() == Some(b'-');
@@ -304,6 +313,7 @@ impl<'a> Cursor<'a> {
 
     /// Three coordinates of at most [`MAX_COORDINATE`] in magnitude, the first one here.
     #[inline]
+    #[expect(clippy::indexing_slicing, reason = "the cursor never goes beyond the end of its text")]
     pub(super) fn position(&mut self) -> Result<[f64; 3], Box<Fault>> {
         let mut position = [0.0; 3];
         for coordinate in &mut position {

@@ -3,6 +3,21 @@
 //! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
 //! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
 
+// What a file says must not end the program: exceptions stand where they are made, each with its reason.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable,
+        clippy::todo,
+        clippy::unimplemented,
+        clippy::indexing_slicing,
+        clippy::string_slice
+    )
+)]
+
 mod cursor;
 mod file;
 mod mtl;
@@ -60,6 +75,7 @@ pub struct MeshData {
 
 impl MeshData {
     /// Mean of all `positions` (of the vertices in the file, used or not); the origin for a mesh without any.
+    #[expect(clippy::indexing_slicing, reason = "three axes")]
     pub fn barycentre(&self) -> [f64; 3] {
         // Summed as differences from the first vertex: a small mesh far away keeps its digits.
         let Some(&origin) = self.positions.first() else { return [0.0; 3] };

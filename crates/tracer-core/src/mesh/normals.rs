@@ -1,5 +1,7 @@
 //! Vertex normals: of unit length from files, and computed where a file has none.
 
+#![expect(clippy::indexing_slicing, reason = "readers have checked every index, and this is said under Panics")]
+
 use rayon::prelude::*;
 
 /// The direction of a vector, computed in `f64`; `None` for the zero vector.

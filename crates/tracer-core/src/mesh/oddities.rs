@@ -106,11 +106,13 @@ impl Oddities {
     }
 
     /// Counts several more.
+    #[expect(clippy::indexing_slicing, reason = "one count for each oddity")]
     pub(super) fn add_many(&mut self, oddity: Oddity, count: u64) {
         self.counts[oddity as usize] += count;
     }
 
     /// Counts a statement that is not read.
+    #[expect(clippy::indexing_slicing, reason = "cut to the name's length")]
     pub(super) fn add_statement(&mut self, name: &[u8]) {
         self.unread += 1;
         self.add_name(&name[..name.len().min(NAME_BYTES)]);
@@ -132,6 +134,7 @@ impl Oddities {
     }
 
     /// All of them in words, parted by semicolons; empty when there are none.
+    #[expect(clippy::indexing_slicing, reason = "one count for each oddity")]
     pub(super) fn summary(&self) -> String {
         let mut parts = Vec::new();
         for oddity in Oddity::ALL {

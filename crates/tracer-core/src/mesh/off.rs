@@ -224,6 +224,7 @@ impl Reader<'_> {
         Err(Fault::new(self.cursor.at(), message, format!("as many {what} as the header says")))
     }
 
+    #[expect(clippy::indexing_slicing, reason = "no more than MOST numbers are read, and no fewer than are known")]
     fn read_vertex(&mut self, layout: VertexLayout) -> Result<(), Box<Fault>> {
         let expecting = |fault: Box<Fault>| fault.expecting(&layout.expected());
         let position = self.cursor.position().map_err(expecting)?;
@@ -307,6 +308,7 @@ impl Reader<'_> {
         Ok(())
     }
 
+    #[expect(clippy::indexing_slicing, reason = "the reader of faces has checked every index")]
     fn add_polygon(&mut self, corners: &[u32], start: usize) -> Result<(), Box<Fault>> {
         let MeshData { positions, triangles, .. } = &mut self.mesh;
         let position = |corner: u32| positions[corner as usize];

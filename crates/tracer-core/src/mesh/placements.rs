@@ -89,6 +89,7 @@ pub fn load_placements(path: &Path) -> Result<Vec<DAffine3>, PlacementsError> {
 ///
 /// # Errors
 /// As [`load_placements`].
+#[expect(clippy::indexing_slicing, reason = "the pieces are ranges of the text itself")]
 pub fn parse_placements(text: &[u8], path: &Path) -> Result<Vec<DAffine3>, PlacementsError> {
     let pieces = pieces_at_line_breaks(text);
     let counts: Vec<usize> = pieces.par_iter().map(|piece| count_lines(&text[piece.clone()])).collect();

@@ -6,6 +6,11 @@
 //! strictly convex are kept in a grid, and only those near an ear are tested against it. Corners on a straight edge are
 //! kept as corners of triangles, so that no gap opens against the neighbouring face.
 
+#![expect(
+    clippy::indexing_slicing,
+    reason = "corners are numbered by the polygon's own border; what a file says has become coordinates"
+)]
+
 mod blockers;
 
 use super::cursor::Fault;

@@ -11,6 +11,7 @@
 const DEFLATE_RATIO: u64 = 1032;
 
 /// What is wrong with the file of a PNG picture, if its header can be read.
+#[expect(clippy::indexing_slicing, reason = "ten bytes are asked for first")]
 pub(super) fn fault_of_png(bytes: &[u8]) -> Option<String> {
     // Signature, length and name of the chunk IHDR, then width, height, bits per sample and the kind of colour.
     let header = bytes.get(16..26)?;
@@ -39,6 +40,7 @@ struct Frame {
 }
 
 /// What is wrong with the file of a JPEG picture.
+#[expect(clippy::indexing_slicing, reason = "places found in the rest itself")]
 pub(super) fn fault_of_jpeg(bytes: &[u8]) -> Option<String> {
     const CUT_OFF: &str = "the file ends before the picture does";
     let mut rest = bytes.get(2..)?;
@@ -83,6 +85,7 @@ fn segment(rest: &[u8]) -> Option<&[u8]> {
 }
 
 /// A frame header: length, bits per sample, height, width, and for each component its name, factors and table.
+#[expect(clippy::indexing_slicing, reason = "chunks of exactly three bytes")]
 fn read_frame(segment: &[u8], bits_per_block: u64) -> Option<Frame> {
     let side = |at: usize| Some(u64::from(u16::from_be_bytes([*segment.get(at)?, *segment.get(at + 1)?])));
     let (height, width) = (side(3)?, side(5)?);

@@ -1,5 +1,20 @@
 //! Pictures laid over surfaces: PNG and JPEG files, decoded.
 
+// As in `mesh`: what a file says must not end the program.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable,
+        clippy::todo,
+        clippy::unimplemented,
+        clippy::indexing_slicing,
+        clippy::string_slice
+    )
+)]
+
 mod error;
 mod extent;
 mod srgb;
@@ -92,6 +107,10 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
     Ok(from_picture(picture, path))
 }
 
+#[expect(
+    clippy::indexing_slicing,
+    reason = "a 16-bit value has its entry of 65536, and pixels are chunks of exactly three"
+)]
 fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
     let (width, height) = (picture.width(), picture.height());
     let transparent = match &picture {

@@ -28,7 +28,8 @@ pub fn run(root: &Path, options: &Options) -> anyhow::Result<()> {
     println!("{} faults; first the tests without any", chosen.len());
     for (program, filters) in programs(&chosen) {
         let tests = copy.build(program)?.context("the tests do not compile without any fault")?;
-        match copy.test(&tests, &filters, limit)? {
+        // Many tests at once: they may take their time.
+        match copy.test(&tests, &filters, 10 * limit)? {
             Outcome::Passed => {}
             outcome => bail!("the tests of {} fail without any fault: {outcome:?}", name_of(program)),
         }

@@ -183,7 +183,8 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
         }
         // MTL adds the lobes, Kd + Ks; here one colour is shared out between them. A picture counts as white.
         let diffuse = if picture.is_some() { [1.0; 3] } else { diffuse.unwrap_or(default_albedo()) };
-        let sum: Color = std::array::from_fn(|channel| diffuse[channel] + specular[channel]);
+        let [[r, g, b], [r2, g2, b2]] = [diffuse, specular];
+        let sum: Color = [r + r2, g + g2, b + b2];
         let largest = sum.iter().fold(1.0_f64, |largest, &part| largest.max(part));
         if largest > 1.0 && picture.is_none() {
             notes.unsupported("`Kd` + `Ks` above 1 (both scaled down)");

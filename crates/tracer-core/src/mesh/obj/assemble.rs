@@ -197,6 +197,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// The line of a bad face of a piece, and what is bad.
+    #[expect(clippy::indexing_slicing, reason = "numbers that `into_mesh` counted")]
     fn fault_of(&self, text: &'a [u8], number: usize, bad: BadFace) -> Box<Fault> {
         let piece = &self.pieces[number];
         match bad {
@@ -232,6 +233,10 @@ struct Lookup<'a> {
 
 impl Lookup<'_> {
     /// The triangles of a piece.
+    #[expect(
+        clippy::indexing_slicing,
+        reason = "faces end within the piece's corners, and `resolve` has checked every index"
+    )]
     fn triangulate(&self, piece: &Piece, before: Elements, runs: &[MaterialRun]) -> Result<Triangles, BadFace> {
         let mut out = Triangles::default();
         out.positions.reserve(piece.face_ends.len());

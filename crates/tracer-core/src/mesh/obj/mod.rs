@@ -65,6 +65,7 @@ fn read_in_pieces(text: &[u8], path: &Path, piece_bytes: usize) -> Result<MeshDa
 }
 
 /// A fault when the file is UTF-16 or binary, which would else look like nonsense.
+#[expect(clippy::indexing_slicing, reason = "cut to the text's length")]
 fn foreign_encoding(text: &[u8]) -> Option<Box<Fault>> {
     let message = match text {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "the file is UTF-16 text",
@@ -75,6 +76,7 @@ fn foreign_encoding(text: &[u8]) -> Option<Box<Fault>> {
 }
 
 /// Cuts a text into parts of at least `bytes` bytes that end with a statement.
+#[expect(clippy::indexing_slicing, reason = "places found in the text itself")]
 fn cut(text: &[u8], bytes: usize) -> Vec<std::ops::Range<usize>> {
     let mut parts = Vec::new();
     let mut start = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };

@@ -85,6 +85,7 @@ pub(super) struct Piece<'a> {
 
 impl<'a> Piece<'a> {
     /// Parses a part of the file that holds whole statements.
+    #[expect(clippy::indexing_slicing, reason = "the range is one of the text's own parts")]
     pub(super) fn parse(text: &'a [u8], range: Range<usize>) -> Piece<'a> {
         let mut piece = Piece { range: range.clone(), ..Piece::default() };
         let mut cursor = Cursor::new(&text[range.clone()], OBJ_BLANKS);
@@ -250,6 +251,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Where a corner of a face was written: its byte in the file, and its text.
+    #[expect(clippy::indexing_slicing, reason = "the range is one of the text's own parts")]
     pub(super) fn find_corner(&self, text: &'a [u8], face: usize, corner: usize) -> FoundCorner<'a> {
         let mut cursor = Cursor::new(&text[self.range.clone()], OBJ_BLANKS);
         let mut faces = 0;
