@@ -45,6 +45,20 @@ Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }
 - The words `include`, `vars`, `repeat` and `keyframes` are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`.
+
+## In an editor
+
+`tracer schema > scene.schema.json` writes a JSON Schema (draft-07) with all descriptions, defaults and ranges. With
+[taplo](https://taplo.tamasfe.dev) (the extension Even Better TOML in VS Code; its language server in others) an editor completes the
+words of a TOML scene, explains them and marks what is wrong, if the scene's first line names the schema:
+
+```toml
+#:schema ./scene.schema.json
+```
+
+On the command line `taplo check scene.toml` says the same. For RON, and for what a schema cannot tell (names that are missing, files),
+an editor can run `tracer check scene.ron --diagnostics json`: one JSON object a line, with the bytes, lines and columns of each fault
+and of the edit that mends it.
 ";
 
 /// `docs/scene-reference.md`: every field, kind, default, unit and range.

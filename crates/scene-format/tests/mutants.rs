@@ -114,13 +114,21 @@ fn exercise(bytes: Vec<u8>, syntax: Syntax, overrides: &[Override]) -> bool {
     }
 }
 
+/// Time that this thread has had the processor (Linux tells it); elsewhere the time of day.
+fn clock(started: Instant) -> Duration {
+    let of_thread = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = of_thread.and_then(|text| text.split(' ').next()?.parse().ok());
+    nanoseconds.map_or_else(|| started.elapsed(), Duration::from_nanos)
+}
+
 /// How long something takes; when it takes long, it is tried again, for the machine may be busy with other things.
 fn soonest(mut run: impl FnMut()) -> Duration {
     let mut best = Duration::MAX;
+    let started = Instant::now();
     for _ in 0..3 {
-        let start = Instant::now();
+        let start = clock(started);
         run();
-        best = best.min(start.elapsed());
+        best = best.min(clock(started) - start);
         if best < Duration::from_millis(500) {
             break;
         }

@@ -282,9 +282,9 @@ impl<'r> Reader<'r> {
         let quoted = key.lexeme().starts_with(['"', '\'']);
         fault.did_you_mean(meant(name, item, def), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
-            && let Some(other) = synonym(name, def)
+            && let Some(way) = other_way(name, def, item.syntax())
         {
-            fault.did_you_mean(Some(other), str::to_owned);
+            fault.hint = way.to_owned();
         }
         self.report(fault);
     }
@@ -450,6 +450,10 @@ pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static st
 /// The field that an unknown name stands for: one that is not written yet, if one of those is near.
 fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'static str> {
     let written = |field: &&str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == *field);
+    // A word of other programs is no typo of a word that happens to be near: `pos` is no `fov`.
+    if let Some(field) = synonym(name, def) {
+        return Some(field);
+    }
     suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
 }
 
@@ -476,6 +480,35 @@ fn field_words(def: &'static StructDef) -> String {
 
 fn is_plain(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
+/// How the language says what other programs have a field for.
+fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
+    let ron = syntax == Syntax::Ron;
+    let has = |field| def.field(field).is_some();
+    match name.to_ascii_lowercase().as_str() {
+        "color" | "colour" | "albedo" | "texture" if has("material") && ron => {
+            Some("colours belong to a material: `material: Diffuse(albedo: ..)`")
+        }
+        "color" | "colour" | "albedo" | "texture" if has("material") => {
+            Some("colours belong to a material: `material = { Diffuse = { albedo = .. } }`")
+        }
+        "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
+        "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
+        "position" | "center" | "translate" | "translation" if has("transform") && ron => {
+            Some("write it as a transform: `transform: [Translate((x, y, z))]`")
+        }
+        "position" | "center" | "translate" | "translation" if has("transform") => {
+            Some("write it as a transform: `transform = [{ Translate = [x, y, z] }]`")
+        }
+        "rotate" | "rotation" if has("transform") && ron => {
+            Some("write it as a transform: `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`")
+        }
+        "rotate" | "rotation" if has("transform") => {
+            Some("write it as a transform: `transform = [{ Rotate = { axis = [0, 1, 0], degrees = 90 } }]`")
+        }
+        _ => None,
+    }
 }
 
 /// What other programs call a field of ours.
