@@ -262,6 +262,10 @@ pub struct Groups {
     pub of_suffix: Vec<u32>,
     /// Per suffix: the members of its group that were found not to see it, a bit each.
     pub blocked: Vec<u64>,
+    /// Pairs of a suffix and a member to be tested: suffix * 64 + the member's place in the group, and the member.
+    pub pair_tag: Vec<u32>,
+    /// See `pair_tag`.
+    pub pair_member: Vec<u32>,
     /// Per member: the light that it gets.
     pub gathered: Columns,
 }
@@ -368,6 +372,8 @@ impl Batch {
                 list: Vec::with_capacity(CAPACITY),
                 of_suffix: words(),
                 blocked: vec![0; CAPACITY],
+                pair_tag: words(),
+                pair_member: words(),
                 gathered: columns(),
             },
             active: words(),

@@ -10,6 +10,11 @@ impl<F: Lanes> V3<F> {
     pub fn load(columns: &Columns, i: usize) -> Self {
         V3(F::load(&columns[0][i..]), F::load(&columns[1][i..]), F::load(&columns[2][i..]))
     }
+    /// Rows `index` of three columns.
+    #[inline(always)]
+    pub fn gather_columns(columns: &Columns, index: F::U) -> Self {
+        V3(F::gather(&columns[0], index), F::gather(&columns[1], index), F::gather(&columns[2], index))
+    }
     /// Into rows i .. i + N of three columns.
     #[inline(always)]
     pub fn store(self, columns: &mut Columns, i: usize) {

@@ -19,7 +19,7 @@
 
 use super::materials::Bsdf;
 use super::surface::Surface;
-use crate::engine::batch::{Batch, Group, Item, Members, PATHS, Shadows, Suffixes, member_kind, path};
+use crate::engine::batch::{Batch, Group, Item, Members, PATHS, Suffixes, member_kind, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::hash3;
@@ -141,6 +141,9 @@ fn light(batch: &Batch, j: usize) -> [f32; 3] {
     [batch.radiance[0][at], batch.radiance[1][at], batch.radiance[2][at]]
 }
 
+/// Nearer than its root nothing is told apart: render space is about one in size.
+const LEAST_DISTANCE2: f32 = 1e-15;
+
 /// Members i .. i + N seen from a suffix.
 struct Pairs<F: Lanes> {
     /// From the member to the suffix.
@@ -160,7 +163,7 @@ impl<F: Lanes> Pairs<F> {
         let to = target.point.sub(V3::load(&members.start, i));
         Pairs {
             to,
-            distance2: to.dot(to).max(F::splat(1e-15)),
+            distance2: to.dot(to).max(F::splat(LEAST_DISTANCE2)),
             cos_member: V3::load(&members.normal, i).dot(to),
             cos_suffix: -target.normal.dot(to),
             own: F::U::load(&members.slot[i..]).eq(target.slot),
@@ -172,64 +175,68 @@ impl<F: Lanes> Pairs<F> {
 /// suffix times 64 plus its member's place in the group.
 #[inline(always)]
 pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
-    let c = F::splat;
-    batch.segments.len = 0;
-    let mut j = next;
-    while j < batch.suffixes.len && batch.segments.len + 64 <= PATHS {
-        if round == Round::Rest && batch.groups.blocked[j] == 0 || light(batch, j) == [0.0; 3] {
-            j += 1;
-            continue;
+    let zero = F::splat(0.0);
+    let (next, count) = list_pairs(seed, round, next, batch);
+    let (members, suffixes, rays) = (&batch.members, &batch.suffixes, &mut batch.segments);
+    rays.len = 0;
+    for k in (0..count).step_by(F::N) {
+        let tag = F::U::load(&batch.groups.pair_tag[k..]);
+        let i = F::U::load(&batch.groups.pair_member[k..]);
+        let j = tag.shr::<6>();
+        let start = V3::<F>::gather_columns(&members.start, i);
+        let to = V3::<F>::gather_columns(&suffixes.point, j).sub(start);
+        let faces = zero.lt(V3::gather_columns(&members.normal, i).dot(to))
+            & V3::<F>::gather_columns(&suffixes.normal, j).dot(to).lt(zero);
+        let own = F::U::gather(&members.slot, i).eq(F::U::gather(&suffixes.slot, j));
+        let cast = F::first(count - k) & faces & !own;
+        let kind = F::U::gather(&members.kind, i);
+        let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
+        let mut from = F::U::gather(&members.primitive, i);
+        if raised.any() {
+            let sinks = raised & V3::gather_columns(&members.geometric, i).dot(to).le(zero);
+            from = F::U::select(sinks, F::U::splat(NONE), from);
         }
-        let slot = batch.suffixes.slot[j];
-        let item = (slot >> 6) as usize;
-        let looked = looked_at(seed, batch.item_z[item], &batch.items[item], slot);
-        let wanted = if round == Round::Look { looked } else { !looked };
-        let group = batch.groups.list[batch.groups.of_suffix[j] as usize];
-        let target = Target::<F>::new(&batch.suffixes, j);
-        let (members, rays): (&Members, &mut Shadows) = (&batch.members, &mut batch.segments);
-        let (primitive, instance) = (batch.suffixes.primitive[j], batch.suffixes.instance[j]);
-        for base in (0..group.len as usize).step_by(F::N) {
-            let lanes = F::first(group.len as usize - base);
-            let of_class = lanes & F::M::from_bits((wanted >> base) as u32 & F::first(F::N).bits());
-            if !of_class.any() {
-                continue;
+        let distance = to.dot(to).max(F::splat(LEAST_DISTANCE2)).sqrt();
+        let k = rays.len;
+        start.compress(cast, &mut rays.origin, k);
+        to.scale(F::splat(1.0) / distance).compress(cast, &mut rays.direction, k);
+        distance.compress(cast, &mut rays.t_max[k..]);
+        from.compress(cast, &mut rays.from_primitive[k..]);
+        F::U::gather(&members.instance, i).compress(cast, &mut rays.from_instance[k..]);
+        F::U::gather(&suffixes.primitive, j).compress(cast, &mut rays.target_primitive[k..]);
+        F::U::gather(&suffixes.instance, j).compress(cast, &mut rays.target_instance[k..]);
+        tag.compress(cast, &mut rays.slot[k..]);
+        rays.len += cast.count();
+    }
+    batch.counters.segments += rays.len as u64;
+    next
+}
+
+/// Lists the pairs of suffixes from `next` on and members that are to be tested in this round, as many as fit; gives the suffix to go
+/// on with, and how many pairs there are. Few of the members of a group are looked at, so they are gathered one by one: loading whole
+/// vectors of a group for four members of 64 took three times as long.
+fn list_pairs(seed: u32, round: Round, next: usize, batch: &mut Batch) -> (usize, usize) {
+    let (mut j, mut count) = (next, 0);
+    while j < batch.suffixes.len && count + 64 <= PATHS {
+        let idle = round == Round::Rest && batch.groups.blocked[j] == 0 || light(batch, j) == [0.0; 3];
+        if !idle {
+            let slot = batch.suffixes.slot[j];
+            let item = (slot >> 6) as usize;
+            let looked = looked_at(seed, batch.item_z[item], &batch.items[item], slot);
+            let Group { first, len } = batch.groups.list[batch.groups.of_suffix[j] as usize];
+            let mut wanted = (if round == Round::Look { looked } else { !looked }) & (u64::MAX >> (64 - len));
+            while wanted != 0 {
+                let place = wanted.trailing_zeros();
+                wanted &= wanted - 1;
+                batch.groups.pair_tag[count] = (j as u32) << 6 | place;
+                batch.groups.pair_member[count] = first + place;
+                count += 1;
             }
-            let i = group.first as usize + base;
-            let pairs = Pairs::new(members, i, &target);
-            let faces = c(0.0).lt(pairs.cos_member) & c(0.0).lt(pairs.cos_suffix);
-            let cast = of_class & faces & !pairs.own;
-            let kind = F::U::load(&members.kind[i..]);
-            let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
-            let sinks = raised & pairs.to.dot(V3::load(&members.geometric, i)).le(c(0.0));
-            let from = F::U::select(sinks, F::U::splat(NONE), F::U::load(&members.primitive[i..]));
-            let k = rays.len;
-            V3::<F>::load(&members.start, i).compress(cast, &mut rays.origin, k);
-            let distance = pairs.distance2.sqrt();
-            pairs.to.scale(c(1.0) / distance).compress(cast, &mut rays.direction, k);
-            distance.compress(cast, &mut rays.t_max[k..]);
-            from.compress(cast, &mut rays.from_primitive[k..]);
-            F::U::load(&members.instance[i..]).compress(cast, &mut rays.from_instance[k..]);
-            F::U::splat(primitive).compress(cast, &mut rays.target_primitive[k..]);
-            F::U::splat(instance).compress(cast, &mut rays.target_instance[k..]);
-            let tag = F::U::load(&PLACES[base..]) + F::U::splat((j * 64) as u32);
-            tag.compress(cast, &mut rays.slot[k..]);
-            rays.len += cast.count();
         }
         j += 1;
     }
-    batch.counters.segments += batch.segments.len as u64;
-    j
+    (j, count)
 }
-
-const PLACES: [u32; 64] = {
-    let mut table = [0; 64];
-    let mut k = 0;
-    while k < 64 {
-        table[k] = k as u32;
-        k += 1;
-    }
-    table
-};
 
 /// Gives every member its share of every suffix.
 #[inline(always)]
