@@ -1,10 +1,14 @@
 //! Golden pictures: every `golden/<family>/<case>.ron` is rendered and compared with the `.png` beside it, byte for byte.
 //!
-//! A missing picture fails, and so does a picture without a scene. A failure writes what was made, what was expected, the difference and a page
-//! that shows them (`target/goldens/<family>/<case>/index.html`), and prints the command that accepts the new picture.
+//! A missing picture fails, and so does a picture without a scene. A failure writes what was made, what was expected, the difference and one page
+//! that shows them with a wipe, the FLIP map and the scene (`target/goldens/<family>/<case>/index.html`), and prints the command
+//! that accepts the new picture.
+
+#[path = "goldens/page.rs"]
+mod page;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use std::fmt::Write as _;
+use page::{Page, command, difference};
 use std::path::{Path, PathBuf};
 use tracer_core::{RenderOptions, Unobserved};
 
@@ -14,7 +18,7 @@ fn main() {
     let mut arguments = Arguments::from_args();
     // One picture at a time: each is rendered on all cores.
     arguments.test_threads = Some(1);
-    let mut trials = Vec::new();
+    let mut trials = vec![Trial::test("page", page::check_page)];
     for family in sorted(&golden).into_iter().filter(|p| p.is_dir() && !p.ends_with("assets")) {
         for file in sorted(&family) {
             let name = case_name(&golden, &file);
@@ -31,7 +35,7 @@ fn main() {
             }
         }
     }
-    assert!(!trials.is_empty(), "no golden scenes under {}", golden.display());
+    assert!(trials.len() > 1, "no golden scenes under {}", golden.display());
     libtest_mimic::run(&arguments, trials).exit();
 }
 
@@ -63,9 +67,23 @@ impl Picture {
         Ok(Picture { width: image.width(), height: image.height(), rgb: image.into_raw() })
     }
 
+    /// As the bytes of a PNG file.
+    fn png(&self) -> Result<Vec<u8>, Failed> {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::write_buffer_with_format(
+            &mut bytes,
+            &self.rgb,
+            self.width,
+            self.height,
+            image::ColorType::Rgb8,
+            image::ImageFormat::Png,
+        )
+        .map_err(|e| format!("cannot encode a picture: {e}"))?;
+        Ok(bytes.into_inner())
+    }
+
     fn write(&self, path: &Path) -> Result<(), Failed> {
-        image::save_buffer(path, &self.rgb, self.width, self.height, image::ColorType::Rgb8)
-            .map_err(|e| format!("cannot write {}: {e}", path.display()).into())
+        std::fs::write(path, self.png()?).map_err(|e| format!("cannot write {}: {e}", path.display()).into())
     }
 }
 
@@ -104,51 +122,14 @@ fn compare(name: &str, scene: &Path, output: &Path) -> Result<(), Failed> {
         }
         Some(e) => {
             e.write(&output.join("expected.png"))?;
-            let (difference, count, largest) = difference(&actual, e);
-            difference.write(&output.join("difference.png"))?;
-            format!("{count} pixels differ, by up to {largest} of 255")
+            let difference = difference(&actual, e);
+            difference.picture.write(&output.join("difference.png"))?;
+            format!("{} pixels differ, by up to {} of 255", difference.count, difference.largest)
         }
     };
     let page = output.join("index.html");
-    std::fs::write(&page, html(name, &what, scene, expected.is_some()))
-        .map_err(|e| format!("cannot write {}: {e}", page.display()))?;
-    Err(format!(
-        "{what}\n  look at {}\n  accept it with: cargo xtask golden accept {name} --reason \"why it changed\"",
-        page.display()
-    )
-    .into())
-}
-
-/// The difference times eight, the number of pixels that differ, and the largest difference of a channel.
-fn difference(actual: &Picture, expected: &Picture) -> (Picture, usize, u8) {
-    let rgb: Vec<u8> = actual.rgb.iter().zip(&expected.rgb).map(|(a, e)| a.abs_diff(*e)).collect();
-    let count = rgb.chunks(3).filter(|pixel| pixel.iter().any(|&d| d > 0)).count();
-    let largest = rgb.iter().copied().max().unwrap_or(0);
-    let shown = rgb.iter().map(|d| d.saturating_mul(8)).collect();
-    (Picture { width: actual.width, height: actual.height, rgb: shown }, count, largest)
-}
-
-/// One page that opens from disk: side by side, a wipe between both, the difference, the scene.
-fn html(name: &str, what: &str, scene: &Path, expected: bool) -> String {
-    let text = std::fs::read_to_string(scene).unwrap_or_default();
-    let escaped = text.replace('&', "&amp;").replace('<', "&lt;");
-    let mut page = String::new();
-    let _ = write!(
-        page,
-        "<!doctype html><meta charset=utf-8><title>{name}</title><style>body{{font:14px sans-serif;background:#222;color:#ddd}}\
-         img{{width:384px;image-rendering:pixelated;background:#000}}figure{{display:inline-block;margin:8px}}\
-         #wipe{{position:relative;width:384px;display:inline-block}}#wipe img+img{{position:absolute;left:0;top:0;clip-path:inset(0 0 0 50%)}}\
-         </style><h1>{name}</h1><p>{what}</p><figure><img src=actual.png><figcaption>actual</figcaption></figure>"
-    );
-    if expected {
-        page.push_str(
-            "<figure><img src=expected.png><figcaption>expected</figcaption></figure>\
-             <figure><img src=difference.png><figcaption>difference, times 8</figcaption></figure>\
-             <figure><div id=wipe><img src=expected.png><img id=top src=actual.png></div><br>\
-             <input type=range style=width:384px oninput=\"document.getElementById('top').style.clipPath='inset(0 0 0 '+this.value+'%)'\">\
-             <figcaption>wipe: expected | actual</figcaption></figure>",
-        );
-    }
-    let _ = write!(page, "<pre>{escaped}</pre>");
-    page
+    let text = std::fs::read_to_string(scene).map_err(|e| format!("cannot read {}: {e}", scene.display()))?;
+    let shown = Page { name, what: &what, scene: &text, actual: &actual, expected: expected.as_ref() };
+    std::fs::write(&page, shown.html()?).map_err(|e| format!("cannot write {}: {e}", page.display()))?;
+    Err(format!("{what}\n  look at {}\n  accept it with: {}", page.display(), command(name)).into())
 }
