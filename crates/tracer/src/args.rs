@@ -13,7 +13,10 @@ Examples:
   tracer new ball.ron && tracer render ball.ron -o ball.png
   tracer render scenes/fig4.ron -o fig4.png --samples 100
 
-Exit codes: 0 done, 1 could not be done, 2 wrong scene or command line, 130 interrupted";
+Exit codes: 0 done, 1 failed, 2 wrong scene or command line, 130 interrupted";
+
+/// No headings and no empty lines but these: help fits a screen of 24 lines.
+const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{subcommands}\n\n{options}\n{after-help}";
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -24,14 +27,14 @@ const STYLES: Styles = Styles::styled()
 /// A declarative path tracer: a scene file becomes a picture.
 #[derive(Debug, Parser)]
 #[command(name = "tracer", version, after_help = EXAMPLES, styles = STYLES, max_term_width = 100)]
-#[command(disable_help_subcommand = true, arg_required_else_help = true)]
+#[command(disable_help_subcommand = true, arg_required_else_help = true, help_template = TEMPLATE)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// Colours on standard error
+    /// Colours
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = When::Auto, hide_possible_values = true)]
-    #[arg(help = "Colours on standard error: auto, always or never")]
+    #[arg(help = "Colours: auto, always or never")]
     pub color: When,
     /// Say what is loaded and how long it takes
     #[arg(short, long, global = true)]
@@ -53,7 +56,7 @@ pub enum Command {
     New(NewArgs),
     /// Measure how two pictures differ
     Compare(CompareArgs),
-    /// Time a scene without boxes, with one per mesh, and with a tree of them
+    /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Explain the code of a diagnostic
     Explain(ExplainArgs),
@@ -109,15 +112,16 @@ impl From<SyntaxName> for Syntax {
 pub struct SceneArgs {
     /// Scene file (.ron, .toml), or - for standard input
     pub scene: PathBuf,
-    /// Set a field: camera.fov=40, 'materials.glass=Transparent(ior: 1.6)'
+    /// Set a field of the scene: camera.fov=40 (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "ron or toml [default: by the extension, else by the looks]")]
+    #[arg(help = "Syntax of the scene: ron or toml [default: by its name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text or json
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text, hide_possible_values = true)]
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
 }
 
@@ -136,9 +140,8 @@ Examples:
 const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
-  tracer render fig4.ron -o a.exr -o a.png --samples 64 --size 256x256 --set camera.fov=40
-
-Ctrl-C writes the picture so far (exit code 130); a second Ctrl-C leaves at once.";
+  tracer render fig4.ron -o a.exr -o a.png --samples 64 --set camera.fov=40
+Ctrl-C writes the picture so far (exit code 130); another one leaves at once.";
 
 /// `tracer render`
 #[derive(Debug, Args)]
@@ -147,7 +150,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub scene: SceneArgs,
-    /// Picture to write: .png .exr .hdr .pfm, or - (repeatable)
+    /// Picture: .png .exr .hdr .pfm, or - (repeatable)
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     pub output: Vec<PathBuf>,
     /// Kind of picture for `-o -`: png, exr, hdr or pfm
@@ -162,7 +165,7 @@ pub struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
-    /// Render only this part: the same bytes as that part of the whole
+    /// Render this part: the same bytes as in the whole
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     pub crop: Option<Crop>,
     /// Seed of all random choices
@@ -171,10 +174,10 @@ pub struct RenderArgs {
     /// Stops to brighten the picture by
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
-    /// Threads [default: one per core]; the picture is the same
+    /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Write a report of times, rays and memory as JSON
+    /// Report of times, rays and memory to write as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
     /// Tell where the time goes, stage by stage; in the report too
@@ -190,7 +193,7 @@ Examples:
   tracer check scenes/fig4.ron
   tracer check scene.toml --diagnostics json
 
-Diagnostics go to standard error; exit code 2 when there is an error.";
+Diagnostics go to standard error. Exit code 2 when there is an error.";
 
 /// `tracer check`
 #[derive(Debug, Args)]
@@ -232,17 +235,18 @@ Examples:
 pub struct ConvertArgs {
     /// Scene file, or - for standard input
     pub scene: PathBuf,
-    /// Syntax of the scene [default: by the extension, else by the looks]
+    /// Syntax of the scene: ron or toml [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     pub syntax: Option<SyntaxName>,
-    /// Syntax to translate to [default: by the extension of -o, else the other one]
+    /// Syntax to write [default: by -o, else the other one]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     pub to: Option<SyntaxName>,
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// How to print what is wrong: text or json
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text, hide_possible_values = true)]
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
 }
 
@@ -257,8 +261,8 @@ Examples:
 pub struct NewArgs {
     /// Scene file to make (.ron, .toml)
     pub scene: PathBuf,
-    /// What to start from
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball)]
+    /// What to start from: ball, materials or room
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball, hide_possible_values = true)]
     pub template: Template,
     /// Replace a file that is there
     #[arg(long)]
@@ -268,10 +272,11 @@ pub struct NewArgs {
 const COMPARE_EXAMPLES: &str = "\
 Examples:
   tracer compare a.png b.png -o difference.png
-  tracer compare new.exr old.exr --fail-above flip-mean=0.01 --fail-above max=0.1
+  tracer compare new.exr old.exr --fail-above flip-mean=0.01
 
-Two EXR, HDR or PFM files are compared in linear radiance, others in display values of 0 to 1.
-Exit codes: 0 within the limits, 1 above one (or the map cannot be written), 2 no pictures or\ntwo sizes";
+Metrics: max, rmse, relmse, flip-mean, flip-max. Two EXR, HDR or PFM files are
+compared in linear radiance, others in display values of 0 to 1.
+Exit codes: 0 within the limits, 1 above one, 2 no pictures or two sizes";
 
 /// `tracer compare`
 #[derive(Debug, Args)]
@@ -284,7 +289,7 @@ pub struct CompareArgs {
     /// Write a map of the difference in false colours
     #[arg(short, long, value_name = "FILE.png")]
     pub output: Option<PathBuf>,
-    /// Exit code 1 above it: max, rmse, relmse, flip-mean or flip-max (repeatable)
+    /// Exit code 1 above it (repeatable)
     #[arg(long, value_name = "METRIC=LIMIT")]
     pub fail_above: Vec<String>,
     /// As JSON

@@ -6,6 +6,7 @@ pub mod command_line;
 pub mod commands;
 pub mod compare;
 pub mod failure;
+pub mod help;
 pub mod interrupt;
 pub mod lanes;
 pub mod loading;
@@ -18,7 +19,7 @@ pub mod write;
 pub use write::write;
 
 use args::{Cli, Command, When};
-use clap::{ColorChoice, CommandFactory, FromArgMatches};
+use clap::{ColorChoice, FromArgMatches};
 use failure::{Failure, exit};
 use shell::{Shell, Verbosity};
 use std::process::ExitCode;
@@ -28,10 +29,11 @@ use std::time::Instant;
 pub fn main() -> ExitCode {
     let started = Instant::now();
     let arguments: Vec<std::ffi::OsString> = std::env::args_os().collect();
-    let matches = Cli::command().color(color_of_help(&arguments)).try_get_matches_from(&arguments);
+    let matches = help::command().color(color_of_help(&arguments)).try_get_matches_from(&arguments);
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
+            let error = help::with_tip(error, &arguments);
             // Help goes to standard output, faults to standard error; that nobody reads them is no reason to fail.
             let _ = error.print();
             return ExitCode::from(if error.use_stderr() { exit::WRONG } else { exit::DONE });

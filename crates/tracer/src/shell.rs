@@ -95,12 +95,12 @@ impl Shell {
 
 /// `1 sphere`, `2 spheres`
 pub fn counted(n: usize, noun: &str) -> String {
-    let plural = match (n, noun) {
-        (1, _) => "",
-        (_, "mesh") => "es",
-        _ => "s",
-    };
-    format!("{n} {noun}{plural}")
+    match (n, noun) {
+        (1, _) => format!("{n} {noun}"),
+        (_, "mesh") => format!("{n} meshes"),
+        (_, "leaf") => format!("{n} leaves"),
+        _ => format!("{n} {noun}s"),
+    }
 }
 
 /// Columns of the terminal; of no terminal, a usual width.

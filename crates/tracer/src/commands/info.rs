@@ -59,7 +59,8 @@ impl Facts {
         let spheres = self.count(|object| matches!(object, Object::Sphere(_)));
         let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
         let tree = s.tree.map_or("none needed".to_owned(), |tree| {
-            format!("{} nodes, {} leaves, {} deep, {}", tree.nodes, tree.leaves, tree.depth, human(tree.bytes))
+            let (nodes, leaves) = (counted(tree.nodes as usize, "node"), counted(tree.leaves as usize, "leaf"));
+            format!("{nodes}, {leaves}, {} deep, {}", tree.depth, human(tree.bytes))
         });
         let mut text = String::new();
         let mut line = |name: &str, value: String| text += &format!("{name:<11}{value}\n");

@@ -50,6 +50,30 @@ fn io_error(path: &Path, source: io::Error) -> WriteError {
     WriteError::Io { path: path.to_owned(), source }
 }
 
+/// The file that [`save`] would write for a name: two names of one file give the same. A link is followed even when nothing is
+/// where it leads.
+///
+/// # Errors
+/// When the system does not say: there is no such folder, or links lead in a circle.
+pub fn real_place(path: &Path) -> io::Result<PathBuf> {
+    /// As Linux: more links than this are taken for a circle.
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if path.exists() {
+            return fs::canonicalize(path);
+        }
+        match fs::read_link(&path) {
+            Ok(target) => path = folder_of(&path).join(target),
+            Err(_) => {
+                let name = path.file_name().ok_or(io::ErrorKind::NotFound)?;
+                return Ok(fs::canonicalize(folder_of(&path))?.join(name));
+            }
+        }
+    }
+    Err(io::Error::other("too many links"))
+}
+
 /// What a name stands for.
 enum Target {
     /// A regular file, links followed; there may be none yet.

@@ -1,9 +1,9 @@
 //! The small commands, and help.
 
-use crate::support::{SCENE, Sandbox, repository};
+use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-const COMMANDS: [&str; 11] = [
+pub const COMMANDS: [&str; 11] = [
     "render",
     "check",
     "info",
@@ -23,11 +23,16 @@ fn version_and_help() {
     let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
     assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
     for arguments in COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]) {
-        let help = sandbox.run(&arguments).ends(0).silent().out_text();
-        assert!(help.lines().count() <= 40, "{arguments:?} does not fit a screen:\n{help}");
-        assert!(help.lines().all(|line| line.chars().count() <= 100), "{arguments:?} is too wide:\n{help}");
+        let help = Ran::of(sandbox.command(&arguments).env("COLUMNS", "80")).ends(0).silent().out_text();
+        assert!(help.lines().count() <= 24, "{arguments:?} does not fit a screen:\n{help}");
+        assert!(help.lines().all(|line| line.chars().count() <= 80), "{arguments:?} is too wide:\n{help}");
         let examples = help.lines().skip_while(|line| *line != "Examples:").skip(1);
         assert_eq!(examples.take_while(|line| line.starts_with("  tracer ")).count(), 2, "{arguments:?}:\n{help}");
+        // Every line of the options has the option and what it does: none is broken in two.
+        let options = help.lines().filter(|line| line.trim_start().starts_with('-'));
+        for option in options {
+            assert!(option.trim_start().contains("  "), "{arguments:?}: `{option}` is not explained beside it\n{help}");
+        }
     }
     assert!(sandbox.run(&["--help"]).out_text().contains("130 interrupted"));
 }

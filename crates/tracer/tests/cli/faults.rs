@@ -13,7 +13,10 @@ fn a_wrong_command_line_ends_with_2() {
     render(&["-o", "a.gif"]).says(&["a.gif", "`.gif`", "png, exr, hdr, pfm"]);
     render(&["-o", "a"]).says(&["no extension", "a.png"]);
     render(&["-o", "a.png", "-o", "a.png"]).says(&["a.png is given twice"]);
+    render(&["-o", "a.png", "-o", "./a.png"]).says(&["./a.png is given twice (it is a.png)"]);
     render(&["-o", "a.png", "--report", "a.png"]).says(&["-o and --report"]);
+    render(&["-o", "a.png", "--report", "./a.png"]).says(&["-o and --report"]);
+    render(&["-o", "a.png", "--report", "./scene.ron"]).says(&["./scene.ron would replace the scene"]);
     render(&["-o", "a.png", "--format", "exr"]).says(&["--format"]);
     render(&["-o", "a.exr", "--bits", "16"]).says(&["--bits", "PNG"]);
     render(&["-o", "a.png", "--bits", "12"]).says(&["--bits", "12"]);
@@ -26,6 +29,49 @@ fn a_wrong_command_line_ends_with_2() {
     render(&["-o", "a.png", "--smaples", "3"]).says(&["--smaples", "--samples"]);
     let mut lanes = sandbox.command(&["render", "scene.ron", "-o", "a.png"]);
     Ran::of(lanes.env("TRACER_LANES", "4")).ends(2).says(&["TRACER_LANES", "1, 8 or 16"]);
+    assert_eq!(sandbox.files(), ["scene.ron"]);
+}
+
+/// Two names of one file, whether it is there or not.
+#[cfg(unix)]
+#[test]
+fn a_file_is_known_under_all_its_names() {
+    use std::os::unix::fs::symlink;
+    let sandbox = Sandbox::new();
+    fs::create_dir(sandbox.path("folder")).expect("a folder");
+    symlink("folder", sandbox.path("other")).expect("a link");
+    symlink("folder/b.png", sandbox.path("link.png")).expect("a link to nothing yet");
+    let twice = |one: &str, two: &str| {
+        sandbox.run(&["render", "scene.ron", "-o", one, "-o", two]).ends(2).says(&[two, "is given twice", one]);
+    };
+    twice("a.png", "folder/../a.png");
+    twice("folder/a.png", "other/a.png");
+    twice("link.png", "folder/b.png");
+    sandbox.write("a.png", "old");
+    twice("a.png", "other/../a.png");
+    assert_eq!(sandbox.text("a.png"), "old");
+    // Two files are two, also under one name in two folders.
+    sandbox.run(&["render", "scene.ron", "-o", "a.png", "-o", "folder/a.png"]).ends(0);
+}
+
+#[test]
+fn a_wrong_command_gets_a_tip() {
+    let sandbox = Sandbox::new();
+    let wrong = |arguments: &[&str], tip: &str| {
+        sandbox.run(arguments).ends(2).says(&["tip: ", tip]);
+    };
+    wrong(&["rende"], "'render'");
+    wrong(&["rende", "scene.ron", "-o", "a.png"], "'render'");
+    wrong(&["scene.ron"], "tracer render scene.ron -o scene.png");
+    wrong(&["some folder/my scene.toml"], "tracer render 'some folder/my scene.toml' -o 'my scene.png'");
+    wrong(&["cat.obj"], "tracer new scene.ron");
+    wrong(&["a.png"], "tracer compare a.png");
+    wrong(&["--output", "x"], "--output belongs to a command, as in tracer render");
+    wrong(&["-o", "x"], "-o belongs to a command");
+    wrong(&["--samples", "3"], "--samples belongs to a command");
+    wrong(&["--resolved"], "--resolved belongs to tracer info");
+    wrong(&["render", "scene.ron"], "name the picture: tracer render scene.ron -o scene.png");
+    wrong(&["render", "scene.ron", "--outptu", "a.png"], "'--output'");
     assert_eq!(sandbox.files(), ["scene.ron"]);
 }
 

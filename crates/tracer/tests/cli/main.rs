@@ -2,9 +2,12 @@
 
 mod commands;
 mod compare;
+mod examples;
 mod faults;
+mod habits;
 #[cfg(unix)]
 mod interrupt;
 mod render;
 mod report;
 mod support;
+mod tutorial;

@@ -1,7 +1,6 @@
 //! `tracer render`: the files it writes, and that they depend on nothing but scene, seed and samples.
 
 use crate::support::{Ran, SCENE, Sandbox};
-use std::process::Stdio;
 use tracer::compare::{Kind, Picture};
 
 /// The text chunks of a PNG that are not compressed: keyword and text.
@@ -155,19 +154,6 @@ fn scene_from_standard_input_picture_to_standard_output() {
         assert_eq!(sandbox.shell(&line).ends(0).silent().out, sandbox.read("a.pfm"));
     }
     sandbox.run(&["render", "scene.ron", "-o", "-"]).ends(2).says(&["--format", "png, exr, hdr, pfm"]);
-}
-
-#[test]
-fn a_closed_pipe_is_no_fault() {
-    let sandbox = Sandbox::new();
-    for arguments in
-        [&["render", "scene.ron", "-o", "-", "--format", "png"][..], &["schema"], &["info", "scene.ron"], &["--help"]]
-    {
-        let (reader, writer) = std::io::pipe().expect("a pipe");
-        drop(reader);
-        let ran = Ran::of(sandbox.command(arguments).stdout(Stdio::from(writer)));
-        ran.ends(0).silent();
-    }
 }
 
 #[test]

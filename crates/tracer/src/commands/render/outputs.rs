@@ -4,7 +4,7 @@ use super::place;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::loading::is_dash;
-use crate::write::{Bits, Encoding, Place};
+use crate::write::{Bits, Encoding, Place, real_place};
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -29,15 +29,26 @@ pub(super) fn name(place: &Place) -> String {
 pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     let bits = args.bits.unwrap_or_default();
     let mut outputs: Vec<Output> = Vec::new();
+    let scene = Some(&args.scene.scene).filter(|scene| !is_dash(scene));
     for path in &args.output {
         let place = place(path);
-        if outputs.iter().any(|output| output.place == place) {
-            return Err(Failure::wrong(format!("-o {} is given twice; name two places", name(&place))));
+        if let Some(other) = outputs.iter().find(|output| is_same(&output.place, &place)) {
+            let (one, two) = (name(&other.place), name(&place));
+            let also = if one == two { String::new() } else { format!(" (it is {one})") };
+            return Err(Failure::wrong(format!("-o {two} is given twice{also}; name two places")));
         }
-        if args.report.as_deref() == Some(path) {
+        if args.report.as_deref().is_some_and(|report| is_same(&super::place(report), &place)) {
             return Err(Failure::wrong(format!("-o and --report both name {}; name two places", name(&place))));
         }
         outputs.push(Output { encoding: encoding(path, args, bits)?, place });
+    }
+    if let (Some(scene), Some(report)) = (scene, args.report.as_deref())
+        && is_same(&super::place(report), &super::place(scene))
+    {
+        return Err(Failure::wrong(format!(
+            "--report {} would replace the scene; name another file",
+            report.display()
+        )));
     }
     if args.format.is_some() && args.output.iter().all(|path| path.extension().is_some()) {
         return Err(Failure::wrong(
@@ -48,6 +59,16 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
     }
     Ok(outputs)
+}
+
+/// Whether two places are one: by name, or because both names lead to the same file.
+fn is_same(a: &Place, b: &Place) -> bool {
+    match (a, b) {
+        (Place::File(a), Place::File(b)) => {
+            a == b || matches!((real_place(a), real_place(b)), (Ok(a), Ok(b)) if a == b)
+        }
+        _ => a == b,
+    }
 }
 
 fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Failure> {
