@@ -12,11 +12,10 @@ const EXAMPLES: &str = "\
 Examples:
   tracer new ball.ron && tracer render ball.ron -o ball.png
   tracer render scenes/fig4.ron -o fig4.png --samples 100
-
 Exit codes: 0 done, 1 failed, 2 wrong scene or command line, 130 interrupted";
 
 /// No headings and no empty lines but these: help fits a screen of 24 lines.
-const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{subcommands}\n\n{options}\n{after-help}";
+const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n\n{subcommands}\n\n{options}{after-help}";
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -44,7 +43,7 @@ pub struct Cli {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a scene into pictures
+    /// Render a scene into pictures; Ctrl-C keeps what there is
     Render(RenderArgs),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
@@ -117,7 +116,7 @@ pub struct SceneArgs {
     pub set: Vec<String>,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax of the scene: ron or toml [default: by its name]")]
+    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text or json
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
@@ -140,8 +139,7 @@ Examples:
 const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
-  tracer render fig4.ron -o a.exr -o a.png --samples 64 --set camera.fov=40
-Ctrl-C writes the picture so far (exit code 130); another one leaves at once.";
+  tracer render fig4.ron -o a.exr -o a.png --samples 64 --set camera.fov=40";
 
 /// `tracer render`
 #[derive(Debug, Args)]
@@ -180,7 +178,7 @@ pub struct RenderArgs {
     /// Report of times, rays and memory to write as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
-    /// Tell where the time goes, stage by stage; in the report too
+    /// Tell where the time goes, in the report too
     #[arg(long)]
     pub stats: bool,
     /// Print errors only
@@ -286,11 +284,11 @@ pub struct CompareArgs {
     pub a: PathBuf,
     /// Picture that it is measured against
     pub b: PathBuf,
-    /// Write a map of the difference in false colours
-    #[arg(short, long, value_name = "FILE.png")]
+    /// Write a map of the difference in false colours (.png)
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Exit code 1 above it (repeatable)
-    #[arg(long, value_name = "METRIC=LIMIT")]
+    #[arg(long, value_name = "METRIC=X")]
     pub fail_above: Vec<String>,
     /// As JSON
     #[arg(long)]

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// The parts of a command's help, without headings and arguments that the usage line names and the first line explains.
-const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{options}\n{after-help}";
+const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{options}{after-help}";
 
 /// The words of the command line. The help of one command leaves out what all commands take: `tracer --help` has it. (Manual
 /// pages and completions are made from [`Cli`] itself and have everything.)

@@ -109,6 +109,7 @@ pub enum Round {
 }
 
 /// The members whose segments to the suffix of a slot are looked at.
+#[inline(always)]
 fn looked_at(seed: u32, item_z: u32, item: &Item, slot: u32) -> u64 {
     let salt = hash3(seed, item.sample, 0x5e6_3e47) as u32;
     let classes = classes_of(item);
@@ -215,6 +216,7 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
 /// Lists the pairs of suffixes from `next` on and members that are to be tested in this round, as many as fit; gives the suffix to go
 /// on with, and how many pairs there are. Few of the members of a group are looked at, so they are gathered one by one: with whole
 /// vectors of the group, of which four lanes in 64 were wanted, a room of spheres took a tenth longer in all.
+#[inline(always)]
 fn list_pairs(seed: u32, round: Round, next: usize, batch: &mut Batch) -> (usize, usize) {
     let (mut j, mut count) = (next, 0);
     while j < batch.suffixes.len && count + 64 <= PATHS {
