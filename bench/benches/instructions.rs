@@ -21,10 +21,10 @@ fn at_most(instructions: u64) -> LibraryBenchmarkConfig {
 
 // Pixels that share: 64x64 pixels, 4 samples.
 #[library_benchmark]
-#[bench::balls(args = (balls(64, 4)), config = at_most(108_700_000))]
-#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(259_200_000))]
-#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_217_200_000))]
-#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(213_600_000))]
+#[bench::balls(args = (balls(64, 4)), config = at_most(99_800_000))]
+#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(243_100_000))]
+#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_221_300_000))]
+#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(207_000_000))]
 fn sharing(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
@@ -39,7 +39,7 @@ fn plain(scene: Scene) -> Film {
 
 // Film to picture.
 #[library_benchmark]
-#[bench::balls(args = (rendered(&balls(256, 1), 1)), config = at_most(48_400_000))]
+#[bench::balls(args = (rendered(&balls(256, 1), 1)), config = at_most(48_500_000))]
 fn developed(film: Film) -> Image {
     black_box(develop(black_box(&film), &Default::default()))
 }
