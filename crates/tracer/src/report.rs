@@ -103,6 +103,8 @@ pub struct Rays {
     pub shadow: u64,
     /// From surfaces to what other pixels have found (`render.reuse`).
     pub segments: u64,
+    /// Photons from the lights, and from mirrors and glass on (`render.caustics`).
+    pub photons: u64,
     /// All.
     pub total: u64,
     /// All, per second of `seconds.render`.

@@ -43,6 +43,8 @@ scene_struct! {
         acceleration: Acceleration = Acceleration::Bvh;
         /// Whether the pixels of a block share what they find.
         reuse: Reuse = Reuse::Blocks;
+        /// How light comes over mirrors and glass to diffuse surfaces.
+        caustics: Caustics = Caustics::Photons;
     }
 }
 
@@ -64,6 +66,17 @@ scene_words! {
         /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time.
         Blocks,
         /// Every pixel for itself, as denoisers expect it.
+        None,
+    }
+}
+
+scene_words! {
+    /// How light comes over mirrors and glass to diffuse surfaces: the bright curves under a glass ball, say.
+    pub enum Caustics, "caustics" {
+        /// Photons are sent from the lights and gathered where they lie: hardly any noise, and a blur that vanishes as samples are added.
+        /// Wide lights, and scenes without mirrors and glass, do without.
+        Photons,
+        /// By the rays that happen to meet a light: right on average, and slow to become smooth.
         None,
     }
 }
@@ -93,6 +106,7 @@ impl Default for Render {
             seed: 0.into(),
             acceleration: Acceleration::Bvh,
             reuse: Reuse::Blocks,
+            caustics: Caustics::Photons,
         }
     }
 }

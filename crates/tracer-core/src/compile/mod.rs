@@ -11,7 +11,7 @@ use crate::scene::{
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
-use scene_format::desc::{Acceleration, Emission, Object, PixelFilter, Reuse, SphereLight};
+use scene_format::desc::{Acceleration, Caustics, Emission, Object, PixelFilter, Reuse, SphereLight};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
@@ -96,6 +96,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
         reuse: desc.render.reuse == Reuse::Blocks,
+        caustics: desc.render.caustics == Caustics::Photons,
         background: desc.background.map(|x| x as f32),
         spheres,
         materials,

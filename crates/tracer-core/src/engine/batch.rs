@@ -91,8 +91,11 @@ pub mod path {
     pub const SUM: u32 = SLOT | SHARED;
     /// The path has left a member ([`super::Members`]); what it meets next may be shared.
     pub const MAKER: u32 = 2 * SHARED;
-    /// The path has been past that and carries light to its own pixel only. Neither of the three: only mirrors and glass so far.
+    /// The path has been past that and carries light to its own pixel only. None of the three: only mirrors and glass so far.
     pub const OWN: u32 = 4 * SHARED;
+    /// The last vertex that was neither mirror nor glass was diffuse: photons bring the light of lamps seen from there over mirrors and
+    /// glass (see `engine::caustics`).
+    pub const MAPPED: u32 = 8 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -185,6 +188,40 @@ impl Shadows {
             occluded: words(),
         }
     }
+}
+
+/// Photons of a batch, and those of them that were stored.
+pub struct Photons {
+    /// Pair of light and caster of each photon sent.
+    pub pair: Vec<u32>,
+    /// Index of each photon sent among those of its pair.
+    pub index: Vec<u32>,
+    /// Number of photons stored.
+    pub len: usize,
+    /// Where they are stored.
+    pub point: Columns,
+    /// Geometric normal there, on the side that they came from.
+    pub normal: Columns,
+    /// Flux.
+    pub flux: Columns,
+    /// Mirrors and glass on their way.
+    pub events: Vec<u32>,
+    /// Which of the photons sent they are.
+    pub slot: Vec<u32>,
+}
+
+/// Diffuse vertices that photons are gathered at.
+pub struct Queries {
+    /// Number of vertices.
+    pub len: usize,
+    /// The point.
+    pub point: Columns,
+    /// Geometric normal on the viewer's side.
+    pub normal: Columns,
+    /// What the slot gets of flux per area.
+    pub value: Columns,
+    /// Slot and sum, see [`path`].
+    pub slot: Vec<u32>,
 }
 
 /// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
@@ -281,6 +318,8 @@ pub struct Counters {
     pub shadow_rays: u64,
     /// Rays to what other pixels have found.
     pub segments: u64,
+    /// Photons sent, and those that went on from mirrors and glass.
+    pub photon_rays: u64,
     /// Samples that were not finite.
     pub dropped: u64,
 }
@@ -292,6 +331,7 @@ impl Counters {
         self.scattered_rays += other.scattered_rays;
         self.shadow_rays += other.shadow_rays;
         self.segments += other.segments;
+        self.photon_rays += other.photon_rays;
         self.dropped += other.dropped;
     }
 }
@@ -316,6 +356,10 @@ pub struct Batch {
     pub segments: Shadows,
     /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path found.
     pub radiance: Columns,
+    /// Photons on their way from the lights.
+    pub photons: Photons,
+    /// Where photons are gathered at this bounce.
+    pub queries: Queries,
     /// First vertices that share.
     pub members: Members,
     /// Second vertices that are shared.
@@ -341,6 +385,17 @@ impl Batch {
             item_scale: vec![0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
+            photons: Photons {
+                pair: words(),
+                index: words(),
+                len: 0,
+                point: columns(),
+                normal: columns(),
+                flux: columns(),
+                events: words(),
+                slot: words(),
+            },
+            queries: Queries { len: 0, point: columns(), normal: columns(), value: columns(), slot: words() },
             hits: Hits { t: floats(), primitive: words(), instance: words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),

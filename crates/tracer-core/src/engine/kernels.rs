@@ -1,8 +1,11 @@
 //! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
 
 use super::batch::Batch;
+use super::caustics::map::Map;
+use super::caustics::plan::Plan;
+use super::caustics::trace::PhotonPass;
 use super::stages::share::Round;
-use super::stages::{camera, reach, shade, share, spheres};
+use super::stages::{camera, gather, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::level::Level;
@@ -13,12 +16,15 @@ use crate::scene::Scene;
 pub struct Kernels {
     camera: unsafe fn(&Scene, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
-    shade: unsafe fn(&Scene, Pass, u32, &mut Batch),
+    shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
     share_segments: unsafe fn(u32, Round, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
+    photons_emit: unsafe fn(&Plan, PhotonPass, &mut Batch),
+    photons_scatter: unsafe fn(&Scene, &Plan, u32, u32, &mut Batch),
+    gather: unsafe fn(&Map, u32, &mut Batch),
 }
 
 /// The entry functions of a level.
@@ -35,7 +41,7 @@ macro_rules! kernels {
                 spheres::spheres_closest::<$lanes>(scene, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn shade_entry(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
+            fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
                 shade::shade::<$lanes>(scene, pass, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
@@ -58,6 +64,18 @@ macro_rules! kernels {
             fn share_gather_entry(batch: &mut Batch) {
                 share::share_gather::<$lanes>(batch)
             }
+            $(#[target_feature(enable = $features)])?
+            fn photons_emit_entry(plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+                photons::photons_emit::<$lanes>(plan, pass, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn photons_scatter_entry(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
+                photons::photons_scatter::<$lanes>(scene, plan, seed, event, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn gather_entry(map: &Map, most_events: u32, batch: &mut Batch) {
+                gather::gather::<$lanes>(map, most_events, batch)
+            }
             pub const KERNELS: Kernels = Kernels {
                 camera: camera_entry,
                 closest: closest_entry,
@@ -67,6 +85,9 @@ macro_rules! kernels {
                 reach_occluded: reach_occluded_entry,
                 share_segments: share_segments_entry,
                 share_gather: share_gather_entry,
+                photons_emit: photons_emit_entry,
+                photons_scatter: photons_scatter_entry,
+                gather: gather_entry,
             };
         }
     };
@@ -109,7 +130,7 @@ impl Kernels {
         unsafe { (self.closest)(scene, batch) }
     }
     /// Shades the hits of a vertex.
-    pub fn shade(&self, scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
+    pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.shade)(scene, pass, vertex, batch) }
     }
@@ -127,6 +148,21 @@ impl Kernels {
     pub fn share_gather(&self, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.share_gather)(batch) }
+    }
+    /// First rays of photons.
+    pub fn photons_emit(&self, plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.photons_emit)(plan, pass, batch) }
+    }
+    /// What becomes of photons where they hit, after `event` mirrors and glass.
+    pub fn photons_scatter(&self, scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.photons_scatter)(scene, plan, seed, event, batch) }
+    }
+    /// Photons around diffuse vertices.
+    pub fn gather(&self, map: &Map, most_events: u32, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.gather)(map, most_events, batch) }
     }
     /// Which paths the tree is asked about.
     pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {

@@ -4,6 +4,7 @@
 //! ([`crate::film`]), so threads take batches in any order and the film is the same.
 
 mod batch;
+mod caustics;
 mod kernels;
 mod lane_io;
 mod stages;
@@ -17,6 +18,7 @@ use crate::film::{Crop, Film};
 use crate::lanes::level::Level;
 use crate::scene::Scene;
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
+use caustics::Caustics;
 use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -37,6 +39,8 @@ pub struct RenderOptions {
     pub level: Option<Level>,
     /// Whether the pixels of a block share what they find.
     pub reuse: Option<bool>,
+    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass.
+    pub caustics: Option<bool>,
     /// Whether to keep [`Statistics`].
     pub statistics: bool,
 }
@@ -76,6 +80,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         seed: options.seed.unwrap_or(scene.seed),
         reuse: options.reuse.unwrap_or(scene.reuse),
         lanes: level.lanes(),
+        photons: None,
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
@@ -85,7 +90,15 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let done = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
-    for pass in passes(samples) {
+    for worker in &workers {
+        lock(worker).batch.watch.start(options.statistics);
+    }
+    let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
+    let mut caustics = if wants_photons { Caustics::new(scene, &kernels, pass_options.seed, &workers) } else { None };
+    for pass in passes(samples, if caustics.is_some() { 4 * SAMPLES } else { 16 * SAMPLES }) {
+        if let Some(caustics) = &mut caustics {
+            caustics.prepare(scene, &kernels, pass.clone(), &workers);
+        }
         // Whole tiles per batch: a tile's samples of one pass are added by one thread.
         let per_batch = (SAMPLES / (pass.end - pass.start).min(SAMPLES)) as usize;
         let next = AtomicUsize::new(0);
@@ -109,7 +122,8 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                         }
                     }
                     batch.watch.start(options.statistics);
-                    trace::trace(scene, &kernels, pass_options, batch);
+                    let photons = caustics.as_ref().and_then(|c| c.map(sample));
+                    trace::trace(scene, &kernels, trace::Pass { photons, ..pass_options }, batch);
                     let items_of_tile = (count * QUARTERS) as usize;
                     for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
                         let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -130,15 +144,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                 }
             }
         };
-        if threads == 1 {
-            work(&mut lock(&workers[0]));
-        } else {
-            std::thread::scope(|scope| {
-                for worker in &workers {
-                    scope.spawn(|| work(&mut lock(worker)));
-                }
-            });
-        }
+        on_all(&workers, &work);
         drop(cells);
         if stopped.load(Ordering::Relaxed) {
             break;
@@ -170,6 +176,19 @@ impl Worker {
     }
 }
 
+/// Has all workers do a work, each on a thread of its own.
+fn on_all(workers: &[Mutex<Worker>], work: &(impl Fn(&mut Worker) + Sync)) {
+    if let [worker] = workers {
+        work(&mut lock(worker));
+    } else {
+        std::thread::scope(|scope| {
+            for worker in workers {
+                scope.spawn(|| work(&mut lock(worker)));
+            }
+        });
+    }
+}
+
 fn lock(worker: &Mutex<Worker>) -> std::sync::MutexGuard<'_, Worker> {
     worker.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
@@ -178,12 +197,12 @@ fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Sample ranges of the passes: powers of two up to 64 samples, then 64 at a time, so that an early look costs little and later
-/// passes are long. The picture does not depend on them.
-fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
+/// Sample ranges of the passes: powers of two up to `longest` samples, then so many at a time, so that an early look costs little and
+/// later passes are long. The picture does not depend on them.
+fn passes(samples: u32, longest: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
     let mut start = 0;
     std::iter::from_fn(move || {
-        let length = if start == 0 { 1 } else { start.min(64) };
+        let length = if start == 0 { 1 } else { start.min(longest) };
         let rest = (samples - start).min(length);
         if rest == 0 {
             return None;
@@ -202,9 +221,9 @@ mod tests {
 
     #[test]
     fn passes_cover_all_samples_once() {
-        for samples in (1..300).chain([1000, 1023]) {
+        for (samples, longest) in (1..300).chain([1000, 1023]).flat_map(|samples| [(samples, 64), (samples, 16)]) {
             let mut next = 0;
-            for pass in passes(samples) {
+            for pass in passes(samples, longest) {
                 assert_eq!(pass.start, next);
                 let n = pass.end - pass.start;
                 assert!(n.is_multiple_of(SAMPLES) || SAMPLES.is_multiple_of(n));

@@ -19,6 +19,10 @@ pub enum Stage {
     Occluded,
     /// Light of shadow rays to their pixels.
     Deposit,
+    /// Photons: from the lights, over mirrors and glass, and into a map.
+    Photons,
+    /// Photons around diffuse vertices.
+    Gather,
     /// What pixels share: which segments, and each one's part.
     Share,
     /// Samples onto the film.
@@ -27,7 +31,7 @@ pub enum Stage {
 
 impl Stage {
     /// All of them.
-    pub const ALL: [Stage; 9] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Camera,
         Stage::Spheres,
         Stage::Reach,
@@ -35,6 +39,8 @@ impl Stage {
         Stage::Shade,
         Stage::Occluded,
         Stage::Deposit,
+        Stage::Photons,
+        Stage::Gather,
         Stage::Share,
         Stage::Film,
     ];
@@ -49,6 +55,8 @@ impl Stage {
             Stage::Shade => "shade",
             Stage::Occluded => "occluded",
             Stage::Deposit => "deposit",
+            Stage::Photons => "photons",
+            Stage::Gather => "gather",
             Stage::Share => "share",
             Stage::Film => "film",
         }
@@ -121,6 +129,11 @@ impl Watch {
     pub fn start(&mut self, on: bool) {
         self.last = on.then(Instant::now);
         self.batches = self.batches.wrapping_add(1);
+    }
+
+    /// Goes on after other work, if statistics are kept.
+    pub fn resume(&mut self) {
+        self.last = self.last.map(|_| Instant::now());
     }
 
     /// Whether statistics are kept.

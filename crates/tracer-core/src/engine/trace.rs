@@ -1,6 +1,7 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
 use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
+use super::caustics::PhotonMap;
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
 use super::stages::share::Round;
@@ -10,18 +11,20 @@ use crate::sampling::sampler::z_order;
 use crate::scene::Scene;
 
 /// What is the same for all batches of a rendering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pass {
+#[derive(Clone, Copy)]
+pub struct Pass<'a> {
     /// Seed of all random choices.
     pub seed: u32,
     /// Pixels share what they find ([`super::stages::share`]).
     pub reuse: bool,
     /// Lanes of the kernels; for the statistics.
     pub lanes: usize,
+    /// The photons of the batch's sample indices, where the scene is worth them.
+    pub photons: Option<PhotonMap<'a>>,
 }
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
-pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
+pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch) {
     for (k, item) in batch.items.iter().enumerate() {
         let (shift, offset) = item.z_of_pixels();
         batch.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
@@ -35,14 +38,7 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
     let mut groups_before = [0; ITEMS];
     let mut vertex = 0;
     while batch.paths.len > 0 {
-        kernels.closest(scene, batch);
-        batch.watch.lap(Stage::Spheres);
-        if let Some(accel) = &scene.accel {
-            kernels.reach_closest(accel.top_boxes(), batch);
-            batch.watch.lap(Stage::Reach);
-            closest_in_tree(accel, vertex == 0, batch);
-            batch.watch.lap(Stage::Closest);
-        }
+        closest(scene, kernels, vertex == 0, batch);
         batch.watch.shaded(batch.paths.len, pass.lanes);
         let (members, suffixes) = (batch.members.len, batch.suffixes.len);
         kernels.shade(scene, pass, vertex, batch);
@@ -54,6 +50,10 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass, batch: &mut Batch) {
         occluded(scene, kernels, Coherence::Incoherent, batch);
         deposit(batch);
         batch.watch.lap(Stage::Deposit);
+        if let Some(photons) = pass.photons {
+            kernels.gather(photons.map, scene.max_bounces.saturating_sub(vertex), batch);
+            batch.watch.lap(Stage::Gather);
+        }
         vertex += 1;
     }
     if batch.suffixes.len > 0 {
@@ -123,6 +123,17 @@ fn rays<'a>(
         from_primitive: &from_primitive[..len],
         from_instance: &from_instance[..len],
     }
+}
+
+/// What the rays of `batch.paths` hit; `camera`: they come from there.
+pub fn closest(scene: &Scene, kernels: &Kernels, camera: bool, batch: &mut Batch) {
+    kernels.closest(scene, batch);
+    batch.watch.lap(Stage::Spheres);
+    let Some(accel) = &scene.accel else { return };
+    kernels.reach_closest(accel.top_boxes(), batch);
+    batch.watch.lap(Stage::Reach);
+    closest_in_tree(accel, camera, batch);
+    batch.watch.lap(Stage::Closest);
 }
 
 /// What the tree holds nearer than the spheres that every ray tests, for the paths in `batch.active`.

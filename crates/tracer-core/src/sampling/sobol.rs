@@ -52,6 +52,19 @@ pub fn shuffle_index(i: u32, key: u32) -> u32 {
     x.reverse_bits()
 }
 
+/// [`shuffle_index`] over lanes, a key each.
+#[inline(always)]
+pub fn shuffle_indices<U: Bits>(i: U, key: U) -> U {
+    let m = U::splat;
+    let x = i.reverse_bits();
+    let x = x ^ (x * m(0x3d20_adea));
+    let x = x * (key | m(1));
+    let x = x ^ (x * m(0x0552_6c56));
+    let x = x * (key.shr::<16>() | m(1));
+    let x = x ^ (x * m(0x53a2_2864));
+    x.reverse_bits()
+}
+
 /// Direction numbers of the third and fourth Sobol' dimension (Joe and Kuo 2008, new-joe-kuo-6: s = 2, a = 1, m = 1 3 and
 /// s = 3, a = 1, m = 1 3 1), reversed.
 const DIRECTIONS: [[u32; 32]; 2] = [directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];

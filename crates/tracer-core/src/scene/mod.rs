@@ -48,6 +48,8 @@ pub struct Scene {
     pub seed: u32,
     /// Whether the pixels of a block share what they find, unless the caller says otherwise.
     pub reuse: bool,
+    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
+    pub caustics: bool,
     /// Radiance of everything that no object covers.
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.

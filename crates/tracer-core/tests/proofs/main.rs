@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods)]
 
 mod analytic;
+mod caustics;
 mod compiling;
 mod convergence;
 mod figures;

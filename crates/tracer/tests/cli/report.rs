@@ -67,7 +67,10 @@ fn numbers_fit_together() {
     // 40x24 pixels lie in whole tiles of 16x16.
     assert_eq!(number("/samples/total"), 48 * 32 * 2);
     assert_eq!(
-        ["camera", "scattered", "shadow", "segments"].map(|kind| number(&format!("/rays/{kind}"))).iter().sum::<u64>(),
+        ["camera", "scattered", "shadow", "segments", "photons"]
+            .map(|kind| number(&format!("/rays/{kind}")))
+            .iter()
+            .sum::<u64>(),
         number("/rays/total")
     );
     assert_eq!((number("/picture/samples_min"), number("/picture/samples_max")), (2, 2));

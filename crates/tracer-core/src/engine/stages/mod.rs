@@ -2,8 +2,10 @@
 
 pub mod camera;
 pub mod deposit;
+pub mod gather;
 pub mod lights;
 pub mod materials;
+pub mod photons;
 pub mod reach;
 pub mod shade;
 pub mod share;

@@ -19,10 +19,13 @@ use crate::scene::{NONE, Scene};
 /// away the stratification that the sampler pays for.
 const ROULETTE_FROM: u32 = 3;
 
+/// Share of the diffuse vertices after a path's first at which photons are gathered.
+const GATHER_LATER: f32 = 0.25;
+
 /// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in `batch.shadows`.
 /// Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to `batch.members` and `batch.suffixes`.
 #[inline(always)]
-pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch) {
+pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     let seed = pass.seed;
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
@@ -42,8 +45,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch
     let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
     // A member's second vertex needs a scattering of its own.
     let joins = pass.reuse && vertex < scene.max_bounces;
+    let queries = &mut batch.queries;
     next.len = 0;
     shadows.len = 0;
+    queries.len = 0;
     for i in (0..paths.len).step_by(F::N) {
         let valid = F::first(paths.len - i);
         let origin = V3::<F>::load(&paths.origin, i);
@@ -70,7 +75,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
             let sampled = lights::pdf(&tables.lights, light, origin);
-            let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            if let Some(photons) = pass.photons {
+                let by_photons = !(slot & F::U::splat(path::MAPPED)).eq(F::U::splat(0))
+                    & pdf.lt(zero)
+                    & !F::U::gather(&photons.plan.mapped, light).eq(F::U::splat(0));
+                weight = F::select(by_photons, zero, weight);
+            }
             let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
             add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits);
         }
@@ -99,13 +110,29 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
             }
-            let bare = slot & F::U::splat(path::SLOT);
+            let bare = slot & F::U::splat(path::SLOT | path::MAPPED);
             let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
             slot = F::U::select(found, own, slot);
         }
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid };
         let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+
+        // Light that photons have brought here; to look for it costs as much as all else at a vertex, so after the first diffuse vertex
+        // of a path only one in so many does.
+        if pass.photons.is_some() && !last && bsdf.diffuse.any() {
+            let (_, choice) = roulettes.points(&pixel);
+            let later = !(slot & F::U::splat(path::MAPPED)).eq(F::U::splat(0));
+            let chance = F::select(later, c(GATHER_LATER), one);
+            let value = bsdf.color.mul(throughput).scale(eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
+            let asks = bsdf.diffuse & choice.lt(chance) & zero.lt(value.max_component());
+            let k = queries.len;
+            s.p.compress(asks, &mut queries.point, k);
+            s.ng.compress(asks, &mut queries.normal, k);
+            value.compress(asks, &mut queries.value, k);
+            (slot & F::U::splat(path::SUM)).compress(asks, &mut queries.slot[k..]);
+            queries.len += asks.count();
+        }
 
         // Light sampled from here.
         if rough.any() && tables.lights.len > 0 {
@@ -184,6 +211,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass, vertex: u32, batch: &mut Batch
             let arrives = colored.scale(eta2);
             add_members(members, &bsdf, &s, wo, arrives, survival, slot, primitive, instance, member);
             slot = F::U::select(member, slot | F::U::splat(path::MAKER), slot);
+        }
+        if pass.photons.is_some() {
+            slot = F::U::select(bsdf.diffuse, slot | F::U::splat(path::MAPPED), slot);
+            slot = F::U::select(bsdf.glossy, slot & F::U::splat(!path::MAPPED), slot);
         }
         let alive = alive & zero.lt(carried.max_component());
         let k = next.len;

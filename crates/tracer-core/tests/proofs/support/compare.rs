@@ -2,7 +2,7 @@
 
 use super::{effort, film};
 use scene_format::SceneDesc;
-use scene_format::desc::Reuse;
+use scene_format::desc::{Caustics, Reuse};
 use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
 use tracer_reference::{Smoothing, render};
@@ -55,9 +55,12 @@ impl Renderings {
 }
 
 /// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all tiles of all
-/// scenes together (Šidák), and the means of the channels within three standard errors.
+/// scenes together (Šidák), and the means of the channels within three standard errors. Without photons, which are right in the limit
+/// only: they have a test of their own ([`assert_photons_are_consistent`]).
 pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
-    let scene = super::compiled(desc);
+    let mut desc = desc.clone();
+    desc.render.caustics = Caustics::None;
+    let scene = super::compiled(&desc);
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
     let engine = Renderings::new(&scene, engine_samples, 1000);
     let reference = render(&scene, samples.reference * effort(), 7, Smoothing::Hanika);
@@ -75,13 +78,35 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
 pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
     let rendered = |reuse: Reuse, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        desc.render.reuse = reuse;
+        (desc.render.reuse, desc.render.caustics) = (reuse, Caustics::None);
         Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
     };
     let size = [desc.image.width.value, desc.image.height.value];
     let (shared, alone) = (rendered(Reuse::Blocks, 24, 2000), rendered(Reuse::None, 64, 3000));
     assert_agree(name, size, scenes, &|r, c| shared.estimate(r, c), &|r, c| alone.estimate(r, c));
 }
+
+/// Asserts that a picture with photons is that without, but for a bias: of a tile, [`BLUR`] of what it holds, because the light of a
+/// caustic is spread over the radius of a map and tiles are small; of the whole picture, `bias` of its mean. 64 samples are 16 maps.
+pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, bias: f64, scenes: usize) {
+    let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
+        let mut desc = desc.clone();
+        desc.render.caustics = caustics;
+        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
+    };
+    let size = [desc.image.width.value, desc.image.height.value];
+    let (photons, plain) = (rendered(Caustics::Photons, 64, 4000), rendered(Caustics::None, plain, 5000));
+    let allow = |rectangle: Rectangle, channel: usize| {
+        let (ours, theirs) = (photons.estimate(rectangle, channel), plain.estimate(rectangle, channel));
+        let allowed = theirs.mean * if area(rectangle) < area([0, 0, size[0], size[1]]) { BLUR } else { bias };
+        let excess = ((ours.mean - theirs.mean).abs() - allowed).max(0.0);
+        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
+    };
+    assert_agree(name, size, scenes, &allow, &|r, c| plain.estimate(r, c));
+}
+
+/// See [`assert_photons_are_consistent`].
+const BLUR: f64 = 0.03;
 
 /// Tiles and means of two pictures of the same scene, one of `scenes`.
 fn assert_agree(

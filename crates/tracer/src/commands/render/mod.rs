@@ -217,7 +217,11 @@ fn report(
 ) -> Report {
     let statistics = scene.statistics();
     let counters = film.counters;
-    let rays = counters.camera_rays + counters.scattered_rays + counters.shadow_rays + counters.segments;
+    let rays = counters.camera_rays
+        + counters.scattered_rays
+        + counters.shadow_rays
+        + counters.segments
+        + counters.photon_rays;
     let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
@@ -244,6 +248,7 @@ fn report(
             scattered: counters.scattered_rays,
             shadow: counters.shadow_rays,
             segments: counters.segments,
+            photons: counters.photon_rays,
             total: rays,
             per_second: per_second(rays),
         },

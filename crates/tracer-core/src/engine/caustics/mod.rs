@@ -1,0 +1,105 @@
+//! Caustics: light that reaches diffuse surfaces over mirrors and glass, by maps of photons.
+//!
+//! A path that scatters at a diffuse surface, goes on over mirrors and glass only and then meets a small light carries nearly all of
+//! the noise of a picture with such objects, because the ray that happens to take this way is rare and bright. For that class of
+//! paths, and no other, photons are sent from the lights at the casters ([`casters`], [`plan`]), followed over mirrors and glass
+//! ([`trace`]) and stored where they first meet a diffuse surface ([`map`]); every diffuse vertex of every path gathers those around it
+//! (`engine::stages::gather`), and scattered rays that find such a light count nothing.
+//!
+//! Four sample indices share a map; from map to map the radius shrinks, so the picture is consistent (its bias goes to zero) rather
+//! than unbiased (Hachisuka, Ogaki, Jensen: Progressive Photon Mapping, 2008). Maps depend on scene, seed and number only:
+//! the same for any crop, threads and lanes.
+
+pub mod casters;
+pub mod map;
+pub mod plan;
+pub mod trace;
+
+use crate::engine::kernels::Kernels;
+use crate::engine::statistics::Stage;
+use crate::engine::{Worker, on_all};
+use crate::sampling::sampler::hash3;
+use crate::scene::Scene;
+use map::{Map, Photon};
+use plan::Plan;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Sample indices that share a map.
+pub const SAMPLES_PER_MAP: u32 = 4;
+/// Photons of the trial that tells whether maps are worth it.
+const TRIAL: u32 = 4096;
+
+/// A map and its plan, as the engine's stages need them.
+#[derive(Clone, Copy)]
+pub struct PhotonMap<'a> {
+    /// Which lights it holds.
+    pub plan: &'a Plan,
+    /// The photons.
+    pub map: &'a Map,
+}
+
+/// The maps of a rendering.
+pub struct Caustics {
+    /// What the maps have in common.
+    pub plan: Plan,
+    seed: u32,
+    /// The maps at hand, by number.
+    maps: Vec<Map>,
+}
+
+impl Caustics {
+    /// Finds out by a trial whether a scene is worth maps; `None` where it is not.
+    pub fn new(scene: &Scene, kernels: &Kernels, seed: u32, workers: &[Mutex<Worker>]) -> Option<Caustics> {
+        let plan = Plan::new(scene, seed)?;
+        let count = TRIAL.min(plan.photons);
+        let shares: Vec<plan::Share> = plan.shares(0, count).collect();
+        // Choices of its own: where the photons of the maps go must not depend on what becomes of those very photons.
+        let photons = trace::photons(scene, kernels, &plan, hash3(seed, 0, 0x0007_21a1) as u32, &shares, workers);
+        let scale = f64::from(plan.photons) / f64::from(count);
+        let mut stored = vec![0.0; plan.pairs.caster.len()];
+        for photon in &photons {
+            stored[photon.pair as usize] += scale * f64::from(photon.flux.iter().sum::<f32>());
+        }
+        let plan = plan.after(scene, &stored)?;
+        Some(Caustics { plan, seed, maps: Vec::new() })
+    }
+
+    /// Makes the maps for a range of sample indices and forgets others.
+    pub fn prepare(
+        &mut self,
+        scene: &Scene,
+        kernels: &Kernels,
+        samples: std::ops::Range<u32>,
+        workers: &[Mutex<Worker>],
+    ) {
+        let wanted = samples.start / SAMPLES_PER_MAP..samples.end.div_ceil(SAMPLES_PER_MAP);
+        self.maps.retain(|m| wanted.contains(&m.number));
+        let plan = &self.plan;
+        let mut photons: Vec<(u32, Vec<Photon>)> = Vec::new();
+        for number in wanted {
+            if self.maps.iter().all(|m| m.number != number) {
+                let shares: Vec<plan::Share> = plan.shares(number, plan.photons).collect();
+                photons.push((number, trace::photons(scene, kernels, plan, self.seed, &shares, workers)));
+            }
+        }
+        let next = AtomicUsize::new(0);
+        let made = Mutex::new(Vec::new());
+        let work = |worker: &mut Worker| {
+            while let Some((number, photons)) = photons.get(next.fetch_add(1, Ordering::Relaxed)) {
+                worker.batch.watch.resume();
+                let map = Map::new(*number, photons, &plan.pairs, &plan.radii);
+                made.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(map);
+                worker.batch.watch.lap(Stage::Photons);
+            }
+        };
+        on_all(workers, &work);
+        self.maps.append(&mut made.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()));
+    }
+
+    /// The map of a sample index that was prepared.
+    pub fn map(&self, sample: u32) -> Option<PhotonMap<'_>> {
+        let map = self.maps.iter().find(|m| m.number == sample / SAMPLES_PER_MAP)?;
+        Some(PhotonMap { plan: &self.plan, map })
+    }
+}

@@ -1,0 +1,101 @@
+//! Photons from the lights to where they are stored.
+
+use super::map::Photon;
+use super::plan::{Plan, Share};
+use crate::engine::Worker;
+use crate::engine::batch::{Batch, PATHS};
+use crate::engine::kernels::Kernels;
+use crate::engine::statistics::Stage;
+use crate::engine::trace::closest;
+use crate::scene::Scene;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What the photons of a batch have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PhotonPass {
+    /// Seed of all random choices.
+    pub seed: u32,
+    /// Photons in the batch.
+    pub count: usize,
+}
+
+/// Sends the photons of these shares; what was stored, in an order that depends on nothing else.
+pub fn photons(
+    scene: &Scene,
+    kernels: &Kernels,
+    plan: &Plan,
+    seed: u32,
+    shares: &[Share],
+    workers: &[Mutex<Worker>],
+) -> Vec<Photon> {
+    let batches = batches(shares);
+    let next = AtomicUsize::new(0);
+    let stored: Vec<Mutex<Vec<Photon>>> = batches.iter().map(|_| Mutex::default()).collect();
+    let work = |worker: &mut Worker| {
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            let (Some(shares), Some(stored)) = (batches.get(k), stored.get(k)) else { break };
+            let photons = trace(scene, kernels, plan, seed, shares, &mut worker.batch);
+            *stored.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = photons;
+        }
+    };
+    crate::engine::on_all(workers, &work);
+    let of_batch = |photons: Mutex<Vec<Photon>>| photons.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    stored.into_iter().flat_map(of_batch).collect()
+}
+
+/// Cuts the shares into batches of at most [`PATHS`] photons.
+fn batches(shares: &[Share]) -> Vec<Vec<Share>> {
+    let mut batches = vec![Vec::new()];
+    let mut room = PATHS as u32;
+    for &share in shares {
+        let mut rest = share;
+        while rest.count > 0 {
+            if room == 0 {
+                batches.push(Vec::new());
+                room = PATHS as u32;
+            }
+            let count = rest.count.min(room);
+            if let Some(batch) = batches.last_mut() {
+                batch.push(Share { count, ..rest });
+            }
+            rest = Share { first: rest.first.wrapping_add(count), count: rest.count - count, ..rest };
+            room -= count;
+        }
+    }
+    batches
+}
+
+/// One batch.
+fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
+    let mut count = 0;
+    for share in shares {
+        for k in 0..share.count {
+            batch.photons.pair[count] = share.pair;
+            batch.photons.index[count] = share.first.wrapping_add(k);
+            count += 1;
+        }
+    }
+    batch.watch.resume();
+    batch.photons.len = 0;
+    kernels.photons_emit(plan, PhotonPass { seed, count }, batch);
+    let mut event = 0;
+    while batch.paths.len > 0 {
+        closest(scene, kernels, false, batch);
+        kernels.photons_scatter(scene, plan, seed, event, batch);
+        event += 1;
+    }
+    batch.watch.lap(Stage::Photons);
+    let stored = &batch.photons;
+    let at = |columns: &[Vec<f32>; 3], k: usize| [columns[0][k], columns[1][k], columns[2][k]];
+    (0..stored.len)
+        .map(|k| Photon {
+            point: at(&stored.point, k),
+            normal: at(&stored.normal, k),
+            flux: at(&stored.flux, k),
+            events: stored.events[k],
+            pair: stored.pair[stored.slot[k] as usize],
+        })
+        .collect()
+}

@@ -1,0 +1,202 @@
+//! Photons: from the lights, over mirrors and glass, to the first diffuse surface (see `engine::caustics`).
+
+use super::materials::{Bsdf, reflect_bent, sample_dielectric};
+use super::surface::{Surface, surface};
+use crate::engine::batch::Batch;
+use crate::engine::caustics::plan::{Plan, aim};
+use crate::engine::caustics::trace::PhotonPass;
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::sampling::sampler::{hash3, unit};
+use crate::sampling::sobol::{owen, pascal_upper, shuffle_indices};
+use crate::sampling::warp;
+use crate::scene::{NONE, Scene};
+
+/// The ratio of cosines to shading and geometric normals is held below this at the surfaces of smooth meshes: it has no bound at
+/// their outlines.
+const MOST_BENT: f32 = 10.0;
+
+/// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each pair with an
+/// order of its own.
+struct Numbers<F: Lanes> {
+    index: F::U,
+    key: F::U,
+}
+
+impl<F: Lanes> Numbers<F> {
+    #[inline(always)]
+    fn keyed(&self, salt: u32) -> F::U {
+        let mixed = (self.key ^ F::U::splat(salt)) * F::U::splat(0x9e37_79b1);
+        mixed ^ mixed.shr::<15>()
+    }
+    #[inline(always)]
+    fn pair(&self, salt: u32) -> (F, F) {
+        let index = shuffle_indices(self.index, self.keyed(salt));
+        let x = owen(index, self.keyed(salt ^ 0x5bd1_e995));
+        let y = owen(pascal_upper(index), self.keyed(salt ^ 0x2545_f491));
+        (unit::<F>(x.reverse_bits()), unit::<F>(y.reverse_bits()))
+    }
+}
+
+/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: throughput is flux, slot the photon.
+#[inline(always)]
+pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+    let c = F::splat;
+    let (zero, one, two) = (c(0.0), c(1.0), c(2.0));
+    let pairs = &plan.pairs;
+    let salt = |k: u32| hash3(pass.seed, k, 0xb010_9a17) as u32;
+    let salts = [salt(0), salt(1), salt(2)];
+    let (photons, paths) = (&batch.photons, &mut batch.paths);
+    paths.len = 0;
+    for i in (0..pass.count).step_by(F::N) {
+        let valid = F::first(pass.count - i);
+        let pair = F::U::select(valid, F::U::load(&photons.pair[i..]), F::U::splat(0));
+        let numbers = Numbers::<F> { index: F::U::load(&photons.index[i..]), key: F::U::gather(&pairs.key, pair) };
+        let aimed = F::U::gather(&pairs.aim, pair);
+        let inside = aimed.eq(F::U::splat(aim::INSIDE));
+        let everywhere = aimed.eq(F::U::splat(aim::EVERYWHERE));
+        // A point of the light.
+        let (u, v) = numbers.pair(salts[0]);
+        let axis = V3::<F>::gather_columns(&pairs.axis, pair);
+        let outward = axis.to_world(warp::cone(u, v, F::gather(&pairs.cap, pair)));
+        let center = V3::<F>::gather_columns(&pairs.light_center, pair);
+        let point = outward.mad(F::gather(&pairs.light_radius, pair), center);
+        let mut normal = V3::select(inside, outward.neg(), outward);
+        // A direction from there to the caster's sphere, uniform.
+        let (u, v) = numbers.pair(salts[1]);
+        let to = V3::<F>::gather_columns(&pairs.caster_center, pair).sub(point);
+        let distance2 = to.dot(to).max(c(1e-30));
+        let sin2 = (F::gather(&pairs.caster_radius2, pair) / distance2).min(one);
+        let cone = sin2 / (one + (one - sin2).sqrt());
+        let towards = to.scale(one / distance2.sqrt());
+        let mut direction = towards.to_world(warp::cone(u, v, cone));
+        let mut density = normal.dot(direction) * cone * c(super::materials::TWO_PI);
+        if everywhere.any() {
+            // A direction from one of its sides, by the cosine.
+            let (side, _) = numbers.pair(salts[2]);
+            normal = V3::select(everywhere & side.lt(c(0.5)), normal.neg(), normal);
+            direction = V3::select(everywhere, normal.to_world(warp::cosine_hemisphere(u, v)), direction);
+            density = F::select(everywhere, one, density);
+        }
+        let flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
+        let sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));
+        let k = paths.len;
+        point.compress(sent, &mut paths.origin, k);
+        direction.compress(sent, &mut paths.direction, k);
+        flux.compress(sent, &mut paths.throughput, k);
+        F::U::gather(&pairs.light_primitive, pair).compress(sent, &mut paths.from_primitive[k..]);
+        F::U::splat(NONE).compress(sent, &mut paths.from_instance[k..]);
+        lane_numbers::<F>(i).compress(sent, &mut paths.slot[k..]);
+        paths.len += sent.count();
+    }
+    batch.counters.photon_rays += batch.paths.len as u64;
+}
+
+/// i, i + 1, ..
+#[inline(always)]
+fn lane_numbers<F: Lanes>(i: usize) -> F::U {
+    let mut numbers = [0u32; 32];
+    for (k, number) in numbers.iter_mut().enumerate() {
+        *number = (i + k) as u32;
+    }
+    F::U::load(&numbers)
+}
+
+/// What becomes of the photons in `batch.paths` where they hit: over mirrors and glass they go on, on diffuse surfaces they are
+/// stored if they have come over `event` > 0 of these, all others end. The first thing that a photon meets must belong to the caster
+/// that it was aimed at: so each way from a light over its first mirror or glass is taken by the photons of one caster only.
+#[inline(always)]
+pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
+    let c = F::splat;
+    let (zero, one) = (c(0.0), c(1.0));
+    let tables = &scene.tables;
+    let goes_on = event < scene.max_bounces;
+    let salt = hash3(seed, event, 0x00e4_e275) as u32;
+    let spheres = F::U::splat(tables.spheres.len);
+    let (paths, next, photons) = (&batch.paths, &mut batch.next, &mut batch.photons);
+    next.len = 0;
+    for i in (0..paths.len).step_by(F::N) {
+        let valid = F::first(paths.len - i);
+        let origin = V3::<F>::load(&paths.origin, i);
+        let direction = V3::<F>::load(&paths.direction, i);
+        let flux = V3::<F>::load(&paths.throughput, i);
+        let slot = F::U::select(valid, F::U::load(&paths.slot[i..]), F::U::splat(0));
+        let primitive = F::U::load(&batch.hits.primitive[i..]);
+        let instance = F::U::load(&batch.hits.instance[i..]);
+        let mut hit = valid & !primitive.eq(F::U::splat(NONE));
+        if event == 0 && hit.any() {
+            let on_sphere = primitive.lt(spheres);
+            let wanted = F::U::gather(&plan.pairs.caster, F::U::gather(&photons.pair, slot));
+            let none = F::U::splat(0);
+            let of_sphere = F::U::gather(&plan.casters.of_sphere, F::U::select(on_sphere, primitive, none));
+            let of_instance = F::U::gather(&plan.casters.of_instance, F::U::select(on_sphere, none, instance));
+            hit = hit & F::U::select(on_sphere, of_sphere, of_instance).eq(wanted);
+        }
+        if !hit.any() {
+            continue;
+        }
+        let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+        let surfaces = hit & s.light.eq(F::U::splat(0));
+        let bsdf = Bsdf::<F>::new(&tables.materials, s.material, surfaces);
+        let wo = direction.neg();
+        if event > 0 {
+            let facing = wo.dot(s.ng).max(c(1e-6));
+            let bent = (wo.dot(s.ns) / facing).min(c(MOST_BENT));
+            let stored = bsdf.diffuse & zero.lt(bent);
+            if stored.any() {
+                let k = photons.len;
+                s.p.compress(stored, &mut photons.point, k);
+                s.ng.compress(stored, &mut photons.normal, k);
+                flux.scale(bent).compress(stored, &mut photons.flux, k);
+                F::U::splat(event).compress(stored, &mut photons.events[k..]);
+                slot.compress(stored, &mut photons.slot[k..]);
+                photons.len += stored.count();
+            }
+        }
+        let specular = bsdf.mirror | bsdf.transparent;
+        if !goes_on || !specular.any() {
+            continue;
+        }
+        let (mut wi, _) = reflect_bent(&s, wo);
+        let mut start = s.ng.mad(s.offset, s.p);
+        let mut weight = bsdf.color;
+        if bsdf.transparent.any() {
+            let photon = F::U::gather(&photons.pair, slot);
+            let numbers =
+                Numbers::<F> { index: F::U::gather(&photons.index, slot), key: F::U::gather(&plan.pairs.key, photon) };
+            let (lobe, _) = numbers.pair(salt);
+            let d = sample_dielectric(&s, wo, bsdf.parameter, lobe);
+            wi = V3::select(bsdf.transparent, d.wi, wi);
+            let side = F::select(d.refracted, -s.offset, s.offset);
+            start = V3::select(bsdf.transparent, s.ng.mad(side, s.p), start);
+            weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);
+        }
+        let carried = flux.mul(weight).scale(adjoint(&s, wo, wi));
+        let alive = specular & zero.lt(carried.max_component());
+        let k = next.len;
+        start.compress(alive, &mut next.origin, k);
+        wi.compress(alive, &mut next.direction, k);
+        carried.compress(alive, &mut next.throughput, k);
+        slot.compress(alive, &mut next.slot[k..]);
+        primitive.compress(alive, &mut next.from_primitive[k..]);
+        instance.compress(alive, &mut next.from_instance[k..]);
+        next.len += alive.count();
+    }
+    std::mem::swap(&mut batch.paths, &mut batch.next);
+    batch.counters.photon_rays += batch.paths.len as u64;
+}
+
+/// What light that goes from `wo` to `wi` is scaled by at a mirror or glass whose shading normal is not the geometric one, so that
+/// photons carry what paths find: |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|) (Veach 1997, 5.3.2). The bent normals of paths that would enter
+/// the surface ([`reflect_bent`]) have no such rule; there the scale is held within its bounds.
+#[inline(always)]
+fn adjoint<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>) -> F {
+    let c = F::splat;
+    if !s.smooth.any() {
+        return c(1.0);
+    }
+    let least = c(1e-6);
+    let from = wo.dot(s.ns).abs() / wo.dot(s.ng).abs().max(least);
+    let to = wi.dot(s.ng).abs() / wi.dot(s.ns).abs().max(least);
+    F::select(s.smooth, (from * to).min(c(MOST_BENT)), c(1.0))
+}
