@@ -37,5 +37,6 @@ pub use json_schema::schema;
 pub use load::{LoadError, Loaded, MAX_FILE_BYTES, load, load_bytes, load_str, load_with};
 pub use overrides::Override;
 pub use reference::{diagnostics_reference, reference};
+pub use suggest::nearest;
 pub use syntax::Syntax;
 pub use write::{Defaults, hash, hash_hex, to_ron, to_text, to_toml};

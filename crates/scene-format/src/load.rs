@@ -146,11 +146,12 @@ fn load_string(
 /// The tree of a text, whatever is wrong with it.
 pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
     let mut builder = Builder::new(0);
+    let errors = sink.errors;
     let (comments, added) = match syntax {
         Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
         Syntax::Toml => toml::parse(text, &mut builder, sink),
     };
-    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments }
+    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments, damaged: sink.errors > errors }
 }
 
 fn too_large(name: String) -> LoadError {

@@ -88,7 +88,9 @@ pub(crate) fn resolve_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) 
 
 /// The encoding of a quoted TOML lexeme.
 pub(crate) fn toml_encoding(lexeme: &str) -> Option<Encoding> {
-    if lexeme.starts_with("\"\"\"") {
+    if !lexeme.starts_with(['"', '\'']) {
+        None
+    } else if lexeme.starts_with("\"\"\"") {
         Some(Encoding::MlBasicString)
     } else if lexeme.starts_with("'''") {
         Some(Encoding::MlLiteralString)
@@ -136,5 +138,5 @@ pub(crate) fn toml_key(lexeme: &str) -> Cow<'_, str> {
 /// The inside of a one-line text without escapes.
 fn simple(lexeme: &str) -> Option<&str> {
     let inner = lexeme.strip_prefix('"')?.strip_suffix('"')?;
-    (!inner.contains(['\\', '"'])).then_some(inner)
+    (!inner.bytes().any(|byte| matches!(byte, b'\\' | b'"'))).then_some(inner)
 }

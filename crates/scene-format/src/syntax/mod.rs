@@ -1,5 +1,6 @@
 //! The two syntaxes and how they become a [`Tree`](crate::tree::Tree).
 
+mod bare_numbers;
 mod brackets;
 pub(crate) mod decode;
 pub(crate) mod ron;
@@ -8,6 +9,7 @@ mod ron_literal;
 mod ron_scan;
 pub(crate) mod toml;
 mod toml_brackets;
+mod toml_lexer;
 mod toml_literal;
 mod toml_names;
 mod toml_tables;

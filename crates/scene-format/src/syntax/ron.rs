@@ -1,7 +1,8 @@
 //! RON into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or bracket.
 
+use super::bare_numbers;
 use super::brackets::{self, Fate, Open};
-use super::{MAX_DEPTH, Sink};
+use super::{MAX_DEPTH, Sink, Syntax};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tape::Tape;
@@ -404,7 +405,12 @@ impl<'p> Parser<'p> {
         }
         self.at += 1;
         self.trivia();
+        let mark = self.builder.nodes.len();
         self.value();
+        if let Some((end, fault)) = bare_numbers::report(self.text, Syntax::Ron, mark, self.at, self.builder) {
+            self.at = end;
+            self.sink.push(fault);
+        }
     }
 
     /// The innermost bracket was not closed before `noticed` (`None`: before the end of the file).
@@ -552,48 +558,5 @@ impl<'p> Parser<'p> {
                 }
             }
         }
-    }
-
-    /// Whether a value can begin here.
-    fn entry_ahead(&self) -> bool {
-        match self.peek() {
-            Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'"' | b'\'' | b'(' | b'[' | b'{') => true,
-            _ => self.word_length() > 0,
-        }
-    }
-
-    /// `name:` (or `name =`) ahead: the length of the name.
-    fn field_ahead(&mut self) -> Option<usize> {
-        let start = self.at;
-        let mut length = self.word_length();
-        if length == 0 && self.peek() == Some(b'"') {
-            // `("name": value)`: the name of a field in quotes, taken as the field.
-            let close = self.rest()[1..].find(['"', '\n'])?;
-            length = close + 2;
-        }
-        if length == 0 {
-            return None;
-        }
-        let mut at = start + length;
-        let bytes = self.text.as_bytes();
-        while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\r' | b'\n')) {
-            at += 1;
-        }
-        if matches!(bytes.get(at), Some(b'/')) {
-            self.at += length;
-            let comments = self.comments.len();
-            self.trivia();
-            at = self.at;
-            self.comments.truncate(comments);
-            self.at = start;
-        }
-        matches!(bytes.get(at), Some(b':' | b'=')).then_some(length)
-    }
-
-    /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
-    fn next_item_ahead(&self) -> bool {
-        let length = self.word_length();
-        let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
-        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
     }
 }

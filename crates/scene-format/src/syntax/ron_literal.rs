@@ -10,6 +10,12 @@ impl Parser<'_> {
     pub(super) fn number_literal(&mut self) {
         let start = self.at;
         let bytes = self.text.as_bytes();
+        if let Some((length, kind)) = plain_number(&bytes[start..])
+            && matches!(bytes.get(start + length), Some(b',' | b')' | b']' | b'}' | b' ' | b'\r' | b'\n'))
+        {
+            self.at = start + length;
+            return self.builder.leaf(kind, start, self.at);
+        }
         let mut at = start;
         if matches!(bytes[at], b'+' | b'-') {
             at += 1;
@@ -170,6 +176,28 @@ impl Parser<'_> {
             }
         }
     }
+}
+
+/// The digits, and digits after a point, that a text begins with, as most numbers are written: their length and kind, which are
+/// the same in both syntaxes if nothing follows that belongs to a number. `None`: it may be a number written in another way.
+#[inline]
+pub(super) fn plain_number(bytes: &[u8]) -> Option<(usize, Kind)> {
+    let digits = |from: usize| {
+        let rest = bytes.get(from..).unwrap_or_default();
+        rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len())
+    };
+    let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let whole = digits(sign);
+    // TOML has no leading zeros.
+    if whole == 0 || whole > 1 && bytes[sign] == b'0' {
+        return None;
+    }
+    let end = sign + whole;
+    if bytes.get(end) != Some(&b'.') {
+        return Some((end, Kind::Integer));
+    }
+    let fraction = digits(end + 1);
+    (fraction > 0).then_some((end + 1 + fraction, Kind::Float))
 }
 
 /// Whether a lexeme is a number in RON, and of which kind.

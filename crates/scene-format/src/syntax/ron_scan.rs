@@ -1,4 +1,4 @@
-//! Characters of RON: white space, comments, words, and the ways past what cannot be read.
+//! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
 use super::ron::Parser;
 use super::span;
@@ -209,5 +209,48 @@ impl Parser<'_> {
 
     pub(super) fn span(&self, start: usize, end: usize) -> Span {
         span(self.builder.source, start, end)
+    }
+
+    /// Whether a value can begin here.
+    pub(super) fn entry_ahead(&self) -> bool {
+        match self.peek() {
+            Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'"' | b'\'' | b'(' | b'[' | b'{') => true,
+            _ => self.word_length() > 0,
+        }
+    }
+
+    /// `name:` (or `name =`) ahead: the length of the name.
+    pub(super) fn field_ahead(&mut self) -> Option<usize> {
+        let start = self.at;
+        let mut length = self.word_length();
+        if length == 0 && self.peek() == Some(b'"') {
+            // `("name": value)`: the name of a field in quotes, taken as the field.
+            let close = self.rest()[1..].find(['"', '\n'])?;
+            length = close + 2;
+        }
+        if length == 0 {
+            return None;
+        }
+        let mut at = start + length;
+        let bytes = self.text.as_bytes();
+        while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\r' | b'\n')) {
+            at += 1;
+        }
+        if matches!(bytes.get(at), Some(b'/')) {
+            self.at += length;
+            let comments = self.comments.len();
+            self.trivia();
+            at = self.at;
+            self.comments.truncate(comments);
+            self.at = start;
+        }
+        matches!(bytes.get(at), Some(b':' | b'=')).then_some(length)
+    }
+
+    /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
+    pub(super) fn next_item_ahead(&self) -> bool {
+        let length = self.word_length();
+        let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
+        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
     }
 }

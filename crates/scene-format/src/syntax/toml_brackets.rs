@@ -135,7 +135,7 @@ impl Parser<'_> {
                 (None, None) => {}
             }
             self.spare_path = path;
-            self.value();
+            self.one_value();
             self.separator();
         }
         self.open.pop();

@@ -1,7 +1,7 @@
 //! Numbers, words, dates and texts of TOML.
 
 use super::decode;
-use super::ron_literal::number_kind;
+use super::ron_literal::{number_kind, plain_number};
 use super::toml::Parser;
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
@@ -12,6 +12,14 @@ impl Parser<'_> {
     /// A number, `true`, `false`, a date, or a word that should have quotes.
     pub(super) fn atom(&mut self) {
         let start = self.span.start();
+        let bytes = self.text.as_bytes();
+        if let Some((length, kind)) = plain_number(&bytes[start..])
+            && matches!(bytes.get(start + length), Some(b',' | b' ' | b']' | b'}' | b'\r' | b'\n'))
+        {
+            // In one go: to the lexer a number with a point is three tokens.
+            self.values.leaf(kind, start, start + length);
+            return self.resume(start + length);
+        }
         if self.lexeme().starts_with('(') {
             return self.round_brackets();
         }
