@@ -6,6 +6,7 @@ pub(crate) mod decode;
 pub(crate) mod ron;
 mod ron_extensions;
 mod ron_literal;
+mod ron_names;
 mod ron_scan;
 pub(crate) mod toml;
 mod toml_brackets;

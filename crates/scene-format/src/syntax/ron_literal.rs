@@ -3,7 +3,7 @@
 use super::decode;
 use super::ron::Parser;
 use crate::codes;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
 
 impl Parser<'_> {
@@ -55,7 +55,7 @@ impl Parser<'_> {
                     fault = fault.hint("a number has one decimal point; values are parted by commas");
                 } else if let Some(mended) = mended {
                     fault = fault.hint(format!("write {mended}, without a space"));
-                    fault.edit = Some(crate::diagnostic::Edit { span: found, replacement: mended });
+                    fault.edit = Some(Edit { span: found, replacement: mended });
                 } else if lexeme.len() == 1 {
                     fault = fault.hint("write the digits after the sign, without a space");
                 } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
@@ -123,14 +123,17 @@ impl Parser<'_> {
             let mut faults = Vec::new();
             decode::resolve_escapes(inner, &mut |from, to| faults.push((from, to)));
             if !faults.is_empty() {
-                for (from, to) in faults {
+                // One is enough: who writes one backslash so writes the others so, too.
+                if let Some(&(from, to)) = faults.first() {
                     let found = self.span(start + 1 + from, start + 1 + to);
                     let escape = inner.get(from..to).unwrap_or("\\");
-                    self.sink.push(
+                    let mut fault =
                         Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
                             .expected("\\\\ \\\" \\n \\t \\r \\0 \\x41 or \\u{e9}")
-                            .hint("write a backslash as `\\\\`; in paths `/` does everywhere"),
-                    );
+                            .hint("write a backslash as `\\\\`; in paths `/` does everywhere");
+                    fault.edit = decode::with_slashes(inner)
+                        .map(|path| Edit { span: self.span(start + 1, at), replacement: path });
+                    self.sink.push(fault);
                 }
                 self.builder.leaf(Kind::Broken, start, self.at);
                 return;

@@ -202,6 +202,20 @@ impl Parser<'_> {
             return !matches!(self.kind, TokenKind::Newline | TokenKind::Eof);
         }
         let Some(last) = path.last() else { return false };
+        let value = match self.kind {
+            TokenKind::LeftSquareBracket | TokenKind::LeftCurlyBracket | TokenKind::BasicString => true,
+            TokenKind::Atom => self.lexeme().starts_with(|c: char| c.is_ascii_digit() || c == '-'),
+            _ => false,
+        };
+        if value {
+            let found = self.range(last.end, last.end);
+            let mut fault = Diagnostic::error(codes::MISSING_COLON, found, "a `=` is missing after this name")
+                .expected("name = value")
+                .hint("write `=`");
+            fault.edit = Some(Edit { span: found, replacement: " =".to_owned() });
+            self.sink.push(fault);
+            return true;
+        }
         let found = key_span(self.values.source, last);
         self.sink.push(
             Diagnostic::error(codes::MISSING_COLON, found, "there is no `=` and no value after this name")
@@ -292,7 +306,8 @@ impl Parser<'_> {
         self.space();
         let start = self.span.start();
         match self.kind {
-            TokenKind::LeftSquareBracket => self.array(),
+            TokenKind::LeftSquareBracket => self.array(b'['),
+            TokenKind::LeftCurlyBracket if self.is_list_in_braces() => self.array(b'{'),
             TokenKind::LeftCurlyBracket => self.inline_table(),
             TokenKind::BasicString
             | TokenKind::LiteralString
@@ -300,6 +315,9 @@ impl Parser<'_> {
             | TokenKind::MlLiteralString => self.text_value(),
             TokenKind::Atom | TokenKind::Dot => self.atom(),
             _ => {
+                if self.bare_color() {
+                    return;
+                }
                 let found = self.range(self.previous_end, self.previous_end);
                 self.sink.push(
                     Diagnostic::error(codes::MISSING_VALUE, found, "a value is missing here")
@@ -318,7 +336,11 @@ impl Parser<'_> {
             TokenKind::Comment => self.trivia(),
             _ => {
                 let start = self.span.start();
-                let comma = self.kind == TokenKind::Comma;
+                let sign = match self.lexeme() {
+                    "," => Some("TOML has no commas between lines"),
+                    ";" => Some("TOML has no semicolons"),
+                    _ => None,
+                };
                 let close = matches!(self.kind, TokenKind::RightSquareBracket | TokenKind::RightCurlyBracket);
                 self.skip_line();
                 let end = self.previous_end.max(start);
@@ -328,8 +350,8 @@ impl Parser<'_> {
                 let found = self.range(start, end);
                 let mut fault = Diagnostic::error(codes::TEXT_AFTER_END, found, format!("{what} ended before this"))
                     .expected("the end of the line, or a # comment");
-                if comma && end == start + 1 {
-                    fault.hint = "TOML has no commas between lines".to_owned();
+                if let Some(hint) = sign.filter(|_| end == start + 1) {
+                    fault.hint = hint.to_owned();
                     fault.edit = Some(Edit { span: found, replacement: String::new() });
                 }
                 self.sink.push(fault);

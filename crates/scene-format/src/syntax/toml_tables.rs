@@ -4,7 +4,7 @@
 use super::Sink;
 use super::toml_names::{Names, name_of};
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind, NOWHERE, Node};
 use std::collections::HashMap;
@@ -273,6 +273,17 @@ impl<'s> Tables<'s> {
         let value = found + 1;
         match builder.nodes.at(value as usize).kind {
             Kind::TableList if many => {
+                self.reach(value, 0, builder);
+                Some(self.item(value, header, builder))
+            }
+            Kind::TableList => {
+                // [objects] where [[objects]] was meant: told, and taken for it.
+                self.conflict(last, found, builder, sink);
+                if let Some(fault) = sink.diagnostics.last_mut().filter(|fault| fault.code == codes::TABLE_CONFLICT) {
+                    let span = super::span(builder.source, header.start, header.end);
+                    let text = self.text.get(header.clone()).unwrap_or("");
+                    fault.edit = Some(Edit { span, replacement: format!("[{text}]") });
+                }
                 self.reach(value, 0, builder);
                 Some(self.item(value, header, builder))
             }
