@@ -153,6 +153,13 @@ codes! {
     MISSING_NAME "E0119" "a name is missing";
     /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
     TOO_MANY "E0120" "too many faults";
+    /// Several numbers are parted by commas where one value stands. The numbers of a vector stand in brackets of their own:
+    /// `(0, 0, 0)` in RON, `[0, 0, 0]` in TOML.
+    ///
+    /// ```ron
+    /// Scene(objects: [Sphere(center: 0, 0, 0, radius: 1)])
+    /// ```
+    NO_BRACKETS "E0121" "a vector without brackets";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
     /// typo.

@@ -73,7 +73,7 @@ impl Converter<'_, '_> {
 
     /// A comment on the same line, with nothing but a comma between.
     fn comment_after(&mut self, end: u32) -> Option<String> {
-        let span = *self.tree.comments.get(self.next_comment)?;
+        let span = self.tree.comments.get(self.next_comment)?;
         let text = self.text();
         let between = text.get(end as usize..span.start as usize)?;
         if between.bytes().any(|byte| !matches!(byte, b' ' | b'\t' | b',')) {

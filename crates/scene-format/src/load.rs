@@ -1,8 +1,9 @@
 //! The first of the five hands: from a file to a [`SceneDesc`].
 
 use crate::codes;
-use crate::desc::SceneDesc;
+use crate::desc::{Scene, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::follow_ups;
 use crate::overrides::{self, Override};
 use crate::read;
 use crate::syntax::{Sink, Syntax, ron, toml};
@@ -113,14 +114,18 @@ fn load_string(
     }
     let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
     let mut sink = Sink::default();
-    let scene = {
-        let mut tree = parse(&text, syntax, &mut sink);
-        overrides::apply(&mut tree, overrides, &mut sink);
-        read::scene(&tree, &mut sink)
-    };
+    let scene = analyse(&text, syntax, overrides, &mut sink);
     let mut sources = vec![Source { name: name.to_owned(), text }];
     sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
     let mut diagnostics = sink.diagnostics;
+    if sink.errors > 1 {
+        follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
+            let mut sink = Sink::default();
+            analyse(text, syntax, overrides, &mut sink);
+            sink.diagnostics.retain(|fault| fault.severity == Severity::Error);
+            sink.diagnostics
+        });
+    }
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
     match scene {
         Some(scene) if sink.errors == 0 => {
@@ -143,14 +148,22 @@ fn load_string(
     }
 }
 
+/// The scene of a text, or what could be read of it; what is wrong goes to `sink`.
+fn analyse(text: &str, syntax: Syntax, overrides: &[Override], sink: &mut Sink) -> Option<Scene> {
+    let mut tree = parse(text, syntax, sink);
+    overrides::apply(&mut tree, overrides, sink);
+    read::scene(&tree, sink)
+}
+
 /// The tree of a text, whatever is wrong with it.
 pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
     let mut builder = Builder::new(0);
+    let errors = sink.errors;
     let (comments, added) = match syntax {
         Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
         Syntax::Toml => toml::parse(text, &mut builder, sink),
     };
-    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments }
+    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments, damaged: sink.errors > errors }
 }
 
 fn too_large(name: String) -> LoadError {

@@ -86,7 +86,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         // An empty file: it has no root to put the field into.
         tree.nodes.push(Node { start: 0, end: 0, size: 1, source: 0, kind: Kind::Struct });
     }
-    Setter { source, value: builder.nodes.iter().copied().collect() }.set(tree, &steps)
+    Setter { source, value: builder.nodes.iter().collect() }.set(tree, &steps)
 }
 
 /// The first `=` outside quotes and brackets.
@@ -169,7 +169,7 @@ impl Setter {
         let Some(edited) = edited else { return Ok(()) };
         match edited {
             Edited::Replace(index) => {
-                let end = index + tree.nodes[index].size as usize;
+                let end = index + tree.nodes.at(index).size as usize;
                 splice(tree, index, index..end, self.value);
             }
             Edited::Add(index, names) => {
@@ -187,9 +187,9 @@ impl Setter {
                 for index in opened {
                     nodes[index].size = (total - index) as u32;
                 }
-                let end = index + tree.nodes[index].size as usize;
-                if matches!(tree.nodes[index].kind, Kind::Tuple) {
-                    tree.nodes[index].kind = Kind::Struct;
+                let end = index + tree.nodes.at(index).size as usize;
+                if matches!(tree.nodes.at(index).kind, Kind::Tuple) {
+                    tree.nodes.at_mut(index).kind = Kind::Struct;
                 }
                 splice(tree, index, end..end, nodes);
             }
@@ -438,13 +438,13 @@ fn splice(tree: &mut Tree<'_>, inside: usize, range: std::ops::Range<usize>, nod
     let (old, new) = (range.len(), nodes.len());
     let replaced = old > 0;
     for index in 0..=inside {
-        let node = &mut tree.nodes[index];
+        let node = tree.nodes.at_mut(index);
         let contains = index + node.size as usize > inside && (index < inside || !replaced);
         if contains {
             node.size = (node.size as usize + new - old) as u32;
         }
     }
-    let rest: Vec<Node> = (range.end..tree.nodes.len()).map(|index| tree.nodes[index]).collect();
+    let rest: Vec<Node> = (range.end..tree.nodes.len()).map(|index| tree.nodes.at(index)).collect();
     tree.nodes.truncate(range.start);
     tree.nodes.extend(nodes);
     tree.nodes.extend(rest);

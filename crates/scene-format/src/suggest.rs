@@ -7,7 +7,7 @@ const MAX_DISTANCE: usize = 2;
 ///
 /// Near is: the same but for case and `_`/`-`, or at most two edits (a swap of neighbours is one). Among equals the one that
 /// begins alike wins, then the one of nearer length, then the first.
-pub(crate) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // Nobody mistypes such a word, and the distance takes quadratic time.
     if word.len() > 64 {
         return None;

@@ -84,12 +84,14 @@ pub(crate) struct Tree<'s> {
     pub added: HashMap<u32, u32>,
     /// Comments of the scene file in order of writing.
     pub comments: Tape<Span>,
+    /// Whether a `Broken` node stands anywhere.
+    pub damaged: bool,
 }
 
 impl<'s> Tree<'s> {
     /// The root, when anything was read.
     pub fn root(&self) -> Option<Item<'_, 's>> {
-        (!self.nodes.is_empty()).then_some(Item { tree: self, index: 0 })
+        self.nodes.get(0).map(|node| Item { tree: self, index: 0, node })
     }
 
     /// Puts everything below the node that it belongs to, so that the tape can be edited.
@@ -149,20 +151,17 @@ impl Builder {
 pub(crate) struct Item<'t, 's> {
     tree: &'t Tree<'s>,
     index: usize,
+    node: Node,
 }
 
 impl<'t, 's> Item<'t, 's> {
-    fn node(&self) -> &'t Node {
-        &self.tree.nodes[self.index]
-    }
-
     /// Where the node stands on the tape.
     pub fn index(&self) -> usize {
         self.index
     }
 
     pub fn kind(&self) -> Kind {
-        match self.node().kind {
+        match self.node.kind {
             Kind::ImpliedTable | Kind::HeaderTable | Kind::DottedTable => Kind::Map,
             Kind::TableList => Kind::List,
             kind => kind,
@@ -170,27 +169,27 @@ impl<'t, 's> Item<'t, 's> {
     }
 
     pub fn span(&self) -> Span {
-        let node = self.node();
+        let node = self.node;
         Span { source: u32::from(node.source), start: node.start, end: node.end }
     }
 
     /// Writes the subtree to the end of a tape, without `Added` nodes.
     fn copy_to(&self, nodes: &mut Tape<Node>) {
         let at = nodes.len();
-        nodes.push(Node { kind: self.kind(), ..*self.node() });
+        nodes.push(Node { kind: self.kind(), ..self.node });
         for child in self.children() {
             child.copy_to(nodes);
         }
-        nodes[at].size = (nodes.len() - at) as u32;
+        nodes.at_mut(at).size = (nodes.len() - at) as u32;
     }
 
     pub fn syntax(&self) -> Syntax {
-        self.tree.texts[usize::from(self.node().source)].syntax
+        self.tree.texts[usize::from(self.node.source)].syntax
     }
 
     /// The node as it was written.
     pub fn lexeme(&self) -> &'s str {
-        let node = self.node();
+        let node = self.node;
         let text: &'s str = self.tree.texts[usize::from(node.source)].text;
         text.get(node.start as usize..node.end as usize).unwrap_or("")
     }
@@ -264,13 +263,20 @@ impl<'t, 's> Item<'t, 's> {
             true => NOWHERE,
             false => self.tree.added.get(&(self.index as u32)).copied().unwrap_or(NOWHERE),
         };
-        Children { tree: self.tree, index: self.index + 1, end: self.index + self.node().size as usize, added }
+        let (index, end) = (self.index + 1, self.index + self.node.size as usize);
+        Children { tree: self.tree, index, end, added, begin: index }
+    }
+
+    /// Gives back the memory of children that were read for the last time: those from `begin` to this one, which stand in one piece.
+    /// Gives where the next that can be given back begin.
+    pub fn release_before(&self, begin: usize) -> usize {
+        self.tree.nodes.release(begin..self.index)
     }
 
     /// How many nodes of this subtree stand before a child, and how many from it on.
     pub fn nodes_around(&self, child: Item<'_, '_>) -> (usize, usize) {
         let before = child.index.saturating_sub(self.index + 1);
-        (before, (self.node().size as usize).saturating_sub(before + 1))
+        (before, (self.node.size as usize).saturating_sub(before + 1))
     }
 
     /// Children that could be read.
@@ -285,16 +291,19 @@ impl<'t, 's> Item<'t, 's> {
 
     /// Whether a syntax error stands anywhere inside.
     pub fn holds_damage(&self) -> bool {
+        if !self.tree.damaged {
+            return false;
+        }
         if self.tree.added.is_empty() {
-            let end = self.index + self.node().size as usize;
-            return (self.index..end).any(|index| self.tree.nodes[index].kind == Kind::Broken);
+            let end = self.index + self.node.size as usize;
+            return (self.index..end).any(|index| self.tree.nodes.at(index).kind == Kind::Broken);
         }
         self.kind() == Kind::Broken || self.children().any(|child| child.holds_damage())
     }
 
     /// Whether a syntax error stands directly inside: what is missing may have been there.
     pub fn is_damaged(&self) -> bool {
-        self.kind() == Kind::Broken || self.children().any(|child| child.kind() == Kind::Broken)
+        self.tree.damaged && (self.kind() == Kind::Broken || self.children().any(|child| child.kind() == Kind::Broken))
     }
 }
 
@@ -305,6 +314,8 @@ pub(crate) struct Children<'t, 's> {
     end: usize,
     /// The `Added` node to go on with.
     added: u32,
+    /// Where the piece begins that the next child stands in.
+    pub begin: usize,
 }
 
 impl<'t, 's> Iterator for Children<'t, 's> {
@@ -313,15 +324,17 @@ impl<'t, 's> Iterator for Children<'t, 's> {
     fn next(&mut self) -> Option<Item<'t, 's>> {
         loop {
             if self.index >= self.end {
-                let added = *self.tree.nodes.get(self.added as usize)?;
+                let added = self.tree.nodes.get(self.added as usize)?;
                 self.index = self.added as usize + 1;
+                self.begin = self.index;
                 self.end = self.added as usize + added.size as usize;
                 self.added = added.start;
                 continue;
             }
-            let item = Item { tree: self.tree, index: self.index };
-            self.index += item.node().size as usize;
-            if item.node().kind != Kind::Added {
+            let node = self.tree.nodes.at(self.index);
+            let item = Item { tree: self.tree, index: self.index, node };
+            self.index += node.size as usize;
+            if node.kind != Kind::Added {
                 return Some(item);
             }
         }

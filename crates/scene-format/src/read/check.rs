@@ -30,6 +30,14 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         return None;
     }
     let mut reader = Reader::new(sink);
+    // Names of materials may be missing where `materials` itself is mistyped or could not be read.
+    let unread = |key: Item<'_, '_>, value: Item<'_, '_>| {
+        let name = key.text();
+        name == "materials" && value.kind() == Kind::Broken
+            || Scene::DEF.field(&name).is_none() && super::meant(&name, root, &Scene::DEF) == Some("materials")
+    };
+    reader.materials.damaged =
+        root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value)) || root.is_damaged();
     let scene = Scene::read(&mut reader, root, &ROOT);
     let objects = root.fields().find(|(key, _)| key.text() == "objects").map(|(_, value)| value);
     let no_root = scene.is_none();
@@ -50,7 +58,10 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.path.pop();
     }
     let scene = scene?;
-    reader.camera(&scene.camera, root.syntax());
+    let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
+    if camera.is_none_or(|camera| !camera.holds_damage()) {
+        reader.camera(&scene.camera, root.syntax());
+    }
     // Warnings about what is absent mean something only when the structure could be read.
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.starts_with("E03");
     if !reader.sink.diagnostics.iter().any(structure) {

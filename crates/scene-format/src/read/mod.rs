@@ -321,10 +321,15 @@ impl<'r> Reader<'r> {
             return self.not_a_list(item, at);
         }
         let mut list = Vec::with_capacity(item.children().take(SHORT_LIST).count());
-        for (index, child) in item.children().enumerate() {
-            if self.sink.is_full() {
-                break;
+        let mut children = item.children();
+        let (mut piece, mut begin) = (0, 0);
+        for index in 0.. {
+            let Some(child) = children.next().filter(|_| !self.sink.is_full()) else { break };
+            if children.begin != piece {
+                // The first one stays: whoever asks later whether the list is empty asks for it.
+                (piece, begin) = (children.begin, child.index() + 1);
             }
+            begin = child.release_before(begin);
             if child.kind() == Kind::Broken {
                 continue;
             }

@@ -4,12 +4,14 @@ use super::value::expected_for;
 use super::{Reader, plain};
 use crate::codes;
 use crate::desc::Vec3;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
 
+/// More numbers than this in a vector are not counted.
+const MANY: usize = 1000;
 /// Names of the three numbers of a vector.
 const AXES: [&str; 3] = ["the x coordinate", "the y coordinate", "the z coordinate"];
 /// Names of the three numbers of a colour.
@@ -22,21 +24,20 @@ impl Reader<'_> {
         if !is_vector {
             return self.wrong_type(item, at, &expected_for(at, item));
         }
+        let count = item.children().take(MANY).count();
         let mut value = [0.0; 3];
-        let mut count = 0;
         let mut good = true;
-        for child in item.children() {
+        // Which of four numbers is wrong nobody knows: then only their number is told.
+        for ((child, slot), name) in item.children().zip(&mut value).zip(names).take(if count == 3 { 3 } else { 0 }) {
             if child.kind() == Kind::Broken {
                 good = false;
-            } else if let (Some(slot), Some(name)) = (value.get_mut(count), names.get(count)) {
-                // Numbers of the wrong kind are reported one by one.
-                let number = self.number(child, at).and_then(|number| self.check(number, child, at, name));
-                match number {
-                    Some(number) => *slot = number,
-                    None => good = false,
-                }
+                continue;
             }
-            count += 1;
+            // Numbers of the wrong kind are reported one by one.
+            match self.number(child, at).and_then(|number| self.check(number, child, at, name)) {
+                Some(number) => *slot = number,
+                None => good = false,
+            }
         }
         if count == 3 {
             return good.then_some(value);
@@ -45,16 +46,20 @@ impl Reader<'_> {
             let numbers = match count {
                 0 => "none".to_owned(),
                 1 => "one".to_owned(),
+                MANY => "so many".to_owned(),
                 count => count.to_string(),
             };
-            self.report(
-                Diagnostic::error(
-                    codes::WRONG_COUNT,
-                    item.head(),
-                    format!("{} has three numbers, not {numbers}", plain(at.noun)),
-                )
-                .expected(expected_for(at, item)),
-            );
+            let mut fault = Diagnostic::error(
+                codes::WRONG_COUNT,
+                item.head(),
+                format!("{} has three numbers, not {numbers}", plain(at.noun)),
+            )
+            .expected(expected_for(at, item));
+            if let Some(mended) = with_decimal_points(item) {
+                fault = fault.hint(format!("numbers have a decimal point: {mended}"));
+                fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            }
+            self.report(fault);
         }
         None
     }
@@ -77,6 +82,24 @@ impl Reader<'_> {
         }
         Some(factor)
     }
+}
+
+/// `(0.5, 1, 2)` for `(0,5, 1, 2)`: commas with no space after them, when that makes three numbers.
+fn with_decimal_points(item: Item<'_, '_>) -> Option<String> {
+    let lexeme = item.lexeme();
+    let inner = lexeme.get(1..lexeme.len().checked_sub(1)?)?;
+    let numbers: Vec<&str> = inner.split(", ").collect();
+    let decimal = |number: &str| match number.trim().split_once(',') {
+        Some((whole, fraction)) => {
+            let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+            digits(whole.trim_start_matches(['-', '+'])) && digits(fraction)
+        }
+        None => true,
+    };
+    (numbers.len() == 3 && numbers.iter().all(|number| decimal(number))).then(|| {
+        let numbers: Vec<String> = numbers.iter().map(|number| number.trim().replace(',', ".")).collect();
+        format!("{}{}{}", &lexeme[..1], numbers.join(", "), &lexeme[lexeme.len() - 1..])
+    })
 }
 
 impl Words for Vec3 {

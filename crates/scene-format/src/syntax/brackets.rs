@@ -7,7 +7,10 @@ use crate::diagnostic::{Diagnostic, Edit};
 /// A bracket that is open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Open {
+    /// The bracket that should stand there.
     pub bracket: u8,
+    /// The bracket that stands there.
+    pub written: u8,
     pub at: usize,
     /// Where its line begins, and how far that is indented.
     pub line: usize,
@@ -27,11 +30,18 @@ pub(super) enum Fate {
     Stray,
 }
 
-fn closer_of(bracket: u8) -> u8 {
+pub(super) fn closer_of(bracket: u8) -> u8 {
     match bracket {
         b'(' => b')',
         b'[' => b']',
         _ => b'}',
+    }
+}
+
+impl Open {
+    /// Whether a bracket closes this one: as it should be, or as it is written.
+    fn closed_by(&self, close: u8) -> bool {
+        closer_of(self.bracket) == close || closer_of(self.written) == close
     }
 }
 
@@ -60,10 +70,10 @@ fn misfit(rest: &str, open: &[Open], line: usize) -> usize {
 /// Decides about the closing bracket `close` at `at`, while `open` are open.
 pub(super) fn fate(text: &str, open: &[Open], at: usize, close: u8) -> Fate {
     let Some((innermost, outer_ones)) = open.split_last() else { return Fate::Stray };
-    if closer_of(innermost.bracket) == close {
+    if innermost.closed_by(close) {
         return Fate::Closes;
     }
-    let outer = outer_ones.iter().rposition(|open| closer_of(open.bracket) == close);
+    let outer = outer_ones.iter().rposition(|open| open.closed_by(close));
     let between = text.as_bytes().get(innermost.at..at).unwrap_or_default();
     let same_line = between.len() <= WEIGHED_BYTES && !between.contains(&b'\n');
     let Some(outer) = outer else { return if same_line { Fate::Typo } else { Fate::Stray } };
@@ -90,12 +100,31 @@ pub(super) fn fate(text: &str, open: &[Open], at: usize, close: u8) -> Fate {
 pub(super) fn wrong_closer(source: u16, open: Open, at: usize, close: u8) -> Diagnostic {
     let right = char::from(closer_of(open.bracket));
     let found = span(source, at, at + 1);
-    let message = format!("`{}` is closed by `{}`", char::from(open.bracket), char::from(close));
+    let message = format!("`{}` is closed by `{}`", char::from(open.written), char::from(close));
     let mut fault = Diagnostic::error(codes::STRAY_BRACKET, found, message)
         .expected(format!("`{right}`"))
         .label(span(source, open.at, open.at + 1), "opened here");
     fault.edit = Some(Edit { span: found, replacement: right.to_string() });
     fault
+}
+
+/// A bracket of the wrong kind, which `close` closes at `at`: `Sphere { .. }`, `objects: { .. }`, `materials: [ .. ]`.
+pub(super) fn wrong_kind(text: &str, source: u16, open: Open, name: &str, at: usize) -> Diagnostic {
+    let (begin, end) = (char::from(open.bracket), char::from(closer_of(open.bracket)));
+    let found = span(source, open.at, open.at + 1);
+    let (message, expected) = match open.bracket {
+        b'(' => (format!("the fields of `{name}` stand in round brackets"), format!("{name}(..)")),
+        b'[' => ("the items of a list stand in square brackets".to_owned(), "[a, b, c]".to_owned()),
+        _ => ("names with their values stand in braces".to_owned(), "{ \"name\": value }".to_owned()),
+    };
+    let mut fault = Diagnostic::error(codes::WRONG_TYPE, found, message).expected(expected);
+    fault.edit = if text.as_bytes().get(at) == Some(&closer_of(open.bracket)) {
+        Some(Edit { span: found, replacement: begin.to_string() })
+    } else {
+        let inner = text.get(open.at + 1..at).unwrap_or("");
+        Some(Edit { span: span(source, open.at, at + 1), replacement: format!("{begin}{inner}{end}") })
+    };
+    fault.hint(format!("write `{begin}` and `{end}`"))
 }
 
 /// A closing bracket without an opening one.
@@ -110,7 +139,7 @@ pub(super) fn stray(source: u16, at: usize) -> Diagnostic {
 /// A bracket that is still open at `noticed` (`None`: at the end of the file).
 pub(super) fn unclosed(source: u16, open: Open, noticed: Option<usize>) -> Diagnostic {
     let close = char::from(closer_of(open.bracket));
-    let message = format!("this `{}` is never closed", char::from(open.bracket));
+    let message = format!("this `{}` is never closed", char::from(open.written));
     let fault = Diagnostic::error(codes::UNCLOSED_BRACKET, span(source, open.at, open.at + 1), message)
         .expected(format!("`{close}`"));
     match noticed {

@@ -86,9 +86,20 @@ pub(crate) fn resolve_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) 
     out
 }
 
+/// What looks like the name of a file with backslashes between folders, with slashes.
+pub(crate) fn with_slashes(inner: &str) -> Option<String> {
+    let (stem, extension) = inner.rsplit_once('.')?;
+    let of_file =
+        !stem.is_empty() && matches!(extension.len(), 2..=4) && extension.bytes().all(|b| b.is_ascii_alphanumeric());
+    let of_path = inner.contains('\\') && !inner.contains("\\\\") && !inner.contains(char::is_control);
+    (of_file && of_path).then(|| inner.replace('\\', "/"))
+}
+
 /// The encoding of a quoted TOML lexeme.
 pub(crate) fn toml_encoding(lexeme: &str) -> Option<Encoding> {
-    if lexeme.starts_with("\"\"\"") {
+    if !lexeme.starts_with(['"', '\'']) {
+        None
+    } else if lexeme.starts_with("\"\"\"") {
         Some(Encoding::MlBasicString)
     } else if lexeme.starts_with("'''") {
         Some(Encoding::MlLiteralString)
@@ -136,5 +147,5 @@ pub(crate) fn toml_key(lexeme: &str) -> Cow<'_, str> {
 /// The inside of a one-line text without escapes.
 fn simple(lexeme: &str) -> Option<&str> {
     let inner = lexeme.strip_prefix('"')?.strip_suffix('"')?;
-    (!inner.contains(['\\', '"'])).then_some(inner)
+    (!inner.bytes().any(|byte| matches!(byte, b'\\' | b'"'))).then_some(inner)
 }

@@ -1,13 +1,16 @@
 //! The two syntaxes and how they become a [`Tree`](crate::tree::Tree).
 
+mod bare_numbers;
 mod brackets;
 pub(crate) mod decode;
 pub(crate) mod ron;
 mod ron_extensions;
 mod ron_literal;
+mod ron_names;
 mod ron_scan;
 pub(crate) mod toml;
 mod toml_brackets;
+mod toml_lexer;
 mod toml_literal;
 mod toml_names;
 mod toml_tables;

@@ -144,7 +144,10 @@ impl<'p> Parser<'p> {
             Some(b'(') => self.bracket(start, b'('),
             Some(b'[') => self.bracket(start, b'['),
             Some(b'{') => self.bracket(start, b'{'),
-            Some(b'"') => self.text_literal(),
+            Some(b'"') => self.text_or_kind(start),
+            Some(b'.' | b'/') if ["../", "./", "/"].iter().any(|head| self.rest().starts_with(head)) => {
+                self.word(start)
+            }
             Some(b'\'') => self.char_literal(),
             Some(b'0'..=b'9' | b'+' | b'-' | b'.') => self.number_literal(),
             Some(b'r') if self.is_raw_text() => self.raw_text_literal(),
@@ -161,8 +164,12 @@ impl<'p> Parser<'p> {
                     _ => {
                         let resume = self.at;
                         self.trivia();
-                        if self.peek() == Some(b'(') {
-                            self.bracket(start, b'(');
+                        let same_line = resume >= self.line;
+                        let kind = self.text[start..].starts_with(|c: char| c.is_uppercase());
+                        if let Some(bracket @ (b'(' | b'[' | b'{')) = self.peek()
+                            && (bracket == b'(' || same_line && kind)
+                        {
+                            self.bracket(start, bracket);
                         } else {
                             self.at = resume;
                             self.word(start);
@@ -223,7 +230,8 @@ impl<'p> Parser<'p> {
     }
 
     /// `( .. )`, `[ .. ]` or `{ .. }`; `start` is where the name before it begins.
-    fn bracket(&mut self, start: usize, bracket: u8) {
+    pub(super) fn bracket(&mut self, start: usize, written: u8) {
+        let bracket = self.meant(start, written);
         let node = self.builder.open(start);
         let opened = self.at;
         if self.open.len() >= MAX_DEPTH {
@@ -237,7 +245,7 @@ impl<'p> Parser<'p> {
             return;
         }
         self.at += 1;
-        self.open.push(Open { bracket, at: opened, line: self.line, indent: self.indent });
+        self.open.push(Open { bracket, written, at: opened, line: self.line, indent: self.indent });
         let mut shape = if bracket == b'{' { Shape::Named } else { Shape::Unknown };
         loop {
             if self.sink.is_full() {
@@ -247,6 +255,13 @@ impl<'p> Parser<'p> {
             match self.peek() {
                 Some(close @ (b')' | b']' | b'}')) => match self.fate(close) {
                     Fate::Closes => {
+                        if bracket != written
+                            && let Some(&open) = self.open.last()
+                        {
+                            let name = self.text[start..opened].trim_end();
+                            let fault = brackets::wrong_kind(self.text, self.builder.source, open, name, self.at);
+                            self.sink.push(fault);
+                        }
                         self.at += 1;
                         break;
                     }
@@ -332,7 +347,10 @@ impl<'p> Parser<'p> {
             self.map_entry();
             return true;
         }
-        let named = self.field_ahead();
+        let named = self.field_ahead().or_else(|| {
+            let fields = bracket == b'(' && matches!(*shape, Shape::Unknown | Shape::Named);
+            fields.then(|| self.field_without_colon()).flatten()
+        });
         match (bracket, *shape, named) {
             (b'[', _, Some(_)) => {
                 let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
@@ -356,13 +374,17 @@ impl<'p> Parser<'p> {
                 if *shape == Shape::Positional {
                     *shape = Shape::Mixed;
                     let found = self.span(self.at, self.at + length);
+                    let opened = self.open.last().map_or(self.at, |open| open.at + 1);
+                    let first = self.text[opened..].trim_start();
+                    let first = self.text.len() - first.len();
                     self.sink.push(
                         Diagnostic::error(
                             codes::MIXED_FIELDS,
                             found,
                             "named and unnamed values stand in one pair of brackets",
                         )
-                        .hint("write the name of each value, `name: value`, or of none"),
+                        .hint("write the name of each value, `name: value`, or of none")
+                        .label(self.span(first, first + 1), "this has no name"),
                     );
                     self.builder.leaf(Kind::Broken, self.at, self.at);
                     self.skip_broken();
@@ -388,25 +410,6 @@ impl<'p> Parser<'p> {
         true
     }
 
-    /// `name: value`, with `=` for `:` reported.
-    fn field(&mut self, length: usize) {
-        self.builder.leaf(Kind::Key, self.at, self.at + length);
-        self.at += length;
-        self.trivia();
-        if self.peek() == Some(b'=') {
-            let found = self.span(self.at, self.at + 1);
-            let mut fault =
-                Diagnostic::error(codes::MISSING_COLON, found, "a field and its value are joined by `:`, not `=`")
-                    .expected("name: value")
-                    .hint("write `:`");
-            fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
-            self.sink.push(fault);
-        }
-        self.at += 1;
-        self.trivia();
-        self.value();
-    }
-
     /// The innermost bracket was not closed before `noticed` (`None`: before the end of the file).
     fn report_unclosed(&mut self, noticed: Option<usize>) {
         let Some(&open) = self.open.last() else { return };
@@ -416,106 +419,6 @@ impl<'p> Parser<'p> {
         }
         self.at_end_reported |= noticed.is_none();
         self.sink.push(brackets::unclosed(self.builder.source, open, noticed));
-    }
-
-    fn value_without_name(&mut self) {
-        let start = self.at;
-        let errors = self.sink.errors;
-        let mark = self.builder.nodes.len();
-        self.value();
-        let end = self.at;
-        self.builder.nodes.truncate(mark);
-        self.builder.leaf(Kind::Broken, start, end);
-        if self.sink.errors == errors {
-            let line = self.text[start..end].lines().next().unwrap_or("").trim_end().len();
-            let found = self.span(start, start + line.max(1));
-            self.sink.push(
-                Diagnostic::error(codes::MISSING_NAME, found, "this value has no field name")
-                    .expected("name: value, as in the fields before it")
-                    .hint("write the name of the field and `:` before the value"),
-            );
-        }
-    }
-
-    fn named_in_list(&mut self) {
-        let start = self.at;
-        let length = self.word_length();
-        let found = self.span(start, start + length);
-        self.sink.push(
-            Diagnostic::error(codes::MIXED_FIELDS, found, "the items of a list have no names")
-                .expected("[a, b, c]")
-                .hint("fields stand in round brackets: (name: value)"),
-        );
-        self.builder.leaf(Kind::Broken, start, start + length);
-        self.skip_broken();
-    }
-
-    /// `"key": value` in `{ .. }`.
-    fn map_entry(&mut self) {
-        let start = self.at;
-        let length = self.word_length();
-        if self.peek() == Some(b'"') || self.is_raw_text() {
-            let mark = self.builder.nodes.len();
-            if self.peek() == Some(b'"') {
-                self.text_literal()
-            } else {
-                self.raw_text_literal()
-            }
-            if let Some(node) = self.builder.nodes.get_mut(mark)
-                && node.kind == Kind::Text
-            {
-                node.kind = Kind::Key;
-            }
-        } else if length > 0 {
-            let found = self.span(start, start + length);
-            let word = &self.text[start..start + length];
-            self.at += length;
-            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between quotes")
-                .expected("{ \"name\": value }")
-                .hint(format!("write \"{word}\""));
-            fault.edit = Some(Edit { span: found, replacement: format!("\"{word}\"") });
-            self.sink.push(fault);
-            self.builder.leaf(Kind::Key, start, self.at);
-        } else {
-            let mark = self.builder.nodes.len();
-            let errors = self.sink.errors;
-            self.value();
-            self.builder.nodes.truncate(mark);
-            self.builder.leaf(Kind::Broken, start, self.at);
-            if self.sink.errors == errors {
-                let found = self.span(start, self.at);
-                self.sink.push(
-                    Diagnostic::error(codes::KEY_NOT_QUOTED, found, "a name in { } is a text between quotes")
-                        .expected("{ \"name\": value }"),
-                );
-            }
-            self.skip_broken();
-            return;
-        }
-        self.trivia();
-        match self.peek() {
-            Some(b':') => self.at += 1,
-            other => {
-                let equals = other == Some(b'=');
-                let found = if equals { self.span(self.at, self.at + 1) } else { self.span(start, self.at) };
-                let mut fault =
-                    Diagnostic::error(codes::MISSING_COLON, found, "a name and its value are joined by `:`")
-                        .expected("{ \"name\": value }")
-                        .hint("write `:` and the value");
-                if equals {
-                    fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
-                    self.at += 1;
-                }
-                self.sink.push(fault);
-                if !equals {
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
-                    self.skip_broken();
-                    return;
-                }
-            }
-        }
-        self.trivia();
-        self.value();
     }
 
     /// The comma after an entry, or the end of the bracket.
@@ -528,6 +431,18 @@ impl<'p> Parser<'p> {
         match self.peek() {
             Some(b',') => self.at += 1,
             None | Some(b')' | b']' | b'}') => {}
+            Some(_) if self.is_unit(end) => {
+                let length = self.word_length();
+                let found = self.span(self.at, self.at + length);
+                let word = &self.text[self.at..self.at + length];
+                let mut fault =
+                    Diagnostic::error(codes::BAD_NUMBER, found, format!("`{word}` is not part of a number"))
+                        .hint("numbers carry no unit; the reference says which unit each field has");
+                fault.edit = Some(Edit { span: found, replacement: String::new() });
+                self.sink.push(fault);
+                self.at += length;
+                self.separator();
+            }
             Some(_) => {
                 let found = self.span(end, end);
                 let semicolon = self.peek() == Some(b';');
@@ -552,48 +467,5 @@ impl<'p> Parser<'p> {
                 }
             }
         }
-    }
-
-    /// Whether a value can begin here.
-    fn entry_ahead(&self) -> bool {
-        match self.peek() {
-            Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'"' | b'\'' | b'(' | b'[' | b'{') => true,
-            _ => self.word_length() > 0,
-        }
-    }
-
-    /// `name:` (or `name =`) ahead: the length of the name.
-    fn field_ahead(&mut self) -> Option<usize> {
-        let start = self.at;
-        let mut length = self.word_length();
-        if length == 0 && self.peek() == Some(b'"') {
-            // `("name": value)`: the name of a field in quotes, taken as the field.
-            let close = self.rest()[1..].find(['"', '\n'])?;
-            length = close + 2;
-        }
-        if length == 0 {
-            return None;
-        }
-        let mut at = start + length;
-        let bytes = self.text.as_bytes();
-        while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\r' | b'\n')) {
-            at += 1;
-        }
-        if matches!(bytes.get(at), Some(b'/')) {
-            self.at += length;
-            let comments = self.comments.len();
-            self.trivia();
-            at = self.at;
-            self.comments.truncate(comments);
-            self.at = start;
-        }
-        matches!(bytes.get(at), Some(b':' | b'=')).then_some(length)
-    }
-
-    /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
-    fn next_item_ahead(&self) -> bool {
-        let length = self.word_length();
-        let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
-        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
     }
 }

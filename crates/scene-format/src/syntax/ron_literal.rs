@@ -3,13 +3,19 @@
 use super::decode;
 use super::ron::Parser;
 use crate::codes;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
 
 impl Parser<'_> {
     pub(super) fn number_literal(&mut self) {
         let start = self.at;
         let bytes = self.text.as_bytes();
+        if let Some((length, kind)) = plain_number(&bytes[start..])
+            && matches!(bytes.get(start + length), Some(b',' | b')' | b']' | b'}' | b' ' | b'\r' | b'\n'))
+        {
+            self.at = start + length;
+            return self.builder.leaf(kind, start, self.at);
+        }
         let mut at = start;
         if matches!(bytes[at], b'+' | b'-') {
             at += 1;
@@ -49,7 +55,7 @@ impl Parser<'_> {
                     fault = fault.hint("a number has one decimal point; values are parted by commas");
                 } else if let Some(mended) = mended {
                     fault = fault.hint(format!("write {mended}, without a space"));
-                    fault.edit = Some(crate::diagnostic::Edit { span: found, replacement: mended });
+                    fault.edit = Some(Edit { span: found, replacement: mended });
                 } else if lexeme.len() == 1 {
                     fault = fault.hint("write the digits after the sign, without a space");
                 } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
@@ -117,14 +123,17 @@ impl Parser<'_> {
             let mut faults = Vec::new();
             decode::resolve_escapes(inner, &mut |from, to| faults.push((from, to)));
             if !faults.is_empty() {
-                for (from, to) in faults {
+                // One is enough: who writes one backslash so writes the others so, too.
+                if let Some(&(from, to)) = faults.first() {
                     let found = self.span(start + 1 + from, start + 1 + to);
                     let escape = inner.get(from..to).unwrap_or("\\");
-                    self.sink.push(
+                    let mut fault =
                         Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
                             .expected("\\\\ \\\" \\n \\t \\r \\0 \\x41 or \\u{e9}")
-                            .hint("write a backslash as `\\\\`; in paths `/` does everywhere"),
-                    );
+                            .hint("write a backslash as `\\\\`; in paths `/` does everywhere");
+                    fault.edit = decode::with_slashes(inner)
+                        .map(|path| Edit { span: self.span(start + 1, at), replacement: path });
+                    self.sink.push(fault);
                 }
                 self.builder.leaf(Kind::Broken, start, self.at);
                 return;
@@ -170,6 +179,28 @@ impl Parser<'_> {
             }
         }
     }
+}
+
+/// The digits, and digits after a point, that a text begins with, as most numbers are written: their length and kind, which are
+/// the same in both syntaxes if nothing follows that belongs to a number. `None`: it may be a number written in another way.
+#[inline]
+pub(super) fn plain_number(bytes: &[u8]) -> Option<(usize, Kind)> {
+    let digits = |from: usize| {
+        let rest = bytes.get(from..).unwrap_or_default();
+        rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len())
+    };
+    let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let whole = digits(sign);
+    // TOML has no leading zeros.
+    if whole == 0 || whole > 1 && bytes[sign] == b'0' {
+        return None;
+    }
+    let end = sign + whole;
+    if bytes.get(end) != Some(&b'.') {
+        return Some((end, Kind::Integer));
+    }
+    let fraction = digits(end + 1);
+    (fraction > 0).then_some((end + 1 + fraction, Kind::Float))
 }
 
 /// Whether a lexeme is a number in RON, and of which kind.

@@ -1,4 +1,4 @@
-//! Characters of RON: white space, comments, words, and the ways past what cannot be read.
+//! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
 use super::ron::Parser;
 use super::span;
@@ -112,6 +112,7 @@ impl Parser<'_> {
                         self.at_end_reported = true;
                     }
                 },
+                Some(b'/' | b'-') if self.other_comment() => self.foreign_comment(),
                 Some(byte) if !byte.is_ascii() => match self.rest().chars().next() {
                     Some(c) if c.is_whitespace() => self.at += c.len_utf8(),
                     _ => return,
@@ -127,12 +128,18 @@ impl Parser<'_> {
         digits == 6
     }
 
+    /// `/ ..` or `-- ..`: signs that begin no value.
+    fn other_comment(&self) -> bool {
+        let blank = |rest: &str| rest.is_empty() || rest.starts_with(|c: char| c.is_whitespace());
+        ["/", "--"].iter().any(|sign| self.rest().strip_prefix(sign).is_some_and(blank))
+    }
+
     /// `# ..`, as comments are written elsewhere.
     fn foreign_comment(&mut self) {
-        let found = self.span(self.at, self.at + 1);
-        let mut fault =
-            Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "comments begin with `//` in RON, not `#`")
-                .hint("write `//`");
+        let sign = if self.rest().starts_with("--") { "--" } else { &self.rest()[..1] };
+        let found = self.span(self.at, self.at + sign.len());
+        let message = format!("comments begin with `//` in RON, not `{sign}`");
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("write `//`");
         fault.edit = Some(Edit { span: found, replacement: "//".to_owned() });
         self.sink.push(fault);
         self.at += self.rest().find('\n').unwrap_or(self.rest().len());
@@ -209,5 +216,100 @@ impl Parser<'_> {
 
     pub(super) fn span(&self, start: usize, end: usize) -> Span {
         span(self.builder.source, start, end)
+    }
+
+    /// Whether a value can begin here.
+    pub(super) fn entry_ahead(&self) -> bool {
+        match self.peek() {
+            Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'"' | b'\'' | b'(' | b'[' | b'{') => true,
+            _ => self.word_length() > 0,
+        }
+    }
+
+    /// `name:` (or `name =`) ahead: the length of the name.
+    pub(super) fn field_ahead(&mut self) -> Option<usize> {
+        let start = self.at;
+        let mut length = self.word_length();
+        if length == 0 && self.peek() == Some(b'"') {
+            // `("name": value)`: the name of a field in quotes, taken as the field.
+            let close = self.rest()[1..].find(['"', '\n'])?;
+            length = close + 2;
+        }
+        if length == 0 {
+            return None;
+        }
+        let mut at = start + length;
+        let bytes = self.text.as_bytes();
+        // `look-at: ..` is read as a name; the reader of fields knows what was meant.
+        while bytes.get(at) == Some(&b'-') && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic) {
+            let rest = bytes[at + 1..].iter().position(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_');
+            at += 1 + rest.unwrap_or(bytes.len() - at - 1);
+        }
+        length = at - start;
+        while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\r' | b'\n')) {
+            at += 1;
+        }
+        if matches!(bytes.get(at), Some(b'/')) {
+            self.at += length;
+            let comments = self.comments.len();
+            self.trivia();
+            at = self.at;
+            self.comments.truncate(comments);
+            self.at = start;
+        }
+        matches!(bytes.get(at), Some(b':' | b'=')).then_some(length)
+    }
+
+    /// `name value` ahead, on one line: the length of the name.
+    pub(super) fn field_without_colon(&self) -> Option<usize> {
+        let length = self.word_length();
+        let (word, after) = self.rest().split_at(length);
+        if !word.starts_with(|c: char| c.is_ascii_lowercase()) || matches!(word, "true" | "false" | "inf" | "nan") {
+            return None;
+        }
+        let value = after.trim_start_matches([' ', '\t']);
+        let apart = value.len() < after.len() && value.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '-');
+        (apart || value.starts_with(['"', '(', '[', '{'])).then_some(length)
+    }
+
+    /// Whether a short word follows a number, which ends at `end`, on its line: `5 cm`.
+    pub(super) fn is_unit(&self, end: usize) -> bool {
+        let length = self.word_length();
+        let (word, after) = self.rest().split_at(length);
+        let number = self.text[..end].ends_with(|c: char| c.is_ascii_digit());
+        let short = (1..=7).contains(&length) && word.bytes().all(|byte| byte.is_ascii_alphabetic());
+        number && short && self.line <= end && !after.trim_start().starts_with([':', '=', '(', '"', '[', '{'])
+    }
+
+    /// The bracket that was meant where `written` stands, after a name from `start` on: fields stand in round ones, names of
+    /// materials in braces, lists in square ones.
+    pub(super) fn meant(&self, start: usize, written: u8) -> u8 {
+        let inner = || {
+            let mut inner = self.rest()[1..].trim_start();
+            while inner.starts_with("//") {
+                inner = inner.split_once('\n').map_or("", |(_, rest)| rest).trim_start();
+            }
+            inner
+        };
+        match written {
+            b'[' | b'{' if start < self.at => b'(',
+            b'{' if inner().starts_with(|c: char| c.is_ascii_uppercase()) => {
+                let word = inner().trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+                if word.starts_with('(') { b'[' } else { written }
+            }
+            b'[' if inner().starts_with('"') => {
+                let ahead = super::line_ahead(inner(), 1);
+                let named = ahead.find('"').is_some_and(|close| ahead[close + 1..].trim_start().starts_with(':'));
+                if named { b'{' } else { written }
+            }
+            _ => written,
+        }
+    }
+
+    /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
+    pub(super) fn next_item_ahead(&self) -> bool {
+        let length = self.word_length();
+        let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
+        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
     }
 }

@@ -1,31 +1,29 @@
-//! TOML into the tree, with recovery. The words come from `toml_parser`'s lexer; the grammar is read here, so that a fault can be
-//! told in the scene's words and does not swallow the lines after it.
+//! TOML into the tree, with recovery: a fault is told in the scene's words, and does not swallow the lines after it.
 
+use super::bare_numbers;
 use super::brackets::{self, Open};
 use super::toml_brackets::too_deep;
+use super::toml_lexer::Lexer;
 use super::toml_tables::{Inline, Key, Tables, key_span};
-use super::{MAX_DEPTH, Sink, span};
+use super::{MAX_DEPTH, Sink, Syntax, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind};
 use std::collections::HashMap;
-use toml_parser::Source;
-use toml_parser::lexer::{Lexer, Token, TokenKind};
+use toml_parser::lexer::TokenKind;
 
 /// Reads one text into `builder`; returns the comments,
 /// and the first `Added` node of each table that has some.
 pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> (Tape<Span>, HashMap<u32, u32>) {
-    let mut lexer = Source::new(text).lex();
-    let end = toml_parser::Span::new_unchecked(text.len(), text.len());
-    let Some(current) = lexer.next() else { return Default::default() };
+    let mut lexer = Lexer::new(text, 0);
+    let (kind, span) = lexer.next();
     let tables = Tables::new(text, builder);
     let mut parser = Parser {
         text,
         lexer,
-        kind: current.kind(),
-        span: current.span(),
-        end,
+        kind,
+        span,
         previous_end: 0,
         values: builder,
         tables,
@@ -37,7 +35,6 @@ pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> (Tape
         spare_path: Vec::new(),
         colon: None,
         line: 0,
-        offset: 0,
     };
     parser.document();
     let Parser { tables, comments, values, .. } = parser;
@@ -49,7 +46,6 @@ pub(super) struct Parser<'p> {
     pub lexer: Lexer<'p>,
     pub kind: TokenKind,
     pub span: toml_parser::Span,
-    pub end: toml_parser::Span,
     /// End of the last token that was neither space nor comment.
     pub previous_end: usize,
     pub values: &'p mut Builder,
@@ -63,8 +59,6 @@ pub(super) struct Parser<'p> {
     pub unwinding: bool,
     /// Where the current line begins.
     pub line: usize,
-    /// Where the lexer began, which it does anew after a text that is never closed.
-    pub offset: usize,
     /// A path that is not in use: one allocation serves all of them.
     pub spare_path: Vec<Key>,
     /// A colon at the end of the last key: `name: value`, as RON writes it.
@@ -146,6 +140,7 @@ impl Parser<'_> {
                 .push(Diagnostic::error(codes::MISSING_NAME, found, "this header has no name").expected("[camera]"));
         }
         self.tables.header(&path, many, &(start..end), self.values, self.sink);
+        self.spare_path = path;
         if closed { self.end_of_line("the header") } else { self.skip_line() }
     }
 
@@ -162,7 +157,7 @@ impl Parser<'_> {
         }
         self.tables.begin_value(&path, self.values, self.sink);
         self.spare_path = path;
-        self.value();
+        self.one_value();
         if self.unwinding {
             self.unwinding = false;
             self.open.clear();
@@ -207,6 +202,20 @@ impl Parser<'_> {
             return !matches!(self.kind, TokenKind::Newline | TokenKind::Eof);
         }
         let Some(last) = path.last() else { return false };
+        let value = match self.kind {
+            TokenKind::LeftSquareBracket | TokenKind::LeftCurlyBracket | TokenKind::BasicString => true,
+            TokenKind::Atom => self.lexeme().starts_with(|c: char| c.is_ascii_digit() || c == '-'),
+            _ => false,
+        };
+        if value {
+            let found = self.range(last.end, last.end);
+            let mut fault = Diagnostic::error(codes::MISSING_COLON, found, "a `=` is missing after this name")
+                .expected("name = value")
+                .hint("write `=`");
+            fault.edit = Some(Edit { span: found, replacement: " =".to_owned() });
+            self.sink.push(fault);
+            return true;
+        }
         let found = key_span(self.values.source, last);
         self.sink.push(
             Diagnostic::error(codes::MISSING_COLON, found, "there is no `=` and no value after this name")
@@ -281,12 +290,24 @@ impl Parser<'_> {
         )
     }
 
+    /// One value after a name; numbers without the brackets of a vector are told as one fault.
+    pub(super) fn one_value(&mut self) {
+        let mark = self.values.nodes.len();
+        self.value();
+        let text = self.text;
+        if let Some((end, fault)) = bare_numbers::report(text, Syntax::Toml, mark, self.previous_end, self.values) {
+            self.resume(end);
+            self.sink.push(fault);
+        }
+    }
+
     /// One value: always one node with its children.
     pub(super) fn value(&mut self) {
         self.space();
         let start = self.span.start();
         match self.kind {
-            TokenKind::LeftSquareBracket => self.array(),
+            TokenKind::LeftSquareBracket => self.array(b'['),
+            TokenKind::LeftCurlyBracket if self.is_list_in_braces() => self.array(b'{'),
             TokenKind::LeftCurlyBracket => self.inline_table(),
             TokenKind::BasicString
             | TokenKind::LiteralString
@@ -294,6 +315,9 @@ impl Parser<'_> {
             | TokenKind::MlLiteralString => self.text_value(),
             TokenKind::Atom | TokenKind::Dot => self.atom(),
             _ => {
+                if self.bare_color() {
+                    return;
+                }
                 let found = self.range(self.previous_end, self.previous_end);
                 self.sink.push(
                     Diagnostic::error(codes::MISSING_VALUE, found, "a value is missing here")
@@ -312,7 +336,11 @@ impl Parser<'_> {
             TokenKind::Comment => self.trivia(),
             _ => {
                 let start = self.span.start();
-                let comma = self.kind == TokenKind::Comma;
+                let sign = match self.lexeme() {
+                    "," => Some("TOML has no commas between lines"),
+                    ";" => Some("TOML has no semicolons"),
+                    _ => None,
+                };
                 let close = matches!(self.kind, TokenKind::RightSquareBracket | TokenKind::RightCurlyBracket);
                 self.skip_line();
                 let end = self.previous_end.max(start);
@@ -322,8 +350,8 @@ impl Parser<'_> {
                 let found = self.range(start, end);
                 let mut fault = Diagnostic::error(codes::TEXT_AFTER_END, found, format!("{what} ended before this"))
                     .expected("the end of the line, or a # comment");
-                if comma && end == start + 1 {
-                    fault.hint = "TOML has no commas between lines".to_owned();
+                if let Some(hint) = sign.filter(|_| end == start + 1) {
+                    fault.hint = hint.to_owned();
                     fault.edit = Some(Edit { span: found, replacement: String::new() });
                 }
                 self.sink.push(fault);
@@ -384,15 +412,12 @@ impl Parser<'_> {
         if self.kind == TokenKind::Newline {
             self.line = self.span.end();
         }
-        let token: Option<Token> = self.lexer.next();
-        (self.kind, self.span) =
-            token.map_or((TokenKind::Eof, self.end), |token| (token.kind(), token.span() + self.offset));
+        (self.kind, self.span) = self.lexer.next();
     }
 
-    /// Reads on at a byte before the end of the current token.
+    /// Reads on at a byte, what stands before it having been read.
     pub(super) fn resume(&mut self, at: usize) {
-        self.lexer = Source::new(&self.text[at..]).lex();
-        self.offset = at;
+        self.lexer = Lexer::new(self.text, at);
         self.previous_end = at;
         self.next();
     }

@@ -20,9 +20,9 @@ enum Next {
 
 impl Parser<'_> {
     /// Opens a bracket, or skips one that is too deep.
-    pub(super) fn open_bracket(&mut self, bracket: u8) -> bool {
+    pub(super) fn open_bracket(&mut self, bracket: u8, written: u8) -> bool {
         if self.open.len() < MAX_DEPTH {
-            self.open.push(Open { bracket, at: self.span.start(), line: self.line, indent: 0 });
+            self.open.push(Open { bracket, written, at: self.span.start(), line: self.line, indent: 0 });
             self.bump();
             return true;
         }
@@ -53,9 +53,18 @@ impl Parser<'_> {
         self.values.leaf(Kind::Broken, self.span.start(), end);
     }
 
-    pub(super) fn array(&mut self) {
+    /// `{ { .. }, .. }` or `{ 1, .. }`: a list in the brackets of a table.
+    pub(super) fn is_list_in_braces(&self) -> bool {
+        let inner = self.text[self.span.end()..].trim_start();
+        let line = super::line_ahead(inner, 0);
+        let number = line.split([',', ']', '}']).next().is_some_and(|first| first.trim().parse::<f64>().is_ok());
+        number || inner.starts_with(['{', '['])
+    }
+
+    /// A list, in brackets that are `written` so.
+    pub(super) fn array(&mut self, written: u8) {
         let start = self.span.start();
-        if !self.open_bracket(b'[') {
+        if !self.open_bracket(b'[', written) {
             return;
         }
         let node = self.values.open(start);
@@ -94,7 +103,7 @@ impl Parser<'_> {
 
     pub(super) fn inline_table(&mut self) {
         let start = self.span.start();
-        if !self.open_bracket(b'{') {
+        if !self.open_bracket(b'{', b'{') {
             return;
         }
         let node = self.values.open(start);
@@ -135,7 +144,7 @@ impl Parser<'_> {
                 (None, None) => {}
             }
             self.spare_path = path;
-            self.value();
+            self.one_value();
             self.separator();
         }
         self.open.pop();
@@ -154,12 +163,26 @@ impl Parser<'_> {
         let close = match self.kind {
             TokenKind::RightSquareBracket => b']',
             TokenKind::RightCurlyBracket => b'}',
+            TokenKind::Atom if self.lexeme().starts_with(')') => {
+                if let Some(&open) = self.open.last() {
+                    self.sink.push(brackets::wrong_closer(self.values.source, open, self.span.start(), b')'));
+                }
+                self.resume(self.span.start() + 1);
+                return Next::End;
+            }
             TokenKind::Eof => {
                 self.unwind(None);
                 return Next::End;
             }
             _ => return Next::Entry,
         };
+        let wrong = self.open.last().copied().filter(|open| open.written != open.bracket);
+        if let Some(open) = wrong.filter(|open| close == right || close == brackets::closer_of(open.written)) {
+            let at = self.span.start();
+            self.sink.push(brackets::wrong_kind(self.text, self.values.source, open, "", at));
+            self.bump();
+            return Next::End;
+        }
         let fate =
             if close == right { Fate::Closes } else { brackets::fate(self.text, &self.open, self.span.start(), close) };
         match fate {
@@ -221,6 +244,16 @@ impl Parser<'_> {
         match self.kind {
             TokenKind::Comma => self.bump(),
             TokenKind::RightSquareBracket | TokenKind::RightCurlyBracket | TokenKind::Eof => {}
+            TokenKind::Atom if self.lexeme().starts_with(')') => {}
+            TokenKind::Atom if self.lexeme().starts_with(';') => {
+                let found = self.range(self.span.start(), self.span.start() + 1);
+                let mut fault = Diagnostic::error(codes::MISSING_COMMA, found, "values are parted by commas")
+                    .hint("write `,` between two values");
+                fault.edit = Some(Edit { span: found, replacement: ",".to_owned() });
+                self.sink.push(fault);
+                self.resume(self.span.start() + 1);
+            }
+            TokenKind::Atom if self.is_unit(end) => self.unit(),
             _ => {
                 let next_line = self.text[end..self.span.start()].contains('\n');
                 if next_line && self.open.last().is_some_and(|open| open.bracket == b'{') && self.assignment_ahead() {
@@ -236,6 +269,31 @@ impl Parser<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a short word follows the value before it on its line: `5 cm`.
+    pub(super) fn is_unit(&self, end: usize) -> bool {
+        let word = self.lexeme();
+        let after = self.text[self.span.end()..].trim_start_matches([' ', '\t']);
+        let number = self.text[..end].ends_with(|c: char| c.is_ascii_digit());
+        let short = word.len() <= 7 && word.bytes().all(|byte| byte.is_ascii_alphabetic());
+        number
+            && short
+            && self.span.start() > end
+            && !after.starts_with(['=', '.', ':'])
+            && !self.text[end..self.span.start()].contains('\n')
+    }
+
+    /// Tells that numbers carry no unit, and goes past it.
+    pub(super) fn unit(&mut self) {
+        let found = self.found();
+        let mut fault =
+            Diagnostic::error(codes::BAD_NUMBER, found, format!("`{}` is not part of a number", self.lexeme()))
+                .hint("numbers carry no unit; the reference says which unit each field has");
+        fault.edit = Some(Edit { span: found, replacement: String::new() });
+        self.sink.push(fault);
+        self.bump();
+        self.separator();
     }
 
     /// Goes past the next comma of this bracket, or to its end.

@@ -1,7 +1,7 @@
 //! Numbers, words, dates and texts of TOML.
 
 use super::decode;
-use super::ron_literal::number_kind;
+use super::ron_literal::{number_kind, plain_number};
 use super::toml::Parser;
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
@@ -12,16 +12,35 @@ impl Parser<'_> {
     /// A number, `true`, `false`, a date, or a word that should have quotes.
     pub(super) fn atom(&mut self) {
         let start = self.span.start();
+        let bytes = self.text.as_bytes();
+        if let Some((length, kind)) = plain_number(&bytes[start..])
+            && matches!(bytes.get(start + length), Some(b',' | b' ' | b']' | b'}' | b'\r' | b'\n'))
+        {
+            // In one go: to the lexer a number with a point is three tokens.
+            self.values.leaf(kind, start, start + length);
+            return self.resume(start + length);
+        }
         if self.lexeme().starts_with('(') {
             return self.round_brackets();
+        }
+        if self.kind_with_brackets() || self.other_quotes() {
+            return;
+        }
+        if self.sign_apart() {
+            return;
         }
         let mut end = self.span.end();
         while matches!(self.kind, TokenKind::Atom | TokenKind::Dot) {
             end = self.span.end();
             self.bump();
-            if self.span.start() != end {
+            if self.span.start() != end || self.lexeme().starts_with([';', ')']) {
                 break;
             }
+        }
+        // Signs of other languages are no part of the value: what follows it says so.
+        if let Some(at) = self.text[start..end].find([';', ')']).filter(|&at| at > 0) {
+            end = start + at;
+            self.resume(end);
         }
         let lexeme = &self.text[start..end];
         if let Some(kind) = scalar_kind(lexeme) {
@@ -38,6 +57,13 @@ impl Parser<'_> {
             }
             fault
         } else {
+            let (end, lexeme, found) = match self.more_words(end) {
+                Some(longer) => {
+                    self.resume(longer);
+                    (longer, &self.text[start..longer], self.range(start, longer))
+                }
+                None => (end, lexeme, found),
+            };
             let lower = lexeme.to_ascii_lowercase();
             let mended = if matches!(lower.as_str(), "true" | "false") { lower } else { format!("\"{lexeme}\"") };
             let mut fault =
@@ -47,10 +73,110 @@ impl Parser<'_> {
             if !lexeme.contains(['"', '\\', '(', ')']) {
                 fault.edit = Some(Edit { span: found, replacement: mended });
             }
-            fault
+            self.values.leaf(Kind::Broken, start, end);
+            return self.sink.push(fault);
         };
         self.sink.push(fault);
         self.values.leaf(Kind::Broken, start, end);
+    }
+
+    /// `glossy tabby` without quotes: where the words after the first one end, when nothing else follows them.
+    fn more_words(&self, end: usize) -> Option<usize> {
+        let line = super::line_ahead(self.text, end);
+        let words = line.split([',', ']', '}', '#']).next().unwrap_or("").trim_end();
+        let plain = words.chars().all(|c| c.is_alphanumeric() || matches!(c, ' ' | '_' | '-' | '.'));
+        (plain && words.starts_with(' ') && !words.trim().is_empty()).then(|| end + words.len())
+    }
+
+    /// `Diffuse(albedo = 1)`: a kind as RON writes it.
+    fn kind_with_brackets(&mut self) -> bool {
+        let start = self.span.start();
+        let Some(open) = self.lexeme().find('(') else { return false };
+        let (name, line) = (&self.lexeme()[..open], super::line_ahead(self.text, start));
+        let mut depth = 0usize;
+        let close = line.bytes().enumerate().skip(open).find(|(_, byte)| {
+            depth += usize::from(*byte == b'(');
+            depth -= usize::from(*byte == b')');
+            depth == 0
+        });
+        let Some((close, _)) = close else { return false };
+        let end = start + close + 1;
+        let found = self.range(start, end);
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "TOML has no round brackets")
+            .expected(format!("{{ {name} = {{ field = value }} }}"));
+        let inner = &line[open + 1..close];
+        if !inner.contains('(') {
+            let mended = format!("{{ {name} = {{ {} }} }}", inner.trim().replace(':', " ="));
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: found, replacement: mended });
+        }
+        self.sink.push(fault);
+        self.values.leaf(Kind::Broken, start, end);
+        self.resume(end);
+        true
+    }
+
+    /// `“text”`: quotes of a word processor.
+    fn other_quotes(&mut self) -> bool {
+        const QUOTES: [char; 6] = ['“', '”', '„', '‘', '’', '«'];
+        let start = self.span.start();
+        let line = super::line_ahead(self.text, start);
+        let Some(inner) = line.strip_prefix(QUOTES) else { return false };
+        let Some(length) = inner.find(['“', '”', '’', '»', '"']) else { return false };
+        let close = inner[length..].chars().next().map_or(0, char::len_utf8);
+        let end = start + (line.len() - inner.len()) + length + close;
+        let found = self.range(start, end);
+        let mended = format!("\"{}\"", &inner[..length]);
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "these are no quotes of TOML")
+            .expected("straight quotes: \"text\"")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.values.leaf(Kind::Broken, start, end);
+        self.resume(end);
+        true
+    }
+
+    /// `#ff8800` without quotes, which TOML takes for a comment.
+    pub(super) fn bare_color(&mut self) -> bool {
+        let start = self.span.start();
+        let digits = self.lexeme().bytes().skip(1).take_while(u8::is_ascii_alphanumeric).count();
+        let hex = self.lexeme().bytes().skip(1).take(6).all(|byte| byte.is_ascii_hexdigit());
+        if self.kind != TokenKind::Comment || digits != 6 || !hex {
+            return false;
+        }
+        let found = self.range(start, start + 7);
+        let mended = format!("\"{}\"", &self.lexeme()[..7]);
+        let mut fault = Diagnostic::error(codes::WORD_NOT_QUOTED, found, "without quotes a `#` begins a comment")
+            .expected("a colour between quotes: \"#rrggbb\"")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.values.leaf(Kind::Broken, start, start + 7);
+        self.resume(start + 7);
+        true
+    }
+
+    /// `- 5`: a sign with a space before its digits.
+    fn sign_apart(&mut self) -> bool {
+        let start = self.span.start();
+        let rest = &self.text[self.span.end()..];
+        let digits = rest.trim_start_matches([' ', '\t']);
+        let Some((length, _)) = plain_number(digits.as_bytes()) else { return false };
+        if !matches!(self.lexeme(), "-" | "+") || digits.starts_with(['-', '+']) {
+            return false;
+        }
+        let end = self.span.end() + (rest.len() - digits.len()) + length;
+        let found = self.range(start, end);
+        let mended = format!("{}{}", self.lexeme(), &digits[..length]);
+        let mut fault =
+            Diagnostic::error(codes::BAD_NUMBER, found, format!("`{}` is not a number", &self.text[start..end]))
+                .hint(format!("write {mended}, without a space"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.values.leaf(Kind::Broken, start, end);
+        self.resume(end);
+        true
     }
 
     /// `(1, 2, 3)`: a vector as RON writes it.
@@ -106,17 +232,19 @@ impl Parser<'_> {
             let mut sink = |fault: toml_parser::ParseError| faults.push(fault);
             let _kind = raw.decode_scalar(&mut out, &mut sink);
         }
-        for fault in &faults {
+        if let Some(fault) = faults.first() {
             let at = fault.unexpected().unwrap_or(toml_parser::Span::new_unchecked(0, lexeme.len()));
             let from = lexeme[..at.start().min(lexeme.len())].rfind('\\').unwrap_or(at.start());
             let to = from + 1 + lexeme[from + 1..].chars().next().map_or(0, char::len_utf8);
             let found = self.range(start + from, start + to);
             let escape = &lexeme[from..to];
-            self.sink.push(
-                Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
-                    .expected("\\\\ \\\" \\n \\t \\r \\u00e9 or \\U0001f408")
-                    .hint("write a backslash as `\\\\`, or the text in 'single quotes'; in paths `/` does everywhere"),
-            );
+            let mut told = Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
+                .expected("\\\\ \\\" \\n \\t \\r \\u00e9 or \\U0001f408")
+                .hint("write a backslash as `\\\\`, or the text in 'single quotes'; in paths `/` does everywhere");
+            let inner = lexeme.get(quotes..lexeme.len() - quotes).unwrap_or("");
+            told.edit = decode::with_slashes(inner)
+                .map(|path| Edit { span: self.range(start + quotes, end - quotes), replacement: path });
+            self.sink.push(told);
         }
         self.bump();
         self.values.leaf(if faults.is_empty() { Kind::Text } else { Kind::Broken }, start, end);

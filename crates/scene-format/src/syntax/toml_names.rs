@@ -32,7 +32,7 @@ impl Names {
         let mut at = self.hash.hash_one((table, name)) as usize & mask;
         loop {
             let (owner, key) = self.slots[at];
-            let same = owner == table && nodes.get(key as usize).is_some_and(|node| name_of(text, node) == name);
+            let same = owner == table && nodes.get(key as usize).is_some_and(|node| name_of(text, &node) == name);
             if same || (owner, key) == FREE {
                 return at;
             }
@@ -56,12 +56,12 @@ impl Names {
             let grown = vec![FREE; (self.slots.len() * 2).max(64)];
             for (table, key) in std::mem::replace(&mut self.slots, grown) {
                 if (table, key) != FREE {
-                    let at = self.slot(text, nodes, table, &name_of(text, &nodes[key as usize]));
+                    let at = self.slot(text, nodes, table, &name_of(text, &nodes.at(key as usize)));
                     self.slots[at] = (table, key);
                 }
             }
         }
-        let at = self.slot(text, nodes, table, &name_of(text, &nodes[key as usize]));
+        let at = self.slot(text, nodes, table, &name_of(text, &nodes.at(key as usize)));
         if self.slots[at] == FREE {
             self.slots[at] = (table, key);
             self.used += 1;

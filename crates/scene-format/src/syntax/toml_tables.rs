@@ -4,7 +4,7 @@
 use super::Sink;
 use super::toml_names::{Names, name_of};
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind, NOWHERE, Node};
 use std::collections::HashMap;
@@ -66,8 +66,8 @@ impl<'s> Tables<'s> {
         self.close(0, builder);
         for index in 0..builder.nodes.len() {
             // While it was put together, it said where its last table is. It has the place of its first.
-            if builder.nodes[index].kind == Kind::TableList {
-                builder.nodes[index].end = builder.nodes[index + 1].end;
+            if builder.nodes.at(index).kind == Kind::TableList {
+                builder.nodes.at_mut(index).end = builder.nodes.at(index + 1).end;
             }
         }
         self.added.into_iter().map(|(table, (first, _))| (table, first)).collect()
@@ -76,7 +76,7 @@ impl<'s> Tables<'s> {
     /// Closes all nodes that are open but the outermost `keep`.
     fn close(&mut self, keep: usize, builder: &mut Builder) {
         for open in self.open.drain(keep..) {
-            builder.nodes[open.node as usize].size = builder.nodes.len() as u32 - open.node;
+            builder.nodes.at_mut(open.node as usize).size = builder.nodes.len() as u32 - open.node;
         }
     }
 
@@ -90,7 +90,7 @@ impl<'s> Tables<'s> {
         let (_, last) = self.added.entry(table).or_insert((node, NOWHERE));
         let before = std::mem::replace(last, node);
         if before != NOWHERE {
-            builder.nodes[before as usize].start = node;
+            builder.nodes.at_mut(before as usize).start = node;
         }
         self.open.push(Open { node, table });
     }
@@ -138,7 +138,7 @@ impl<'s> Tables<'s> {
         let text = self.text;
         let name = crate::syntax::decode::toml_key(text.get(key.clone()).unwrap_or(""));
         let mut keys = self.keys(nodes, table);
-        let near = keys.by_ref().take(LINEAR_SEARCH).find(|&key| name_of(text, &nodes[key as usize]) == name);
+        let near = keys.by_ref().take(LINEAR_SEARCH).find(|&key| name_of(text, &nodes.at(key as usize)) == name);
         near.or_else(|| keys.next().and_then(|_| self.names.find(text, nodes, table, &name)))
     }
 
@@ -245,8 +245,8 @@ impl<'s> Tables<'s> {
         for key in parents {
             match self.find(&builder.nodes, table, key) {
                 Some(found) if is_table(&builder.nodes, found + 1) => table = found + 1,
-                Some(found) if builder.nodes[found as usize + 1].kind == Kind::TableList => {
-                    table = builder.nodes[found as usize + 1].end;
+                Some(found) if builder.nodes.at(found as usize + 1).kind == Kind::TableList => {
+                    table = builder.nodes.at(found as usize + 1).end;
                 }
                 Some(found) => {
                     self.conflict(key, found, builder, sink);
@@ -271,13 +271,24 @@ impl<'s> Tables<'s> {
             });
         };
         let value = found + 1;
-        match builder.nodes[value as usize].kind {
+        match builder.nodes.at(value as usize).kind {
             Kind::TableList if many => {
                 self.reach(value, 0, builder);
                 Some(self.item(value, header, builder))
             }
+            Kind::TableList => {
+                // [objects] where [[objects]] was meant: told, and taken for it.
+                self.conflict(last, found, builder, sink);
+                if let Some(fault) = sink.diagnostics.last_mut().filter(|fault| fault.code == codes::TABLE_CONFLICT) {
+                    let span = super::span(builder.source, header.start, header.end);
+                    let text = self.text.get(header.clone()).unwrap_or("");
+                    fault.edit = Some(Edit { span, replacement: format!("[{text}]") });
+                }
+                self.reach(value, 0, builder);
+                Some(self.item(value, header, builder))
+            }
             Kind::ImpliedTable if !many => {
-                let node = &mut builder.nodes[value as usize];
+                let node = builder.nodes.at_mut(value as usize);
                 node.kind = Kind::HeaderTable;
                 (node.start, node.end) = (header.start as u32, header.end as u32);
                 Some(value)
@@ -292,14 +303,14 @@ impl<'s> Tables<'s> {
     /// The next table of a `[[list]]` that has been reached.
     fn item(&mut self, list: u32, header: &Range<usize>, builder: &mut Builder) -> u32 {
         let item = self.table(Kind::HeaderTable, header, builder);
-        builder.nodes[list as usize].end = item;
+        builder.nodes.at_mut(list as usize).end = item;
         item
     }
 
     fn conflict(&mut self, key: &Key, found: u32, builder: &Builder, sink: &mut Sink) {
-        let before = &builder.nodes[found as usize];
-        let name = name_of(self.text, before);
-        let (message, hint) = match builder.nodes[found as usize + 1].kind {
+        let before = builder.nodes.at(found as usize);
+        let name = name_of(self.text, &before);
+        let (message, hint) = match builder.nodes.at(found as usize + 1).kind {
             Kind::TableList => {
                 (format!("`{name}` is a list of tables already"), format!("begin each of its items with [[{name}]]"))
             }

@@ -1,0 +1,183 @@
+//! Names and their values in RON: fields, entries of `{ .. }`, and names that are missing, mistaken or out of place.
+
+use super::ron::Parser;
+use super::{Syntax, bare_numbers};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::tree::Kind;
+
+impl Parser<'_> {
+    /// `name: value`, with `=` for `:` reported.
+    pub(super) fn field(&mut self, length: usize) {
+        let start = self.at;
+        self.builder.leaf(Kind::Key, start, start + length);
+        self.at += length;
+        self.trivia();
+        self.joined(start + length);
+        self.trivia();
+        let mark = self.builder.nodes.len();
+        self.value();
+        if let Some((end, fault)) = bare_numbers::report(self.text, Syntax::Ron, mark, self.at, self.builder) {
+            self.at = end;
+            self.sink.push(fault);
+        }
+    }
+
+    /// The `:` between a field, which ends at `end`, and its value.
+    pub(super) fn joined(&mut self, end: usize) {
+        let found = self.span(self.at, self.at + 1);
+        let mut fault = match self.peek() {
+            Some(b':') => {
+                self.at += 1;
+                if self.peek() != Some(b':') {
+                    return;
+                }
+                let found = self.span(self.at, self.at + 1);
+                let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "there is one `:` too many")
+                    .hint("remove it");
+                fault.edit = Some(Edit { span: found, replacement: String::new() });
+                self.at += 1;
+                return self.sink.push(fault);
+            }
+            Some(b'=') => {
+                self.at += 1;
+                let mut fault =
+                    Diagnostic::error(codes::MISSING_COLON, found, "a field and its value are joined by `:`, not `=`");
+                fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+                fault
+            }
+            _ => {
+                let found = self.span(end, end);
+                let mut fault = Diagnostic::error(codes::MISSING_COLON, found, "a `:` is missing after this name");
+                fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+                fault
+            }
+        };
+        fault = fault.expected("name: value").hint("write `:`");
+        self.sink.push(fault);
+    }
+
+    pub(super) fn value_without_name(&mut self) {
+        let start = self.at;
+        let errors = self.sink.errors;
+        let mark = self.builder.nodes.len();
+        self.value();
+        let end = self.at;
+        self.builder.nodes.truncate(mark);
+        self.builder.leaf(Kind::Broken, start, end);
+        if self.sink.errors == errors {
+            let line = self.text[start..end].lines().next().unwrap_or("").trim_end().len();
+            let found = self.span(start, start + line.max(1));
+            self.sink.push(
+                Diagnostic::error(codes::MISSING_NAME, found, "this value has no field name")
+                    .expected("name: value, as in the fields before it")
+                    .hint("write the name of the field and `:` before the value"),
+            );
+        }
+    }
+
+    pub(super) fn named_in_list(&mut self) {
+        let start = self.at;
+        let length = self.word_length();
+        let found = self.span(start, start + length);
+        self.sink.push(
+            Diagnostic::error(codes::MIXED_FIELDS, found, "the items of a list have no names")
+                .expected("[a, b, c]")
+                .hint("fields stand in round brackets: (name: value)"),
+        );
+        self.builder.leaf(Kind::Broken, start, start + length);
+        self.skip_broken();
+    }
+
+    /// `"key": value` in `{ .. }`.
+    pub(super) fn map_entry(&mut self) {
+        let start = self.at;
+        let length = self.word_length();
+        if self.peek() == Some(b'"') || self.is_raw_text() {
+            let mark = self.builder.nodes.len();
+            if self.peek() == Some(b'"') {
+                self.text_literal()
+            } else {
+                self.raw_text_literal()
+            }
+            if let Some(node) = self.builder.nodes.get_mut(mark)
+                && node.kind == Kind::Text
+            {
+                node.kind = Kind::Key;
+            }
+        } else if length > 0 {
+            // A name may have spaces; it ends before the colon.
+            let line = super::line_ahead(self.text, start);
+            let named = line.split_once(':').map_or("", |(name, _)| name.trim_end());
+            let plain = named.chars().all(|c| c.is_alphanumeric() || matches!(c, ' ' | '_' | '-' | '.'));
+            let length = if plain { length.max(named.len()) } else { length };
+            let found = self.span(start, start + length);
+            let word = &self.text[start..start + length];
+            self.at += length;
+            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between quotes")
+                .expected("{ \"name\": value }")
+                .hint(format!("write \"{word}\""));
+            fault.edit = Some(Edit { span: found, replacement: format!("\"{word}\"") });
+            self.sink.push(fault);
+            self.builder.leaf(Kind::Key, start, self.at);
+        } else {
+            let mark = self.builder.nodes.len();
+            let errors = self.sink.errors;
+            self.value();
+            self.builder.nodes.truncate(mark);
+            self.builder.leaf(Kind::Broken, start, self.at);
+            if self.sink.errors == errors {
+                let found = self.span(start, self.at);
+                self.sink.push(
+                    Diagnostic::error(codes::KEY_NOT_QUOTED, found, "a name in { } is a text between quotes")
+                        .expected("{ \"name\": value }"),
+                );
+            }
+            self.skip_broken();
+            return;
+        }
+        self.trivia();
+        match self.peek() {
+            Some(b':') => self.at += 1,
+            other => {
+                let equals = other == Some(b'=');
+                let found = if equals { self.span(self.at, self.at + 1) } else { self.span(start, self.at) };
+                let mut fault =
+                    Diagnostic::error(codes::MISSING_COLON, found, "a name and its value are joined by `:`")
+                        .expected("{ \"name\": value }")
+                        .hint("write `:` and the value");
+                if equals {
+                    fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+                    self.at += 1;
+                }
+                self.sink.push(fault);
+                if !equals {
+                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    self.skip_broken();
+                    return;
+                }
+            }
+        }
+        self.trivia();
+        self.value();
+    }
+
+    /// A text, or the name of a kind between quotes: `"Sphere"(..)`.
+    pub(super) fn text_or_kind(&mut self, start: usize) {
+        let mark = self.builder.nodes.len();
+        self.text_literal();
+        let name = self.text[start + 1..self.at].trim_end_matches('"');
+        let kind = self.peek() == Some(b'(') && name.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        if !kind || name.is_empty() || self.builder.nodes.get(mark).is_none_or(|node| node.kind != Kind::Text) {
+            return;
+        }
+        let found = self.span(start, self.at);
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, found, "a kind is written without quotes")
+            .expected(format!("{name}(..)"))
+            .hint(format!("write {name}"));
+        fault.edit = Some(Edit { span: found, replacement: name.to_owned() });
+        self.sink.push(fault);
+        self.builder.nodes.truncate(mark);
+        self.bracket(start + 1, b'(');
+    }
+}

@@ -1,0 +1,427 @@
+//! One mistake of a person gives one error, at its line: every scene of the repository, in both syntaxes, with mistakes that people
+//! make, one at a time.
+
+mod common;
+
+use common::{Random, errors};
+use scene_format::{Diagnostic, Syntax, convert};
+use std::fmt::Write;
+use std::ops::Range;
+use std::path::Path;
+
+/// A word, number, text or sign of a scene file.
+#[derive(Clone, Debug)]
+struct Token {
+    at: Range<usize>,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Word,
+    Number,
+    /// Between quotes.
+    Text,
+    Sign,
+    Comment,
+}
+
+fn tokens(text: &str, syntax: Syntax) -> Vec<Token> {
+    let comment = if syntax == Syntax::Ron { "//" } else { "#" };
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(first) = text[at..].chars().next() {
+        let rest = &text[at..];
+        let (kind, length) = if first.is_whitespace() {
+            at += first.len_utf8();
+            continue;
+        } else if rest.starts_with(comment) {
+            (Kind::Comment, rest.find('\n').unwrap_or(rest.len()))
+        } else if first == '"' {
+            (Kind::Text, rest[1..].find('"').map_or(rest.len(), |length| length + 2))
+        } else if first.is_ascii_digit() || first == '-' {
+            let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-' | '_');
+            (Kind::Number, rest.find(|c| !number(c)).unwrap_or(rest.len()))
+        } else if first.is_alphabetic() {
+            (Kind::Word, rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len()))
+        } else {
+            (Kind::Sign, first.len_utf8())
+        };
+        found.push(Token { at: at..at + length, kind });
+        at += length;
+    }
+    found
+}
+
+/// A place where a mistake may be made.
+struct Site<'s> {
+    text: &'s str,
+    tokens: &'s [Token],
+    index: usize,
+}
+
+/// What is written instead of what.
+type Change = Option<(Range<usize>, String)>;
+
+impl Site<'_> {
+    fn token(&self, offset: isize) -> Option<&Token> {
+        self.tokens.get(self.index.checked_add_signed(offset)?)
+    }
+
+    /// A token near the place.
+    fn is(&self, offset: isize, kind: Kind, texts: &[&str]) -> bool {
+        self.token(offset).is_some_and(|token| {
+            token.kind == kind && (texts.is_empty() || texts.contains(&&self.text[token.at.clone()]))
+        })
+    }
+
+    fn sign(&self, offset: isize, signs: &[&str]) -> bool {
+        self.is(offset, Kind::Sign, signs)
+    }
+
+    fn here(&self) -> &str {
+        &self.text[self.tokens[self.index].at.clone()]
+    }
+
+    fn becomes(&self, text: impl Into<String>) -> Change {
+        Some((self.tokens[self.index].at.clone(), text.into()))
+    }
+
+    /// From here to the token at `offset`, that one included.
+    fn through(&self, offset: isize) -> Option<Range<usize>> {
+        Some(self.tokens[self.index].at.start..self.token(offset)?.at.end)
+    }
+
+    /// `(x, y, z)` begins here, of numbers, as the value of a field.
+    fn is_vector(&self) -> bool {
+        self.sign(0, &["(", "["])
+            && self.sign(-1, &[":", "="])
+            && [1, 3, 5].iter().all(|&number| self.is(number, Kind::Number, &[]))
+            && self.sign(6, &[")", "]"])
+    }
+
+    /// The name of a field, its value following. (In TOML names of materials look the same.)
+    fn is_field(&self) -> bool {
+        if self.text.contains(&format!("material = \"{}\"", self.here())) {
+            return false;
+        }
+        self.is(0, Kind::Word, &[]) && self.sign(1, &[":", "="]) && self.here().starts_with(char::is_lowercase)
+    }
+
+    /// The name of a kind or struct, its brackets following.
+    fn is_kind(&self) -> bool {
+        self.is(0, Kind::Word, &[]) && self.here().starts_with(char::is_uppercase) && self.sign(1, &["(", "="])
+    }
+
+    /// The sign that closes the bracket which opens here.
+    fn close(&self) -> Option<usize> {
+        let mut depth = 0;
+        for (index, token) in self.tokens.iter().enumerate().skip(self.index) {
+            if token.kind == Kind::Sign {
+                match &self.text[token.at.clone()] {
+                    "(" | "[" | "{" => depth += 1,
+                    ")" | "]" | "}" => depth -= 1,
+                    _ => {}
+                }
+                if depth == 0 {
+                    return Some(index);
+                }
+            }
+        }
+        None
+    }
+}
+
+struct Mistake {
+    name: &'static str,
+    syntax: Option<Syntax>,
+    make: fn(&Site<'_>) -> Change,
+}
+
+const RON: Option<Syntax> = Some(Syntax::Ron);
+const TOML: Option<Syntax> = Some(Syntax::Toml);
+const BOTH: Option<Syntax> = None;
+
+macro_rules! mistakes {
+    ($($syntax:ident $name:literal |$site:ident| $make:expr;)+) => {
+        &[$(Mistake { name: $name, syntax: $syntax, make: |$site| $make },)+]
+    };
+}
+
+/// `Some` when it holds.
+fn when(holds: bool) -> Option<()> {
+    holds.then_some(())
+}
+
+const MISTAKES: &[Mistake] = mistakes![
+    // Signs.
+    BOTH "no comma" |s| { when(s.sign(0, &[","]) && !s.sign(1, &[")", "]", "}"]))?; s.becomes("") };
+    BOTH "two commas" |s| { when(s.sign(0, &[","]))?; s.becomes(",,") };
+    RON "a semicolon for a comma" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
+    TOML "a semicolon for a comma in TOML" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
+    RON "= for :" |s| { when(s.sign(0, &[":"]))?; s.becomes(" =") };
+    TOML ": for =" |s| { when(s.sign(0, &["="]))?; s.becomes(":") };
+    BOTH "no colon" |s| { when(s.sign(0, &[":", "="]))?; s.becomes("") };
+    BOTH "colon twice" |s| { when(s.sign(0, &[":", "="]))?; s.becomes(s.here().repeat(2)) };
+    BOTH "no value" |s| {
+        when(s.sign(-1, &[":", "="]) && (s.is(0, Kind::Number, &[]) || s.is(0, Kind::Text, &[])))?;
+        s.becomes("")
+    };
+    // Brackets.
+    BOTH "no closing bracket" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes("") };
+    BOTH "closed by another bracket" |s| {
+        when(s.sign(0, &[")", "]", "}"]))?;
+        s.becomes(match s.here() { ")" => "]", "]" => "}", _ => ")" })
+    };
+    BOTH "opened by another bracket" |s| {
+        when(s.sign(0, &["(", "["]) && !s.sign(-1, &["["]) && !s.sign(1, &["["]))?;
+        s.becomes(if s.here() == "(" { "[" } else { "{" })
+    };
+    BOTH "one closing bracket too many" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes(s.here().repeat(2)) };
+    RON "braces of Rust" |s| {
+        when(s.is_kind())?;
+        let open = Site { index: s.index + 1, ..*s };
+        let (from, to) = (s.token(1)?.at.clone(), s.tokens[open.close()?].at.clone());
+        Some((from.start..to.end, format!(" {{{}}}", &s.text[from.end..to.start])))
+    };
+    RON "braces for a list" |s| {
+        when(s.sign(0, &["["]) && s.is(1, Kind::Word, &[]))?;
+        let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
+        Some((from.start..to.end, format!("{{{}}}", &s.text[from.end..to.start])))
+    };
+    RON "a list for names" |s| {
+        when(s.sign(0, &["{"]) && s.is(1, Kind::Text, &[]))?;
+        let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
+        Some((from.start..to.end, format!("[{}]", &s.text[from.end..to.start])))
+    };
+    BOTH "a vector without brackets" |s| {
+        when(s.is_vector())?;
+        let inner = s.through(6)?;
+        Some((inner.clone(), s.text[inner.start + 1..inner.end - 1].to_owned()))
+    };
+    TOML "round brackets" |s| {
+        when(s.is_vector())?;
+        let inner = s.through(6)?;
+        Some((inner.clone(), format!("({})", &s.text[inner.start + 1..inner.end - 1])))
+    };
+    RON "a list without its brackets" |s| {
+        when(s.sign(-1, &[":"]) && s.sign(0, &["["]) && s.is(1, Kind::Word, &[]))?;
+        let open = Site { index: s.index + 2, ..*s };
+        let (item, end) = (open.close()?, s.close()?);
+        when(item + 1 == end || item + 2 == end)?;
+        let (from, to) = (s.token(0)?.at.start, s.tokens[end].at.end);
+        Some((from..to, s.text[s.token(1)?.at.start..s.tokens[item].at.end].to_owned()))
+    };
+    // Texts.
+    BOTH "no closing quote" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_end_matches('"')) };
+    BOTH "no opening quote" |s| {
+        when(s.is(0, Kind::Text, &[]) && !s.here().starts_with("\"#"))?;
+        s.becomes(s.here().trim_start_matches('"'))
+    };
+    RON "no quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_matches('"')) };
+    TOML "no quotes around a value" |s| {
+        when(s.is(0, Kind::Text, &[]) && s.sign(-1, &["="]) && !s.here().starts_with("\"#"))?;
+        s.becomes(s.here().trim_matches('"'))
+    };
+    TOML "a colour that is a comment" |s| {
+        when(s.is(0, Kind::Text, &[]) && s.here().starts_with("\"#"))?;
+        s.becomes(s.here().trim_matches('"'))
+    };
+    RON "single quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().replace('"', "'")) };
+    BOTH "quotes of a word processor" |s| {
+        when(s.is(0, Kind::Text, &[]))?;
+        s.becomes(format!("“{}”", s.here().trim_matches('"')))
+    };
+    BOTH "backslashes in a path" |s| {
+        when(s.is(0, Kind::Text, &[]) && s.here().contains("assets/"))?;
+        s.becomes(s.here().replace('/', "\\"))
+    };
+    // Numbers.
+    BOTH "a number between quotes" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("\"{}\"", s.here())) };
+    BOTH "a unit" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}deg", s.here())) };
+    BOTH "a unit after a space" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{} cm", s.here())) };
+    BOTH "a decimal comma" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('.'))?; s.becomes(s.here().replace('.', ",")) };
+    BOTH "two points" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}.5.1", s.here().split('.').next()?)) };
+    BOTH "a sign apart" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with('-'))?; s.becomes(s.here().replacen('-', "- ", 1)) };
+    BOTH "a letter for a digit" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('0'))?; s.becomes(s.here().replacen('0', "O", 1)) };
+    TOML "no digit before the point" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?; s.becomes(&s.here()[1..]) };
+    TOML "a leading zero" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?; s.becomes(format!("0{}", s.here())) };
+    BOTH "one number short" |s| {
+        when(s.is_vector())?;
+        let end = s.token(4)?.at.start..s.token(5)?.at.end;
+        Some((end, String::new()))
+    };
+    BOTH "one number too many" |s| { when(s.is_vector())?; let last = s.token(5)?.at.clone(); Some((last.end..last.end, ", 1".to_owned())) };
+    BOTH "a number for a vector" |s| { when(s.is_vector() && s.is(-2, Kind::Word, &["center", "position", "look_at", "axis"]))?; Some((s.through(6)?, "1".to_owned())) };
+    // Names.
+    BOTH "a field with a capital" |s| {
+        when(s.is_field() && s.index > 0 && !s.sign(-1, &["."]))?;
+        let mut name = s.here().to_owned();
+        name[..1].make_ascii_uppercase();
+        s.becomes(name)
+    };
+    BOTH "a field in capitals" |s| { when(s.is_field())?; s.becomes(s.here().to_uppercase()) };
+    BOTH "a field with a hyphen" |s| { when(s.is_field() && s.here().contains('_') && s.sign(1, &["="]))?; s.becomes(s.here().replace('_', "-")) };
+    RON "a hyphen in RON" |s| { when(s.is_field() && s.here().contains('_'))?; s.becomes(s.here().replace('_', "-")) };
+    BOTH "a field in camel case" |s| {
+        when(s.is_field() && s.here().contains('_'))?;
+        let (first, second) = s.here().split_once('_')?;
+        s.becomes(format!("{first}{}{}", second[..1].to_uppercase(), &second[1..]))
+    };
+    BOTH "a plural" |s| { when(s.is_field() && !s.here().ends_with('s'))?; s.becomes(format!("{}s", s.here())) };
+    RON "a singular" |s| { when(s.is_field() && s.here().ends_with('s'))?; s.becomes(s.here().trim_end_matches('s')) };
+    BOTH "a letter left out" |s| {
+        when((s.is_field() || s.is_kind()) && s.here().len() > 4)?;
+        s.becomes(format!("{}{}", &s.here()[..2], &s.here()[3..]))
+    };
+    BOTH "a kind without a capital" |s| { when(s.is_kind())?; s.becomes(s.here().to_lowercase()) };
+    RON "a kind between quotes" |s| { when(s.is_kind())?; s.becomes(format!("\"{}\"", s.here())) };
+    BOTH "a field twice" |s| {
+        when(s.is_field() && (s.is(2, Kind::Number, &[]) || s.is(2, Kind::Text, &[])) && s.sign(3, &[","]))?;
+        let field = s.through(2)?;
+        Some((field.start..field.start, format!("{}, ", &s.text[field.clone()])))
+    };
+    RON "a field without its name" |s| {
+        when(s.is_field() && s.is(2, Kind::Number, &[]) && !s.is(-2, Kind::Word, &["DropTo", "Scale"]))?;
+        Some((s.token(0)?.at.start..s.token(1)?.at.end, String::new()))
+    };
+    RON "no opening bracket" |s| {
+        when(s.is_kind() && s.sign(1, &["("]))?;
+        let bracket = s.token(1)?.at.clone();
+        Some((bracket, " ".to_owned()))
+    };
+    RON "a vector without its opening bracket" |s| { when(s.is_vector())?; s.becomes("") };
+    // Comments.
+    RON "# for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "#", 1)) };
+    TOML "// for #" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen('#', "//", 1)) };
+    RON "/ for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "/", 1)) };
+    BOTH "-- for a comment" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen(['/', '#'], "--", 1).replacen("--/", "--", 1)) };
+    // Lines of TOML.
+    TOML "a table for an item of a list" |s| {
+        when(s.sign(0, &["["]) && s.sign(1, &["["]) && s.is(2, Kind::Word, &[]) && s.sign(4, &["]"]))?;
+        Some((s.through(4)?, format!("[{}]", &s.text[s.token(2)?.at.clone()])))
+    };
+    TOML "an item of a list for a table" |s| {
+        when(s.sign(0, &["["]) && s.is(1, Kind::Word, &[]) && s.sign(2, &["]"]) && s.index > 0 && !s.sign(-1, &["[", "="]))?;
+        Some((s.through(2)?, format!("[[{}]]", &s.text[s.token(1)?.at.clone()])))
+    };
+    TOML "a comma at the end of a line" |s| {
+        let end = s.tokens[s.index].at.end;
+        when(s.text[end..].starts_with('\n') && !s.sign(0, &[",", "{", "["]) && !s.is(0, Kind::Comment, &[]))?;
+        Some((end..end, ",".to_owned()))
+    };
+    TOML "a semicolon at the end of a line" |s| {
+        let end = s.tokens[s.index].at.end;
+        when(s.text[end..].starts_with('\n') && !s.sign(0, &[",", "{", "["]) && !s.is(0, Kind::Comment, &[]))?;
+        Some((end..end, ";".to_owned()))
+    };
+    TOML "a kind as in RON" |s| {
+        when(s.sign(0, &["{"]) && s.is(1, Kind::Word, &["Diffuse", "Mirror", "Transparent"]) && s.sign(2, &["="]) && s.sign(3, &["{"]))?;
+        let inner = Site { index: s.index + 3, ..*s };
+        let (close, end) = (inner.close()?, s.close()?);
+        let fields = &s.text[s.token(3)?.at.end..s.tokens[close].at.start];
+        Some((s.token(0)?.at.start..s.tokens[end].at.end, format!("{}({})", &s.text[s.token(1)?.at.clone()], fields.trim())))
+    };
+];
+
+fn line(text: &str, at: usize) -> usize {
+    text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+}
+
+/// Whether an error points at the line of the mistake, by itself or by its second place.
+fn points_at(fault: &Diagnostic, broken: &str, at: usize) -> bool {
+    let wanted = line(broken, at);
+    let lines = |span: &scene_format::diagnostic::Span| {
+        line(broken, span.start as usize)..=line(broken, (span.end as usize).max(span.start as usize + 1) - 1)
+    };
+    // What is missing at the end of a line is noticed where the next one begins.
+    let next = broken[at.min(broken.len())..]
+        .find(|c: char| !c.is_whitespace())
+        .map_or(wanted, |skip| line(broken, at + skip));
+    let seen = |span: &scene_format::diagnostic::Span| lines(span).contains(&wanted) || lines(span).contains(&next);
+    // A bracket that is open at the end of the file is told where it was opened.
+    let (opened, noticed) =
+        (fault.span.start as usize, fault.labels.first().map_or(0, |label| label.span.end as usize));
+    if fault.code == "E0102" && (opened..noticed).contains(&at) {
+        return true;
+    }
+    let ends = broken[at.min(broken.len())..].trim().is_empty() && fault.code == "E0102";
+    ends || seen(&fault.span) || fault.labels.iter().any(|label| seen(&label.span))
+}
+
+fn scenes() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut folders = vec![root.join("scenes"), root.join("golden"), root.join("crates/tracer/templates")];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        let mut entries: Vec<_> = std::fs::read_dir(folder)
+            .expect("a folder of scenes")
+            .map(|entry| entry.expect("an entry").path())
+            .collect();
+        entries.sort();
+        for path in entries {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "ron") {
+                let text = std::fs::read_to_string(&path).expect("a scene");
+                found.push((path.file_name().expect("a name").to_string_lossy().into_owned(), text));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn one_mistake_is_one_error_at_its_line() {
+    /// Sites that are tried of each mistake in each scene.
+    const TRIES: usize = 3;
+    let mut random = Random(17);
+    let scenes = scenes();
+    assert!(scenes.len() > 100, "only {} scenes", scenes.len());
+    let mut counts = vec![(0usize, 0usize, String::new()); MISTAKES.len()];
+    for (name, ron) in &scenes {
+        let toml = convert(name, ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
+        for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml)] {
+            assert!(errors(text, syntax).is_empty(), "{name} in {} is right", syntax.name());
+            let tokens = tokens(text, syntax);
+            for (mistake, count) in MISTAKES.iter().zip(&mut counts) {
+                if mistake.syntax.is_some_and(|only| only != syntax) {
+                    continue;
+                }
+                let mut sites: Vec<(Range<usize>, String)> = (0..tokens.len())
+                    .filter_map(|index| (mistake.make)(&Site { text, tokens: &tokens, index }))
+                    .collect();
+                for _ in 0..TRIES.min(sites.len()) {
+                    let (at, replacement) = sites.swap_remove(random.below(sites.len()));
+                    let broken = format!("{}{replacement}{}", &text[..at.start], &text[at.end..]);
+                    let found = errors(&broken, syntax);
+                    // A mistake may mean something: a plural that is a name, too.
+                    count.0 += 1;
+                    let right = matches!(found.as_slice(), [fault] if points_at(fault, &broken, at.start));
+                    if right {
+                        continue;
+                    }
+                    count.1 += 1;
+                    if count.1 <= 3 {
+                        let start = broken[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
+                        let shown = broken[start..].lines().next().unwrap_or("");
+                        let _ =
+                            writeln!(count.2, "    {name} {}:{}: {shown}", syntax.name(), line(&broken, at.start) + 1);
+                        for fault in found.iter().take(4) {
+                            let at = line(&broken, fault.span.start as usize) + 1;
+                            let _ = writeln!(count.2, "        {at}: {} {}", fault.code, fault.message);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let mut report = String::new();
+    for (mistake, (tried, wrong, examples)) in MISTAKES.iter().zip(&counts) {
+        assert!(*tried > 0, "nowhere can one make the mistake \"{}\"", mistake.name);
+        if *wrong > 0 {
+            let _ = writeln!(report, "{}: {wrong} of {tried}\n{examples}", mistake.name);
+        }
+    }
+    assert!(report.is_empty(), "not one error at the line of the mistake:\n{report}");
+}
