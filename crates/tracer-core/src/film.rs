@@ -110,6 +110,8 @@ pub struct Film {
     pub counters: Counters,
     /// Where the time went, if that was asked for.
     pub statistics: Option<Statistics>,
+    /// Photons carried light over mirrors and glass: the picture is right in the limit of many samples rather than on average.
+    pub caustics: bool,
     /// Lane type that was used.
     pub level: Level,
     /// Threads that were used.
@@ -131,6 +133,7 @@ impl Film {
             tiles: vec![Tile::new(); count],
             counters: Counters::default(),
             statistics: None,
+            caustics: false,
             level: Level::best(),
             threads: 1,
         }

@@ -21,6 +21,8 @@ pub struct Report {
     pub scene: SceneReport,
     /// The picture.
     pub picture: PictureReport,
+    /// How light was carried.
+    pub transport: Transport,
     /// Where the time went.
     pub seconds: Seconds,
     /// Rays.
@@ -90,6 +92,17 @@ pub struct Seconds {
     pub write: f64,
     /// From the program's first instruction to the last picture.
     pub total: f64,
+}
+
+/// How light was carried.
+#[derive(Debug, Serialize)]
+pub struct Transport {
+    /// The pixels of a block shared what they found (`render.reuse`).
+    pub reuse: bool,
+    /// Photons carried light over mirrors and glass (`render.caustics`): asked for, and worth it in this scene.
+    pub caustics: bool,
+    /// "unbiased": right on average. "consistent": right in the limit of many samples.
+    pub estimate: &'static str,
 }
 
 /// Rays.

@@ -157,6 +157,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         statistics.add(&lock(worker).batch.watch.statistics);
     }
     film.statistics = options.statistics.then_some(statistics);
+    film.caustics = caustics.is_some();
     film.level = level;
     film.threads = threads;
     film

@@ -9,7 +9,7 @@ use crate::loading::{compile, is_dash, load, use_threads};
 use crate::progress::{Watch, rate};
 use crate::report::{
     FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport, Seconds, Stats,
-    Tree, VERSION,
+    Transport, Tree, VERSION,
 };
 use crate::shell::Shell;
 use crate::write::{Place, Provenance, Setting, save, write};
@@ -242,6 +242,11 @@ fn report(
             samples_asked: scene.samples,
             samples_min,
             samples_max,
+        },
+        transport: Transport {
+            reuse: scene.reuse,
+            caustics: film.caustics,
+            estimate: if film.caustics { "consistent" } else { "unbiased" },
         },
         rays: Rays {
             camera: counters.camera_rays,

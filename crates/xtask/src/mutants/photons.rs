@@ -1,0 +1,97 @@
+//! Faults of photons (`render.caustics`).
+
+use super::{Mutant, proofs, units};
+
+const PHOTONS: &str = "crates/tracer-core/src/engine/stages/photons.rs";
+const GATHER: &str = "crates/tracer-core/src/engine/stages/gather.rs";
+const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
+const MAP: &str = "crates/tracer-core/src/engine/caustics/map.rs";
+const PLAN: &str = "crates/tracer-core/src/engine/caustics/plan.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "light-by-photons-and-by-paths",
+        file: SHADE,
+        find: "weight = F::select(by_photons, zero, weight);",
+        replace: "weight = F::select(by_photons, weight, weight);",
+        caught_by: proofs(&["caustics::glass_ball"]),
+    },
+    Mutant {
+        name: "later-gathers-without-their-chance",
+        file: SHADE,
+        find: "c(std::f32::consts::FRAC_1_PI) / chance)",
+        replace: "c(std::f32::consts::FRAC_1_PI))",
+        caught_by: proofs(&["caustics::lamps_anywhere"]),
+    },
+    Mutant {
+        name: "photons-without-the-cosine-at-the-light",
+        file: PHOTONS,
+        find: "let mut density = normal.dot(direction) * cone",
+        replace: "let mut density = cone",
+        caught_by: proofs(&["caustics::glass_ball"]),
+    },
+    Mutant {
+        name: "photons-of-other-casters-kept",
+        file: PHOTONS,
+        find: "hit = hit & F::U::select(on_sphere, of_sphere, of_instance).eq(wanted);",
+        replace: "hit = hit & !F::U::select(on_sphere, of_sphere, of_instance).eq(wanted + F::U::splat(1));",
+        caught_by: proofs(&["caustics::seen_otherwise"]),
+    },
+    Mutant {
+        name: "photons-into-the-glass-they-leave",
+        file: PHOTONS,
+        find: "F::select(d.refracted, -s.offset, s.offset)",
+        replace: "F::select(d.refracted, s.offset, -s.offset)",
+        caught_by: proofs(&["caustics::meshes"]),
+    },
+    Mutant {
+        name: "photons-tint-what-glass-reflects",
+        file: PHOTONS,
+        find: "weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);",
+        replace: "weight = weight.scale(one);",
+        caught_by: proofs(&["caustics::glass_of_several"]),
+    },
+    Mutant {
+        name: "photons-one-event-too-long",
+        file: GATHER,
+        find: "F::U::splat(most_events + 1)",
+        replace: "F::U::splat(most_events + 2)",
+        caught_by: units(&["engine::caustics::map"]),
+    },
+    Mutant {
+        name: "photons-through-thin-walls",
+        file: GATHER,
+        find: "near & same_side & short",
+        replace: "near & (same_side | short)",
+        caught_by: units(&["engine::caustics::map"]),
+    },
+    Mutant {
+        name: "kernel-of-the-wrong-norm",
+        file: MAP,
+        find: "2.0 * std::f32::consts::FRAC_1_PI / (radius * radius)",
+        replace: "1.5 * std::f32::consts::FRAC_1_PI / (radius * radius)",
+        caught_by: units(&["engine::caustics::map"]),
+    },
+    Mutant {
+        name: "cells-half-as-wide",
+        file: MAP,
+        find: "let inverse_cell = 0.5 / radius;",
+        replace: "let inverse_cell = 1.0 / radius;",
+        caught_by: units(&["engine::caustics::map"]),
+    },
+    Mutant {
+        name: "radii-that-do-not-shrink",
+        file: MAP,
+        find: "const ALPHA: f64 = 2.0 / 3.0;",
+        replace: "const ALPHA: f64 = 1.0;",
+        caught_by: units(&["engine::caustics::map"]),
+    },
+    Mutant {
+        name: "lights-that-cannot-see-the-caster",
+        file: PLAN,
+        find: "1.0 - (light.radius - caster.radius) / distance",
+        replace: "1.0 - (light.radius + caster.radius) / distance",
+        caught_by: proofs(&["caustics::glass_ball"]),
+    },
+];
