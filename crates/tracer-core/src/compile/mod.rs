@@ -2,6 +2,7 @@
 
 mod materials;
 mod meshes;
+mod nearby;
 mod placing;
 
 use crate::bvh;
@@ -68,6 +69,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
+        nearby::suggest(desc, &mut diagnostics);
         return Err(CompileError { diagnostics });
     }
 
