@@ -24,11 +24,13 @@ impl Reader<'_> {
         if !is_vector {
             return self.wrong_type(item, at, &expected_for(at, item));
         }
-        let count = item.children().take(MANY).count();
+        let mut children = item.children();
+        let three: [Option<Item<'_, '_>>; 3] = std::array::from_fn(|_| children.next());
+        let count = three.iter().flatten().count() + children.take(MANY).count();
         let mut value = [0.0; 3];
         let mut good = true;
         // Which of four numbers is wrong nobody knows: then only their number is told.
-        for ((child, slot), name) in item.children().zip(&mut value).zip(names).take(if count == 3 { 3 } else { 0 }) {
+        for ((child, slot), name) in three.into_iter().flatten().zip(&mut value).zip(names).take_while(|_| count == 3) {
             if child.kind() == Kind::Broken {
                 good = false;
                 continue;
@@ -46,7 +48,7 @@ impl Reader<'_> {
             let numbers = match count {
                 0 => "none".to_owned(),
                 1 => "one".to_owned(),
-                MANY => "so many".to_owned(),
+                count if count > MANY => "so many".to_owned(),
                 count => count.to_string(),
             };
             let mut fault = Diagnostic::error(

@@ -56,9 +56,9 @@ impl Parser<'_> {
     /// `{ { .. }, .. }` or `{ 1, .. }`: a list in the brackets of a table.
     pub(super) fn is_list_in_braces(&self) -> bool {
         let inner = self.text[self.span.end()..].trim_start();
-        let line = super::line_ahead(inner, 0);
-        let number = line.split([',', ']', '}']).next().is_some_and(|first| first.trim().parse::<f64>().is_ok());
-        number || inner.starts_with(['{', '['])
+        let number = inner.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+'));
+        let first = || super::line_ahead(inner, 0).split([',', ']', '}']).next().map(str::trim);
+        inner.starts_with(['{', '[']) || number && first().is_some_and(|first| first.parse::<f64>().is_ok())
     }
 
     /// A list, in brackets that are `written` so.
@@ -81,6 +81,10 @@ impl Parser<'_> {
             }
             if self.kind == TokenKind::Comma {
                 self.extra_comma();
+                continue;
+            }
+            if self.kind == TokenKind::Atom && self.plain_atom() {
+                self.separator();
                 continue;
             }
             if self.kind == TokenKind::Equals || self.at_key() && self.assignment_ahead() {

@@ -9,17 +9,32 @@ use crate::tree::Kind;
 use toml_parser::lexer::TokenKind;
 
 impl Parser<'_> {
-    /// A number, `true`, `false`, a date, or a word that should have quotes.
-    pub(super) fn atom(&mut self) {
+    /// A number as most are, in one go: to the lexer one with a point is three tokens.
+    #[inline]
+    pub(super) fn plain_atom(&mut self) -> bool {
         let start = self.span.start();
         let bytes = self.text.as_bytes();
-        if let Some((length, kind)) = plain_number(&bytes[start..])
-            && matches!(bytes.get(start + length), Some(b',' | b' ' | b']' | b'}' | b'\r' | b'\n'))
-        {
-            // In one go: to the lexer a number with a point is three tokens.
-            self.values.leaf(kind, start, start + length);
-            return self.resume(start + length);
+        let Some((length, kind)) = plain_number(&bytes[start..]) else { return false };
+        let end = start + length;
+        let ends = match bytes.get(end) {
+            Some(b',' | b']' | b'}' | b'\r' | b'\n') => true,
+            // `1 = 2` in a list is a name.
+            Some(b' ') => !matches!(bytes.get(end + 1), Some(b'=')),
+            _ => false,
+        };
+        if ends {
+            self.values.leaf(kind, start, end);
+            self.resume(end);
         }
+        ends
+    }
+
+    /// A number, `true`, `false`, a date, or a word that should have quotes.
+    pub(super) fn atom(&mut self) {
+        if self.plain_atom() {
+            return;
+        }
+        let start = self.span.start();
         if self.lexeme().starts_with('(') {
             return self.round_brackets();
         }
