@@ -1,9 +1,11 @@
 //! Golden pictures: every `golden/<family>/<case>.ron` is rendered and compared with the `.png` beside it, byte for byte.
 //!
-//! A missing picture fails, and so does a picture without a scene. A failure writes what was made, what was expected, the difference and one page
+//! A missing picture fails, and so do a picture without a scene and a combination of material, shape and effect that no scene shows. A failure writes what was made, what was expected, the difference and one page
 //! that shows them with a wipe, the FLIP map and the scene (`target/goldens/<family>/<case>/index.html`), and prints the command
 //! that accepts the new picture.
 
+#[path = "goldens/coverage.rs"]
+mod coverage;
 #[path = "goldens/page.rs"]
 mod page;
 
@@ -19,6 +21,7 @@ fn main() {
     // One picture at a time: each is rendered on all cores.
     arguments.test_threads = Some(1);
     let mut trials = vec![Trial::test("page", page::check_page)];
+    let mut scenes = Vec::new();
     for family in sorted(&golden).into_iter().filter(|p| p.is_dir() && !p.ends_with("assets")) {
         for file in sorted(&family) {
             let name = case_name(&golden, &file);
@@ -26,6 +29,7 @@ fn main() {
                 Some("ron" | "toml") => {
                     let output = root.join("target/goldens").join(&name);
                     let title = name.clone();
+                    scenes.push(file.clone());
                     trials.push(Trial::test(name, move || compare(&title, &file, &output)));
                 }
                 Some("png") if file.with_extension("ron").exists() || file.with_extension("toml").exists() => {}
@@ -35,7 +39,8 @@ fn main() {
             }
         }
     }
-    assert!(trials.len() > 1, "no golden scenes under {}", golden.display());
+    assert!(!scenes.is_empty(), "no golden scenes under {}", golden.display());
+    trials.push(Trial::test("coverage", move || coverage::check_coverage(&scenes)));
     libtest_mimic::run(&arguments, trials).exit();
 }
 
@@ -101,7 +106,8 @@ fn render(scene: &Path) -> Result<Picture, Failed> {
         return Err(format!("{} samples were not finite", film.counters.dropped).into());
     }
     let image = tracer_core::develop(&film, &compiled.look);
-    let rgb = image.display.iter().map(|x| (x * 255.0 + 0.5) as u8).collect();
+    // As the program writes files: in single precision a value just below a half is rounded up.
+    let rgb = image.display.iter().map(|&x| (f64::from(x) * 255.0 + 0.5) as u8).collect();
     Ok(Picture { width: image.width, height: image.height, rgb })
 }
 

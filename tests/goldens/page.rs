@@ -25,39 +25,57 @@ pub fn command(name: &str) -> String {
     format!("cargo xtask golden accept {name} --reason \"why it changed\"")
 }
 
-const STYLE: &str = "body{font:14px sans-serif;background:#222;color:#ddd;margin:16px}a{color:#8cf}\
-    img{width:384px;image-rendering:pixelated;background:#000;display:block}figure{display:inline-block;margin:0 16px 16px 0;vertical-align:top}\
-    #wipe{position:relative;width:384px}#wipe img+img{position:absolute;left:0;top:0;clip-path:inset(0 0 0 50%)}\
-    input{width:384px}pre{background:#111;padding:8px;overflow:auto}ol{font-family:monospace;white-space:pre;background:#111;padding:8px 8px 8px 56px}";
+/// Dark, so that a dark picture's edge shows; figures stand side by side where there is room and below each other where there is not.
+const STYLE: &str = "body{font:14px/1.4 sans-serif;background:#222;color:#ddd;margin:16px}h1{margin:0}\
+    main{display:flex;flex-wrap:wrap;gap:16px 24px;margin:16px 0}figure{margin:0;max-width:100%}figcaption{margin-top:4px}\
+    img{width:100%;image-rendering:pixelated;background:#000;display:block}\
+    #wipe{position:relative;cursor:ew-resize;touch-action:none;--at:50%}#top{position:absolute;left:0;top:0;clip-path:inset(0 0 0 var(--at))}\
+    #wipe::after{content:'';position:absolute;top:0;bottom:0;left:var(--at);width:1px;background:#fff}\
+    input{width:100%;margin:8px 0 0}#scale{height:10px}pre,ol{background:#111;padding:8px;overflow:auto;margin:4px 0 16px}\
+    ol{font-family:monospace;white-space:pre;padding-left:56px}li::marker{color:#888}";
+
+/// The wipe follows the slider and the pointer over the pictures.
+const SCRIPT: &str = "const box=document.getElementById('wipe'),bar=document.querySelector('input'),\
+    show=v=>{bar.value=v;box.style.setProperty('--at',bar.value+'%')};bar.oninput=()=>show(bar.value);\
+    box.onpointermove=box.onpointerdown=e=>{const r=box.getBoundingClientRect();show(100*(e.clientX-r.left)/r.width)};";
+
+/// The width at which a picture is shown: a whole number of screen pixels per pixel, about 384 in all.
+fn shown_width(picture: &Picture) -> u32 {
+    picture.width * (384 / picture.width).max(1)
+}
 
 impl Page<'_> {
     /// The page as HTML.
     pub fn html(&self) -> Result<String, Failed> {
         let Page { name, what, scene, actual, expected } = self;
         let mut page = format!(
-            "<!doctype html>\n<meta charset=utf-8>\n<title>{}</title>\n<style>{STYLE}</style>\n<h1>{}</h1>\n<p>{}</p>\n",
-            escaped(name),
+            "<!doctype html>\n<html lang=en>\n<meta charset=utf-8>\n<meta name=viewport content=\"width=device-width\">\n\
+             <title>{0}</title>\n<style>{STYLE}</style>\n<h1>{0}</h1>\n<p>{1}</p>\n<main>\n",
             escaped(name),
             escaped(what)
         );
-        let made = data(actual)?;
-        figure(&mut page, &made, "actual");
+        let of_one_size = expected.filter(|e| (e.width, e.height) == (actual.width, actual.height));
         if let Some(expected) = expected {
-            let golden = data(expected)?;
-            figure(&mut page, &golden, "expected");
-            if (expected.width, expected.height) == (actual.width, actual.height) {
-                let _ = writeln!(
-                    page,
-                    "<figure><div id=wipe><img src=\"{golden}\"><img id=top src=\"{made}\"></div>\
-                     <input type=range value=50 oninput=\"document.getElementById('top').style.clipPath='inset(0 0 0 '+this.value+'%)'\">\
-                     <figcaption>wipe: expected | actual</figcaption></figure>"
-                );
-                figure(&mut page, &data(&difference(actual, expected).picture)?, "difference, times 8");
-                let (map, mean, largest) = flip_map(expected, actual);
-                let caption =
-                    format!("FLIP: what the eye sees; mean {mean:.4}, largest {largest:.4} (black 0, pale yellow 1)");
-                figure(&mut page, &data(&map)?, &caption);
-            }
+            figure(&mut page, expected, "expected", "")?;
+        }
+        figure(&mut page, actual, "actual", "")?;
+        if let Some(expected) = of_one_size {
+            let width = shown_width(actual);
+            let _ = writeln!(
+                page,
+                "<figure style=width:{width}px><div id=wipe><img alt=expected src=\"{}\"><img id=top alt=actual src=\"{}\"></div>\
+                 <input type=range value=50 step=any aria-label=wipe><figcaption>wipe: expected | actual</figcaption></figure>",
+                data(expected)?,
+                data(actual)?
+            );
+            figure(&mut page, &difference(actual, expected).picture, "difference, times 8", "")?;
+            let (map, mean, largest) = flip_map(expected, actual);
+            let caption = format!("FLIP, what the eye sees: mean {mean:.4}, largest {largest:.4}");
+            figure(&mut page, &map, &caption, &false_colours())?;
+        }
+        page.push_str("</main>\n");
+        if of_one_size.is_some() {
+            let _ = writeln!(page, "<script>{SCRIPT}</script>");
         }
         let accept = escaped(&command(name));
         let _ = write!(page, "<p>Accept it, when it is right, with</p>\n<pre>{accept}</pre>\n<p>The scene:</p>\n<ol>");
@@ -69,8 +87,26 @@ impl Page<'_> {
     }
 }
 
-fn figure(page: &mut String, source: &str, caption: &str) {
-    let _ = writeln!(page, "<figure><img src=\"{source}\"><figcaption>{}</figcaption></figure>", escaped(caption));
+/// A picture with what it shows below it, and below that what explains its colours.
+fn figure(page: &mut String, picture: &Picture, caption: &str, legend: &str) -> Result<(), Failed> {
+    let (width, caption) = (shown_width(picture), escaped(caption));
+    let _ = writeln!(
+        page,
+        "<figure style=width:{width}px><img alt=\"{caption}\" src=\"{}\"><figcaption>{caption}</figcaption>{legend}</figure>",
+        data(picture)?
+    );
+    Ok(())
+}
+
+/// The colours of the FLIP map from 0 to 1, as a bar.
+fn false_colours() -> String {
+    let stops: Vec<String> = (0..=8)
+        .map(|k| {
+            let [r, g, b] = magma(k as f32 / 8.0).map(|c| (c * 255.0 + 0.5) as u8);
+            format!("rgb({r} {g} {b})")
+        })
+        .collect();
+    format!("<div id=scale style=\"background:linear-gradient(90deg,{})\"></div>0 to 1", stops.join(","))
 }
 
 fn escaped(text: &str) -> String {
@@ -144,8 +180,11 @@ pub fn check_page() -> Result<(), Failed> {
         ("<img ", 6),
         ("src=\"data:image/png;base64,iVBORw0KGgo", 6),
         ("type=range", 1),
-        ("difference, times 8", 1),
-        ("FLIP: what the eye sees", 1),
+        ("difference, times 8", 2),
+        // The picture's alternative text, and its caption.
+        ("FLIP, what the eye sees", 2),
+        ("linear-gradient(", 1),
+        ("<script>", 1),
         ("cargo xtask golden accept family/case --reason &quot;why it changed&quot;", 1),
         ("<li>    objects: [Sphere(center: (0, 0, 0), radius: 1)], // 1 &lt; 2 &amp; 3", 1),
         ("src=", 6),
@@ -156,8 +195,8 @@ pub fn check_page() -> Result<(), Failed> {
     }
     // A new case has nothing to be compared with.
     let alone = Page { expected: None, ..page }.html()?;
-    if alone.matches("<img ").count() != 1 {
-        return Err(format!("one picture was expected in\n{alone}").into());
+    if alone.matches("<img ").count() != 1 || alone.contains("<script>") {
+        return Err(format!("one picture and no wipe were expected in\n{alone}").into());
     }
     // The test vectors of RFC 4648, section 10.
     for (bytes, text) in

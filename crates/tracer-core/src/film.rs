@@ -245,7 +245,8 @@ mod tests {
                 filled(|pixel| {
                     let h = (k * 64 + pixel as u32).wrapping_mul(0x9e37_79b9);
                     let sign = if h & 16 == 0 { 1.0 } else { -1.0 };
-                    f32::from_bits(0x3000_0000 + (h >> 5)) * sign
+                    // From 2^-31 to 1: the least leave rests of 2^-54 to 2^-51, which sums of the largest would round.
+                    f32::from_bits(0x3000_0000 + h % 0x0f80_0000) * sign
                 })
             })
             .collect();

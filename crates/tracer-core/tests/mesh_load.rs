@@ -131,6 +131,9 @@ fn materials_of_mtl_become_ours() {
             "not supported: `Ni` below 1 (1.5 is taken), `d` between 0 and 1 (taken as clear glass)".into(),
         ),
         ("d 1\nTr 1", diffuse([0.8; 3]), silent()),
+        // `Tr` alone is transparency.
+        ("Tr 0", diffuse([0.8; 3]), silent()),
+        ("Tr 1", Material::Transparent { ior: 1.5.into(), transmittance: [1.0; 3].into() }, silent()),
         (
             "Kd 2 0.5 -1\nmap_Bump -bm 2 b.png\nKe 1 0 0\nPr 0.5\nPm 0\nd -halo 1",
             diffuse([1.0, 0.5, 0.0]),

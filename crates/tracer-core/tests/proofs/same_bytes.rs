@@ -13,7 +13,7 @@ use tracer_core::lanes::level::Level;
 use tracer_core::{Crop, Film, Look, Observer, Progress, RenderOptions, Scene, Unobserved, develop};
 
 /// Every material, shape and way of shading, both kinds of texture and every wrap, copies, lights inside and outside, lens, background.
-fn everything() -> SceneDesc {
+pub(crate) fn everything() -> SceneDesc {
     use TextureFilter::{Bilinear, Nearest};
     let wall = |wrap, filter| glossy(picture_albedo(wrap, filter), 50.0, 0.3, true);
     let at = |x: f64, y: f64, z: f64, size: f64| vec![scale(size), Transform::Translate([x, y, z])];
@@ -73,7 +73,7 @@ fn picture_albedo(wrap: TextureWrap, filter: TextureFilter) -> scene_format::des
 }
 
 /// So many balls that they hang in the tree, in the dark but for one light; no lens, other filter.
-fn many_balls() -> SceneDesc {
+pub(crate) fn many_balls() -> SceneDesc {
     let mut random = tracer_reference::Random::new(9);
     let mut objects: Vec<Object> = (0..200)
         .map(|k| {
@@ -100,12 +100,12 @@ fn scenes() -> [(&'static str, SceneDesc); 2] {
 
 const SAMPLES: u32 = 21;
 
-fn options() -> RenderOptions {
+pub(crate) fn options() -> RenderOptions {
     RenderOptions { samples: Some(SAMPLES), seed: Some(77), threads: 1, ..RenderOptions::default() }
 }
 
 /// All that a film says of its pixels, as bits.
-fn bits(film: &Film) -> Vec<[u64; 4]> {
+pub(crate) fn bits(film: &Film) -> Vec<[u64; 4]> {
     let Crop { x, y, width, height } = film.crop();
     let pixels = (y..y + height).flat_map(|py| (x..x + width).map(move |px| (px, py)));
     pixels
@@ -143,7 +143,7 @@ fn threads_and_lanes() {
 }
 
 /// The part of a picture.
-fn cut(picture: &[[u64; 4]], size: [u32; 2], crop: Crop) -> Vec<[u64; 4]> {
+pub(crate) fn cut<T: Copy>(picture: &[T], size: [u32; 2], crop: Crop) -> Vec<T> {
     let rows = crop.y..crop.y + crop.height;
     rows.flat_map(|y| (crop.x..crop.x + crop.width).map(move |x| picture[(y * size[0] + x) as usize])).collect()
 }

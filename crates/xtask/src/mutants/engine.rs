@@ -128,7 +128,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: SHARE,
         find: "density * survival",
         replace: "density",
-        caught_by: proofs(&["reuse::"]),
+        caught_by: proofs(&["shared_roulette"]),
     },
     // Surfaces.
     Mutant {
@@ -150,7 +150,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: SURFACE,
         find: "[b0 * rescale, b1 * rescale, b2 * rescale]",
         replace: "[b0 * rescale, b2 * rescale, b1 * rescale]",
-        caught_by: proofs(&["figures::figure_1"]),
+        caught_by: proofs(&["textures", "seams"]),
     },
     Mutant {
         name: "instance-normal-by-the-matrix",

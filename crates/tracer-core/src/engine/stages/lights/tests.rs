@@ -90,6 +90,7 @@ fn samples_meet_the_light() {
             assert_eq!(scalar(sample.pdf), scalar(pdf(&lights, k, v)), "distance {distance}");
             let (wi, t) = (point(sample.wi), scalar(sample.distance));
             assert!((wi.length() - 1.0).abs() < 2e-6);
+            assert!(t > 0.0 || (distance - 1.0).abs() < 1e-2, "behind, from distance {distance}: {t}");
             let met = p.as_dvec3() + t * wi - center;
             // The chord's end is found to sqrt(rounding) where the direction only just touches.
             let rounding = 1e-6 * distance.max(1.0);
@@ -160,6 +161,29 @@ fn lights_are_chosen_as_their_probabilities_say() {
         }
         let expected: Vec<f64> = chances.iter().map(|c| c * f64::from(n)).collect();
         assert!(chi_square(&counts, &expected) > level, "{counts:?} {expected:.0?}");
+    }
+}
+
+/// The density of a direction to one of several lights is that of the light times that of the direction to it, however it is asked for.
+#[test]
+fn densities_hold_the_choice_of_the_light() {
+    let lights = [(DVec3::ZERO, 0.5, 1.0), (DVec3::X * 3.0, 0.2, 4.0), (DVec3::Y * 2.0, 1.0, 0.5)];
+    let table = table(&lights);
+    let mut random = Random::new(5);
+    for p in [[1.0, 1.0, 1.0], [0.1, 0.2, -0.1], [-8.0, 3.0, 5.0]] {
+        let v = V3::<S>::splat(p);
+        for (k, (center, radius, _)) in lights.iter().enumerate() {
+            let light = <S as Lanes>::U::splat(k as u32);
+            let chance = probability(&table, light, v);
+            let distance = (DVec3::from(p.map(f64::from)) - center).length() / radius;
+            let expected = scalar(chance) / solid_angle(distance);
+            // Some twenty roundings of 2^-24.
+            let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
+            assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, v))), "light {k} from {p:?}");
+            let choice = Choice { light, probability: chance };
+            let sample = sample(&table, &choice, v, number(&mut random), number(&mut random));
+            assert!(is_right(scalar(sample.pdf)), "light {k} from {p:?}, sampled");
+        }
     }
 }
 

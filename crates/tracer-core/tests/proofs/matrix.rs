@@ -1,0 +1,91 @@
+//! The picture is the same, byte for byte, in every combination: threads x lanes x crop x acceleration, with batches of 4, 8, 12 and 16
+//! items. [`crate::same_bytes`] goes further along each of these alone. Builds with and without optimisation are compared by the
+//! goldens (CONTRIBUTING.md names the command).
+
+use crate::same_bytes::{bits, cut, everything, many_balls, options};
+use crate::support::compiled;
+use crate::support::describe::*;
+use crate::support::meshes::{icosphere, torus};
+use scene_format::SceneDesc;
+use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform};
+use tracer_core::lanes::level::Level;
+use tracer_core::{Crop, RenderOptions, Unobserved, develop};
+
+/// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map.
+fn plain(filter: PixelFilter, tone_map: ToneMap) -> SceneDesc {
+    let tinted = Material::Transparent { ior: 1.4.into(), transmittance: [0.9, 0.6, 0.4].into() };
+    let objects = vec![
+        sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.6; 3])),
+        sphere([-1.2, 1.0, 0.0], 1.0, tinted.clone()),
+        mesh(&icosphere(1).obj("icosphere-1"), tinted, Shading::Flat, vec![Transform::Translate([1.2, 1.0, 0.0])]),
+        mesh(
+            &torus(0.4, 12, 8).obj("torus-12-8"),
+            conserving([0.3, 0.6, 0.9], 20.0, 0.8),
+            Shading::Smooth,
+            vec![Transform::Translate([0.0, 0.4, 2.5])],
+        ),
+    ];
+    let mut desc = scene(37, vec![light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0])], objects)
+        .camera([0.5, 3.0, 9.0], [0.0, 1.0, 0.0], 35.0)
+        .background([0.1, 0.2, 0.3])
+        .bounces(4)
+        .filter(filter);
+    desc.render.reuse = Reuse::None;
+    desc.effects.exposure = 0.7.into();
+    desc.effects.tone_map = tone_map;
+    desc
+}
+
+/// A pass of one sample puts four tiles into a batch: rows of one, two, three and four tiles make batches of 4, 8, 12 and 16
+/// items. Each begins or ends within a tile.
+const CROPS: [Crop; 4] = [
+    Crop { x: 3, y: 17, width: 11, height: 9 },
+    Crop { x: 9, y: 2, width: 20, height: 13 },
+    Crop { x: 1, y: 19, width: 33, height: 12 },
+    Crop { x: 12, y: 12, width: 14, height: 16 },
+];
+
+fn every_combination(name: &str, mut desc: SceneDesc) {
+    let look = compiled(&desc).look;
+    let mut expected = None;
+    for acceleration in [Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None] {
+        desc.render.acceleration = acceleration;
+        let scene = compiled(&desc);
+        let whole = Crop::whole(scene.size);
+        // Without hardware fma a sample costs a hundred times more: `same_bytes` has that level.
+        for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
+            for threads in [1, 3] {
+                for crop in std::iter::once(whole).chain(CROPS) {
+                    let options = RenderOptions { threads, level: Some(level), crop: Some(crop), ..options() };
+                    let film = tracer_core::render(&scene, &options, &Unobserved);
+                    let (film_bits, image) = (bits(&film), develop(&film, &look));
+                    let (pixels, display) = expected.get_or_insert_with(|| (film_bits.clone(), image.display.clone()));
+                    let place = format!("{name}: {acceleration:?}, {}, {threads} threads, {crop:?}", level.name());
+                    assert!(film_bits == cut(pixels, scene.size, crop), "the film differs: {place}");
+                    let colors: Vec<[f32; 3]> = display.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
+                    let part = cut(&colors, scene.size, crop);
+                    assert!(image.display == part.as_flattened(), "the picture differs: {place}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn everything_in_every_combination() {
+    every_combination("everything", everything());
+}
+
+#[test]
+fn many_balls_in_every_combination() {
+    let mut desc = many_balls();
+    // Three tiles across, as the others.
+    (desc.image.width, desc.image.height) = (37.into(), 37.into());
+    every_combination("many balls", desc);
+}
+
+#[test]
+fn pixels_for_themselves_in_every_combination() {
+    every_combination("box filter, AgX", plain(PixelFilter::Box, ToneMap::AgX));
+    every_combination("no filter, filmic", plain(PixelFilter::None, ToneMap::Filmic));
+}

@@ -1,0 +1,85 @@
+//! What the golden scenes cover: every material in every shape under every effect.
+
+use libtest_mimic::Failed;
+use scene_format::SceneDesc;
+use scene_format::desc::{Albedo, Material, MaterialRef, Object, PixelFilter, Placements, Shading, ToneMap};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+const MATERIALS: [&str; 5] = ["diffuse", "texture", "mirror", "transparent", "Blinn-Phong"];
+const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a mesh"];
+const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
+
+/// Fails where a combination is shown by no scene. What a scene is about is its first object.
+pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {
+    let mut shown = BTreeSet::new();
+    for file in scenes {
+        let scene = scene_format::load(file).map_err(|e| format!("{}: {e}", file.display()))?.scene;
+        if let (Some(material), Some(shape)) = (material(&scene), shape(&scene)) {
+            shown.extend(effects(&scene).into_iter().map(|effect| (material, shape, effect)));
+        }
+    }
+    let all = MATERIALS.iter().flat_map(|&m| SHAPES.iter().flat_map(move |&s| EFFECTS.iter().map(move |&e| (m, s, e))));
+    let missing: Vec<String> =
+        all.filter(|case| !shown.contains(case)).map(|(m, s, e)| format!("{m}, {s}, {e}")).collect();
+    if missing.is_empty() { Ok(()) } else { Err(format!("no golden scene shows\n{}", missing.join("\n")).into()) }
+}
+
+fn material(scene: &SceneDesc) -> Option<&'static str> {
+    let used = match &scene.objects.first()?.value {
+        Object::Sphere(sphere) => &sphere.material,
+        Object::Mesh(mesh) => &mesh.material,
+    };
+    let material = match used {
+        MaterialRef::Default => return None,
+        MaterialRef::Named(name) => &scene.materials.iter().find(|m| m.name.value == name.value)?.material,
+        MaterialRef::Inline(material) => &material.value,
+    };
+    Some(match material {
+        Material::Diffuse { albedo: Albedo::Texture(_) } => "texture",
+        Material::Diffuse { .. } => "diffuse",
+        Material::Mirror { .. } => "mirror",
+        Material::Transparent { .. } => "transparent",
+        Material::BlinnPhong { .. } => "Blinn-Phong",
+    })
+}
+
+fn shape(scene: &SceneDesc) -> Option<&'static str> {
+    Some(match &scene.objects.first()?.value {
+        Object::Sphere(_) => "sphere",
+        Object::Mesh(mesh) if mesh.placements != Placements::One => "copies of a mesh",
+        Object::Mesh(mesh) if smooth(mesh) => "smooth mesh",
+        Object::Mesh(_) => "flat mesh",
+    })
+}
+
+/// `Auto` is smooth where the file has normals.
+fn smooth(mesh: &scene_format::desc::Mesh) -> bool {
+    match mesh.shading {
+        Shading::Smooth => true,
+        Shading::Flat => false,
+        Shading::Auto => mesh.file.value.file_stem().is_some_and(|name| name == "icosphere"),
+    }
+}
+
+/// An effect is one that differs from what a scene without a word about it has.
+fn effects(scene: &SceneDesc) -> Vec<&'static str> {
+    let effects = &scene.effects;
+    let mut found = Vec::new();
+    if effects.antialiasing != PixelFilter::default() {
+        found.push("antialiasing");
+    }
+    if effects.depth_of_field.is_some() {
+        found.push("depth of field");
+    }
+    if effects.exposure.value != 0.0 {
+        found.push("exposure");
+    }
+    if effects.tone_map != ToneMap::None {
+        found.push("tone map");
+    }
+    if found.is_empty() {
+        found.push("no effect");
+    }
+    found
+}
