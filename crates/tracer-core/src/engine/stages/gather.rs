@@ -2,7 +2,7 @@
 //!
 //! Nearly all of the time is waiting for memory, so the work is cut into loops without branches that depend on what was just looked up:
 //! which queries have photons near, which runs of photons these are, and the photons themselves. The processor then waits for
-//! many at once (one loop for all took 2.3 times as long).
+//! many at once (one loop for all took half as long again).
 
 use crate::engine::batch::{Batch, Queries};
 use crate::engine::caustics::map::{Grid, Map, OFFSET};
