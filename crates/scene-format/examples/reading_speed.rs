@@ -2,7 +2,7 @@
 //!
 //! Writes a scene of 100,000 spheres in each syntax into memory and reads it several times.
 
-use scene_format::{Syntax, load_str};
+use scene_format::{Syntax, load_bytes};
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -15,8 +15,9 @@ fn main() {
         let text = scene(syntax);
         let mut best = f64::INFINITY;
         for _ in 0..RUNS {
+            let bytes = text.clone().into_bytes();
             let start = Instant::now();
-            let loaded = load_str("speed", &text, syntax, Path::new(""), &[]);
+            let loaded = load_bytes("speed", bytes, Some(syntax), Path::new(""), &[]);
             let seconds = start.elapsed().as_secs_f64();
             match loaded {
                 Ok(loaded) => assert_eq!(loaded.scene.objects.len(), SPHERES),

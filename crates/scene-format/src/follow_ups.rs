@@ -21,6 +21,7 @@ const LINE_BYTES: usize = 400;
 
 /// Leaves out what follows from other faults. `read` gives the errors of another text.
 pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: impl Fn(&str) -> Vec<Diagnostic>) {
+    leave_out_conflicts(diagnostics);
     let errors: Vec<Diagnostic> =
         diagnostics.iter().filter(|fault| fault.severity == Severity::Error).cloned().collect();
     if errors.len() < 2 || errors.len() > MANY || text.len() > LONG {
@@ -53,6 +54,18 @@ pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: imp
         !error || !follows[index - 1]
     });
     diagnostics.extend(root);
+}
+
+/// That a table was written before follows, where that table is told to be none.
+fn leave_out_conflicts(diagnostics: &mut Vec<Diagnostic>) {
+    let wrong: Vec<Span> =
+        diagnostics.iter().filter(|fault| fault.code == codes::WRONG_TYPE).map(|fault| fault.span).collect();
+    let within = |span: Span| {
+        let mut wrong = wrong.iter();
+        wrong.any(|wrong| wrong.source == span.source && wrong.start <= span.start && span.end <= wrong.end)
+    };
+    diagnostics
+        .retain(|fault| fault.code != codes::TABLE_CONFLICT || !fault.labels.iter().any(|label| within(label.span)));
 }
 
 /// What is tried, and with what the outcome is compared.
@@ -156,6 +169,9 @@ fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
         }
     }
     let excess = excess(text);
+    if excess != [0; 3] {
+        lines.extend(uneven_lines(text, excess, &lines));
+    }
     let mut found = Vec::new();
     for line in &lines {
         let quotes = text[line.clone()].matches('"').count() % 2 == 1;
@@ -189,7 +205,8 @@ fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
         };
         let bytes = text.as_bytes();
         let edges = line.clone().filter(|&at| {
-            at > 0 && bytes[at - 1] == b'.'
+            bytes[at] == b'.'
+                || at > 0 && bytes[at - 1] == b'.'
                 || word(at.checked_sub(1).and_then(|before| bytes.get(before))) != word(bytes.get(at))
         });
         let missing: &[&'static str] = if quotes { &["\""] } else { &OPENERS };
@@ -217,6 +234,25 @@ fn excess_of(byte: Option<u8>, kind: usize) -> i32 {
     const KINDS: [(u8, u8); 3] = [(b'(', b')'), (b'[', b']'), (b'{', b'}')];
     let (open, close) = KINDS[kind];
     i32::from(byte == Some(open)) - i32::from(byte == Some(close))
+}
+
+/// Lines whose own brackets are as uneven as those of the file, and that begin with something other than a bracket which closes: there
+/// one is likely to be missing or too many, wherever it is noticed.
+fn uneven_lines(text: &str, excess: [i32; 3], known: &[Range<usize>]) -> Vec<Range<usize>> {
+    let mut at = 0;
+    let lines = text.split('\n').map(|line| {
+        let start = at;
+        at += line.len() + 1;
+        start..start + line.len()
+    });
+    let uneven = lines.filter(|line| {
+        let written = &text[line.clone()];
+        line.len() <= LINE_BYTES
+            && !written.trim_start().starts_with([')', ']', '}'])
+            && self::excess(written) == excess
+            && !known.contains(line)
+    });
+    uneven.take(LINES).collect()
 }
 
 /// How many more brackets of each kind open than close, outside texts and comments.

@@ -160,6 +160,13 @@ impl<'t, 's> Item<'t, 's> {
         self.index
     }
 
+    /// Another node of the tree; `None` for `NOWHERE`.
+    #[inline]
+    pub fn other(&self, index: u32) -> Option<Item<'t, 's>> {
+        let index = index as usize;
+        (index != NOWHERE as usize).then(|| Item { tree: self.tree, index, node: self.tree.nodes.at(index) })
+    }
+
     pub fn kind(&self) -> Kind {
         match self.node.kind {
             Kind::ImpliedTable | Kind::HeaderTable | Kind::DottedTable => Kind::Map,
@@ -200,7 +207,15 @@ impl<'t, 's> Item<'t, 's> {
             return None;
         }
         let lexeme = self.lexeme();
-        let end = lexeme.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(lexeme.len());
+        let bytes = lexeme.as_bytes();
+        let plain =
+            bytes.iter().position(|byte| !(byte.is_ascii_alphanumeric() || *byte == b'_')).unwrap_or(bytes.len());
+        let end = match bytes.get(plain) {
+            Some(byte) if !byte.is_ascii() => {
+                lexeme.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(lexeme.len())
+            }
+            _ => plain,
+        };
         (end > 0).then(|| &lexeme[..end])
     }
 

@@ -113,6 +113,12 @@ impl Site<'_> {
         self.is(0, Kind::Word, &[]) && self.here().starts_with(char::is_uppercase) && self.sign(1, &["(", "="])
     }
 
+    /// Whether a bracket closes next, comments aside: before it no comma is needed.
+    fn closes_next(&self) -> bool {
+        let mut next = self.tokens.iter().skip(self.index + 1).skip_while(|token| token.kind == Kind::Comment);
+        next.next().is_some_and(|token| matches!(&self.text[token.at.clone()], ")" | "]" | "}"))
+    }
+
     /// The sign that closes the bracket which opens here.
     fn close(&self) -> Option<usize> {
         let mut depth = 0;
@@ -155,7 +161,7 @@ fn when(holds: bool) -> Option<()> {
 
 const MISTAKES: &[Mistake] = mistakes![
     // Signs.
-    BOTH "no comma" |s| { when(s.sign(0, &[","]) && !s.sign(1, &[")", "]", "}"]))?; s.becomes("") };
+    BOTH "no comma" |s| { when(s.sign(0, &[","]) && !s.closes_next())?; s.becomes("") };
     BOTH "two commas" |s| { when(s.sign(0, &[","]))?; s.becomes(",,") };
     RON "a semicolon for a comma" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
     TOML "a semicolon for a comma in TOML" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
@@ -349,6 +355,15 @@ fn points_at(fault: &Diagnostic, broken: &str, at: usize) -> bool {
     ends || seen(&fault.span) || fault.labels.iter().any(|label| seen(&label.span))
 }
 
+/// Whether a bracket is told to be one too many, and nothing is wrong without it: of two in a row, on two lines, it may be either.
+fn may_go(fault: &Diagnostic, broken: &str, syntax: Syntax) -> bool {
+    fault.code == "E0103"
+        && fault.edit.as_ref().is_some_and(|edit| {
+            let (start, end) = (edit.span.start as usize, edit.span.end as usize);
+            errors(&format!("{}{}{}", &broken[..start], edit.replacement, &broken[end..]), syntax).is_empty()
+        })
+}
+
 fn scenes() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut folders = vec![root.join("scenes"), root.join("golden"), root.join("crates/tracer/templates")];
@@ -371,14 +386,11 @@ fn scenes() -> Vec<(String, String)> {
     found
 }
 
-/// One in so many may be wrong: a comma after the only item of a list need not be there, and a bracket that is missing deep within lists,
-/// or curly quotes around a TOML name with a dot or a blank in it, still give two or three errors.
-const KNOWN_TO_FAIL: usize = 100;
-
 #[test]
 fn one_mistake_is_one_error_at_its_line() {
     /// Sites that are tried of each mistake in each scene.
     const TRIES: usize = 3;
+    let tries = std::env::var("SCENE_MISTAKES").map_or(TRIES, |tries| tries.parse().expect("a number of sites"));
     let mut random = Random(17);
     let scenes = scenes();
     assert!(scenes.len() > 100, "only {} scenes", scenes.len());
@@ -395,13 +407,13 @@ fn one_mistake_is_one_error_at_its_line() {
                 let mut sites: Vec<(Range<usize>, String)> = (0..tokens.len())
                     .filter_map(|index| (mistake.make)(&Site { text, tokens: &tokens, index }))
                     .collect();
-                for _ in 0..TRIES.min(sites.len()) {
+                for _ in 0..tries.min(sites.len()) {
                     let (at, replacement) = sites.swap_remove(random.below(sites.len()));
                     let broken = format!("{}{replacement}{}", &text[..at.start], &text[at.end..]);
                     let found = errors(&broken, syntax);
                     // A mistake may mean something: a plural that is a name, too.
                     count.0 += 1;
-                    let right = matches!(found.as_slice(), [fault] if points_at(fault, &broken, at.start));
+                    let right = matches!(found.as_slice(), [fault] if points_at(fault, &broken, at.start) || may_go(fault, &broken, syntax));
                     if right {
                         continue;
                     }
@@ -423,7 +435,7 @@ fn one_mistake_is_one_error_at_its_line() {
     let mut report = String::new();
     for (mistake, (tried, wrong, examples)) in MISTAKES.iter().zip(&counts) {
         assert!(*tried > 0, "nowhere can one make the mistake \"{}\"", mistake.name);
-        if *wrong * KNOWN_TO_FAIL > *tried {
+        if *wrong > 0 {
             let _ = writeln!(report, "{}: {wrong} of {tried}\n{examples}", mistake.name);
         }
     }

@@ -17,7 +17,7 @@ use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::schema::{FieldDef, StructDef};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
-use crate::tree::{Item, Kind};
+use crate::tree::{Item, Kind, NOWHERE};
 use crate::words::Words;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -56,8 +56,25 @@ struct Materials {
 /// Fields of one struct, by their number in the schema.
 pub(crate) struct Fields<'t, 's> {
     def: &'static StructDef,
-    slots: [Option<Item<'t, 's>>; MAX_FIELDS],
+    /// Any item of the tree.
+    of: Item<'t, 's>,
+    /// Places on the tape: the items themselves are eight times as large, and each struct of a scene is moved about like this.
+    slots: [u32; MAX_FIELDS],
     next: usize,
+}
+
+impl<'t, 's> Fields<'t, 's> {
+    fn new(def: &'static StructDef, of: Item<'t, 's>) -> Fields<'t, 's> {
+        Fields { def, of, slots: [NOWHERE; MAX_FIELDS], next: 0 }
+    }
+
+    fn get(&self, slot: usize) -> Option<Item<'t, 's>> {
+        self.of.other(self.slots[slot])
+    }
+
+    fn set(&mut self, slot: usize, item: Item<'t, 's>) {
+        self.slots[slot] = item.index() as u32;
+    }
 }
 
 /// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
@@ -128,7 +145,7 @@ impl<'r> Reader<'r> {
         def: &'static StructDef,
     ) -> Option<Fields<'t, 's>> {
         debug_assert!(def.fields.len() <= MAX_FIELDS);
-        let mut fields = Fields { def, slots: [None; MAX_FIELDS], next: 0 };
+        let mut fields = Fields::new(def, item);
         match item.kind() {
             Kind::Broken => return None,
             Kind::Struct | Kind::Map => {}
@@ -139,7 +156,7 @@ impl<'r> Reader<'r> {
                     (None, ..) => {}
                     (Some(only), None, Some(bare)) => {
                         let slot = def.fields.iter().position(|field| field.name == bare)?;
-                        fields.slots[slot] = Some(only);
+                        fields.set(slot, only);
                     }
                     (Some(first), ..) => {
                         self.report(
@@ -182,12 +199,12 @@ impl<'r> Reader<'r> {
                 None => self.unknown_field(key, &name, item, def),
                 Some(slot) => {
                     guess = slot + 1;
-                    if let Some(first) = fields.slots[slot] {
+                    if let Some(first) = fields.get(slot) {
                         self.path.push(Step::Field(def.fields[slot].name));
                         self.duplicate(key, &name, first);
                         self.path.pop();
                     } else {
-                        fields.slots[slot] = Some(value);
+                        fields.set(slot, value);
                     }
                 }
             }
@@ -199,8 +216,8 @@ impl<'r> Reader<'r> {
     }
 
     fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {
-        for (field, slot) in def.fields.iter().zip(&fields.slots) {
-            if slot.is_none() && field.default.is_none() && !self.mistyped(item, def, field.name) {
+        for (field, &slot) in def.fields.iter().zip(&fields.slots) {
+            if slot == NOWHERE && field.default.is_none() && !self.mistyped(item, def, field.name) {
                 let mut fault = Diagnostic::error(
                     codes::MISSING_FIELD,
                     item.head(),
@@ -218,7 +235,7 @@ impl<'r> Reader<'r> {
             return;
         }
         let written = || {
-            let all = def.fields.iter().zip(&fields.slots);
+            let all = def.fields.iter().enumerate().map(|(slot, field)| (field, fields.get(slot)));
             all.filter(|(field, slot)| slot.is_some() && def.exactly_one.contains(&field.name))
         };
         let choice = suggest::list(def.exactly_one);
@@ -300,7 +317,7 @@ impl<'r> Reader<'r> {
     /// Reads the next field of the schema.
     pub fn field<T: Words>(&mut self, fields: &mut Fields<'_, '_>, default: Option<fn() -> T>) -> Option<T> {
         let at = fields.def.fields.get(fields.next)?;
-        let item = fields.slots[fields.next];
+        let item = fields.get(fields.next);
         fields.next += 1;
         match item {
             Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),

@@ -252,8 +252,8 @@ impl Reader<'_> {
                     && !matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Broken)
                 {
                     let slot = def.fields.iter().position(|field| field.name == bare)?;
-                    let mut fields = Fields { def, slots: [None; super::MAX_FIELDS], next: 0 };
-                    fields.slots[slot] = Some(item);
+                    let mut fields = Fields::new(def, item);
+                    fields.set(slot, item);
                     return Some(fields);
                 }
                 self.fields(item, def)

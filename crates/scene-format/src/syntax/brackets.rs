@@ -128,11 +128,15 @@ pub(super) fn wrong_kind(text: &str, source: u16, open: Open, name: &str, at: us
 }
 
 /// A closing bracket without an opening one.
-pub(super) fn stray(source: u16, at: usize) -> Diagnostic {
+pub(super) fn stray(text: &str, source: u16, at: usize) -> Diagnostic {
     let found = span(source, at, at + 1);
+    // Between two commas one of them goes with it.
+    let after = text[at + 1..].trim_start();
+    let comma = after.starts_with(',') && text[..at].trim_end().ends_with(',');
+    let end = if comma { text.len() - after.len() + 1 } else { at + 1 };
     let mut fault = Diagnostic::error(codes::STRAY_BRACKET, found, "this bracket closes nothing");
     fault.hint = "remove it, or open one before it".to_owned();
-    fault.edit = Some(Edit { span: found, replacement: String::new() });
+    fault.edit = Some(Edit { span: span(source, at, end), replacement: String::new() });
     fault
 }
 

@@ -117,7 +117,7 @@ impl<'p> Parser<'p> {
             let start = self.at;
             let end = start + self.rest().trim_end().lines().next().map_or(1, |line| line.trim_end().len());
             if matches!(self.peek(), Some(b')' | b']' | b'}')) {
-                self.sink.push(brackets::stray(self.builder.source, start));
+                self.sink.push(brackets::stray(self.text, self.builder.source, start));
                 return;
             }
             let found = self.span(start, end);
@@ -180,16 +180,38 @@ impl<'p> Parser<'p> {
         }
     }
 
+    /// `mirror 0.5` or `glossy tabby`, a name of several words without its quotes: its length.
+    fn name_of_words(&self, start: usize) -> Option<usize> {
+        if self.peek() != Some(b' ') {
+            return None;
+        }
+        let line = super::line_ahead(self.text, start);
+        let name = line.split([',', ')', ']', '}', '/']).next()?.trim_end();
+        let of_name = |word: &str| {
+            word.starts_with(|c: char| c.is_lowercase() || c.is_ascii_digit())
+                && word.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-' | b'.'))
+        };
+        (name.contains(' ') && name.split(' ').filter(|word| !word.is_empty()).all(of_name)).then_some(name.len())
+    }
+
     /// A bare word, or a text that has no quotes: `cat.obj`.
     fn word(&mut self, start: usize) {
         let end = self.at;
+        if let Some(length) = self.name_of_words(start) {
+            return self.text_without_quotes(start, start + length);
+        }
         if !matches!(self.peek(), Some(b'.' | b'"' | b'/' | b'\\' | b'-')) || self.rest().starts_with("//") {
             return self.builder.leaf(Kind::Word, start, end);
         }
         let rest = &self.text[start..];
         let length = rest.find([',', ')', ']', '}', ' ', '\t', '\r', '\n']).unwrap_or(rest.len());
-        self.at = start + length;
-        let text = rest[..length].trim_end_matches('"');
+        self.text_without_quotes(start, start + length);
+    }
+
+    /// A text that has no quotes stands here.
+    fn text_without_quotes(&mut self, start: usize, end: usize) {
+        self.at = end;
+        let text = self.text[start..end].trim_end_matches('"');
         let found = self.span(start, self.at);
         let mut fault =
             Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
@@ -278,7 +300,7 @@ impl<'p> Parser<'p> {
                         break;
                     }
                     Fate::Stray => {
-                        self.sink.push(brackets::stray(self.builder.source, self.at));
+                        self.sink.push(brackets::stray(self.text, self.builder.source, self.at));
                         self.at += 1;
                         self.trivia();
                         if self.peek() == Some(b',') {

@@ -240,6 +240,17 @@ impl Parser<'_> {
                 }
                 return Vec::new();
             }
+            if let Some((name, end)) = self.in_other_quotes() {
+                path.push(name);
+                self.colon = None;
+                self.resume(end);
+                self.space();
+                if self.kind != TokenKind::Dot {
+                    return path;
+                }
+                self.bump();
+                continue;
+            }
             let colon = self.kind == TokenKind::Atom && self.lexeme().ends_with(':');
             path.push(self.span.start()..self.span.end() - usize::from(colon));
             self.colon = colon.then(|| self.span.end() - 1);
@@ -345,7 +356,7 @@ impl Parser<'_> {
                 self.skip_line();
                 let end = self.previous_end.max(start);
                 if close {
-                    return self.sink.push(brackets::stray(self.values.source, start));
+                    return self.sink.push(brackets::stray(self.text, self.values.source, start));
                 }
                 let found = self.range(start, end);
                 let mut fault = Diagnostic::error(codes::TEXT_AFTER_END, found, format!("{what} ended before this"))

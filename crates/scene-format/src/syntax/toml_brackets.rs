@@ -209,7 +209,7 @@ impl Parser<'_> {
                 Next::End
             }
             Fate::Stray => {
-                self.sink.push(brackets::stray(self.values.source, self.span.start()));
+                self.sink.push(brackets::stray(self.text, self.values.source, self.span.start()));
                 self.bump();
                 self.trivia_in_bracket();
                 if self.kind == TokenKind::Comma {

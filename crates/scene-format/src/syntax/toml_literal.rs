@@ -6,6 +6,7 @@ use super::toml::Parser;
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
+use std::ops::Range;
 use toml_parser::lexer::TokenKind;
 
 impl Parser<'_> {
@@ -133,13 +134,26 @@ impl Parser<'_> {
 
     /// `“text”`: quotes of a word processor.
     fn other_quotes(&mut self) -> bool {
+        let start = self.span.start();
+        let Some((_, end)) = self.in_other_quotes() else { return false };
+        self.values.leaf(Kind::Broken, start, end);
+        self.resume(end);
+        true
+    }
+
+    /// `“text”` ahead, which is reported: the text within, and where the last quote ends.
+    pub(super) fn in_other_quotes(&mut self) -> Option<(Range<usize>, usize)> {
         const QUOTES: [char; 6] = ['“', '”', '„', '‘', '’', '«'];
         let start = self.span.start();
+        if !self.lexeme().starts_with(QUOTES) {
+            return None;
+        }
         let line = super::line_ahead(self.text, start);
-        let Some(inner) = line.strip_prefix(QUOTES) else { return false };
-        let Some(length) = inner.find(['“', '”', '’', '»', '"']) else { return false };
+        let inner = line.strip_prefix(QUOTES)?;
+        let length = inner.find(['“', '”', '’', '»', '"'])?;
         let close = inner[length..].chars().next().map_or(0, char::len_utf8);
-        let end = start + (line.len() - inner.len()) + length + close;
+        let from = start + (line.len() - inner.len());
+        let end = from + length + close;
         let found = self.range(start, end);
         let mended = format!("\"{}\"", &inner[..length]);
         let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "these are no quotes of TOML")
@@ -147,9 +161,7 @@ impl Parser<'_> {
             .hint(format!("write {mended}"));
         fault.edit = Some(Edit { span: found, replacement: mended });
         self.sink.push(fault);
-        self.values.leaf(Kind::Broken, start, end);
-        self.resume(end);
-        true
+        Some((from..from + length, end))
     }
 
     /// `#ff8800` without quotes, which TOML takes for a comment.

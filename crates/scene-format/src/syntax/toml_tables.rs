@@ -7,7 +7,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind, NOWHERE, Node};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// A key: its bytes in the text.
@@ -45,6 +45,8 @@ pub(super) struct Tables<'s> {
     /// The first and the last `Added` node of tables that have some.
     added: HashMap<u32, (u32, u32)>,
     implied: usize,
+    /// Tables that a `[[header]]` of the same name came after, which was told once.
+    one_for_many: HashSet<u32>,
 }
 
 /// An inline table whose keys have dots, as deep in `Tables::open`.
@@ -58,7 +60,15 @@ impl<'s> Tables<'s> {
         let line = text[first..].lines().next().unwrap_or("").trim_end().len();
         let root = builder.open_as(Kind::HeaderTable, first, first + line) as u32;
         let open = vec![Open { node: root, table: root }];
-        Tables { text, current: ROOT, open, names: Names::default(), added: HashMap::new(), implied: 0 }
+        Tables {
+            text,
+            current: ROOT,
+            open,
+            names: Names::default(),
+            added: HashMap::new(),
+            implied: 0,
+            one_for_many: HashSet::new(),
+        }
     }
 
     /// Ends the file's table; gives the first `Added` node of each table that has some.
@@ -244,6 +254,7 @@ impl<'s> Tables<'s> {
         let mut table = ROOT;
         for key in parents {
             match self.find(&builder.nodes, table, key) {
+                Some(found) if self.one_for_many.contains(&(found + 1)) => return None,
                 Some(found) if is_table(&builder.nodes, found + 1) => table = found + 1,
                 Some(found) if builder.nodes.at(found as usize + 1).kind == Kind::TableList => {
                     table = builder.nodes.at(found as usize + 1).end;
@@ -293,8 +304,12 @@ impl<'s> Tables<'s> {
                 (node.start, node.end) = (header.start as u32, header.end as u32);
                 Some(value)
             }
-            _ => {
-                self.conflict(last, found, builder, sink);
+            kind => {
+                // Of a list whose first header lacks its second brackets, all the others would be told.
+                let first = !many || kind != Kind::HeaderTable || self.one_for_many.insert(value);
+                if first {
+                    self.conflict(last, found, builder, sink);
+                }
                 None
             }
         }
