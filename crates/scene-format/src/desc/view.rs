@@ -64,8 +64,8 @@ scene_words! {
     /// Whether the pixels of a block share what they find. The picture is right on average either way.
     pub enum Reuse, "reuse" {
         /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time in the light that
-        /// one matt surface throws on another. Caustics gain nothing: light that comes by mirrors and glass stays with the pixel
-        /// whose path has found it.
+        /// one matt surface throws on another. Light gathered by mirrors and glass (caustics) gains nothing from it, for it stays
+        /// with the pixel whose path has found it; `render.caustics` is for that.
         Blocks,
         /// Every pixel for itself, as denoisers expect it.
         None,

@@ -14,6 +14,9 @@ pub(super) fn report(
     at: usize,
     builder: &mut Builder,
 ) -> Option<(usize, Diagnostic)> {
+    if !matches!(text.as_bytes().get(at), Some(b',' | b' ' | b'\t')) {
+        return None;
+    }
     let first = builder.nodes.get(mark)?;
     if !matches!(first.kind, Kind::Integer | Kind::Float) || builder.nodes.len() != mark + 1 {
         return None;

@@ -75,7 +75,20 @@ impl Parser<'_> {
     }
 
     /// White space and comments.
+    #[inline]
     pub(super) fn trivia(&mut self) {
+        // Within a line there is mostly nothing, or one space.
+        let bytes = self.text.as_bytes();
+        self.at += usize::from(bytes.get(self.at) == Some(&b' '));
+        let begins =
+            |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'(' | b')' | b'[' | b']' | b',' | b':' | b'"');
+        if self.indent == usize::MAX || !bytes.get(self.at).is_some_and(begins) {
+            self.lines();
+        }
+    }
+
+    /// White space and comments, however many.
+    fn lines(&mut self) {
         self.white_space();
         if self.indent == usize::MAX {
             self.indent = self.at - self.line;

@@ -145,7 +145,7 @@ impl Parser<'_> {
     pub(super) fn in_other_quotes(&mut self) -> Option<(Range<usize>, usize)> {
         const QUOTES: [char; 6] = ['“', '”', '„', '‘', '’', '«'];
         let start = self.span.start();
-        if !self.lexeme().starts_with(QUOTES) {
+        if self.lexeme().as_bytes().first().is_none_or(u8::is_ascii) {
             return None;
         }
         let line = super::line_ahead(self.text, start);

@@ -47,6 +47,10 @@ pub(super) struct Tables<'s> {
     implied: usize,
     /// Tables that a `[[header]]` of the same name came after, which was told once.
     one_for_many: HashSet<u32>,
+    /// The key of the last `[[header]]` without points: mostly the next one has the same name.
+    last_list: u32,
+    /// All lists of tables.
+    lists: Vec<u32>,
 }
 
 /// An inline table whose keys have dots, as deep in `Tables::open`.
@@ -68,17 +72,18 @@ impl<'s> Tables<'s> {
             added: HashMap::new(),
             implied: 0,
             one_for_many: HashSet::new(),
+            last_list: NOWHERE,
+            lists: Vec::new(),
         }
     }
 
     /// Ends the file's table; gives the first `Added` node of each table that has some.
     pub fn finish(mut self, builder: &mut Builder) -> HashMap<u32, u32> {
         self.close(0, builder);
-        for index in 0..builder.nodes.len() {
+        for index in std::mem::take(&mut self.lists) {
             // While it was put together, it said where its last table is. It has the place of its first.
-            if builder.nodes.at(index).kind == Kind::TableList {
-                builder.nodes.at_mut(index).end = builder.nodes.at(index + 1).end;
-            }
+            let first = builder.nodes.at(index as usize + 1);
+            builder.nodes.at_mut(index as usize).end = first.end;
         }
         self.added.into_iter().map(|(table, (first, _))| (table, first)).collect()
     }
@@ -271,11 +276,16 @@ impl<'s> Tables<'s> {
                 }
             }
         }
-        let Some(found) = self.find(&builder.nodes, table, last) else {
+        let alone = many && table == ROOT && parents.is_empty();
+        let again = alone && self.is_last_list(last, builder);
+        let found = if again { Some(self.last_list) } else { self.find(&builder.nodes, table, last) };
+        self.last_list = found.filter(|_| alone).unwrap_or(NOWHERE);
+        let Some(found) = found else {
             self.reach(table, 0, builder);
             self.key(table, last, builder);
             return Some(if many {
                 let list = self.table(Kind::TableList, header, builder);
+                self.lists.push(list);
                 self.item(list, header, builder)
             } else {
                 self.table(Kind::HeaderTable, header, builder)
@@ -313,6 +323,13 @@ impl<'s> Tables<'s> {
                 None
             }
         }
+    }
+
+    /// Whether a key of the file's table is spelt like that of the `[[list]]` before.
+    fn is_last_list(&self, key: &Key, builder: &Builder) -> bool {
+        let spelt = |key: &Key| self.text.as_bytes().get(key.clone());
+        let last = builder.nodes.get(self.last_list as usize);
+        last.is_some_and(|node| spelt(key) == spelt(&(node.start as usize..node.end as usize)))
     }
 
     /// The next table of a `[[list]]` that has been reached.
