@@ -24,6 +24,11 @@ pub fn is_dash(path: &Path) -> bool {
 pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     let overrides = args.overrides();
     let syntax = args.syntax.map(Syntax::from);
+    if syntax.is_none()
+        && let Some(why) = no_scene(&args.scene)
+    {
+        return Err(Failure::wrong(why));
+    }
     let loaded = if is_dash(&args.scene) || syntax.is_some() {
         let (name, bytes) = read(&args.scene)?;
         let folder = args.scene.parent().unwrap_or(Path::new(""));
@@ -39,6 +44,39 @@ pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
         format!("read {source}: {objects}, {lights}")
     });
     Ok(scene)
+}
+
+/// Why a file that is there is no scene, told by its extension: a picture or a mesh.
+fn no_scene(path: &Path) -> Option<String> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    let shown = path.display();
+    let why = match extension.as_str() {
+        "png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm" => {
+            format!("{shown} is a picture, not a scene; as a texture it stands in one: Texture(file: \"..\")")
+        }
+        "obj" | "off" => format!(
+            "{shown} is a mesh, not a scene; it stands in one: Mesh(file: \"..\"). `tracer new scene.ron` starts a scene"
+        ),
+        "mtl" => format!("{shown} holds the materials of an OBJ mesh; the mesh's own file stands in a scene"),
+        _ => return None,
+    };
+    path.is_file().then_some(why)
+}
+
+/// A scene file near a path where none is: of nearly the same name, or of the same one in the other syntax.
+fn nearby(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut scenes: Vec<String> = std::fs::read_dir(folder.unwrap_or(Path::new(".")))
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| Syntax::from_path(Path::new(name)).is_some())
+        .collect();
+    scenes.sort();
+    let stem = Path::new(name).file_stem();
+    let same = scenes.iter().find(|scene| Path::new(scene).file_stem() == stem);
+    let near = same.map(String::as_str).or_else(|| scene_format::nearest(name, scenes.iter().map(String::as_str)))?;
+    Some(path.with_file_name(near).display().to_string())
 }
 
 /// The name to show and the bytes of a scene file or of standard input.
@@ -70,11 +108,17 @@ pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
             shell.diagnostics(&diagnostics, &sources, form);
             Failure::WrongScene
         }
-        LoadError::Io { path, source } if source.kind() == std::io::ErrorKind::NotFound => Failure::could_not(format!(
-            "there is no scene file {}; `tracer new {}` starts one",
-            path.display(),
-            path.display()
-        )),
+        LoadError::Io { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
+            let shown = path.display();
+            let tip = match nearby(&path) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("`tracer new {shown}` starts one"),
+            };
+            Failure::could_not(format!("there is no scene file {shown}; {tip}"))
+        }
+        LoadError::Io { path, .. } if path.is_dir() => {
+            Failure::could_not(format!("cannot read {}: it is a folder; name a scene file in it", path.display()))
+        }
         io @ LoadError::Io { .. } => Failure::could_not(io.to_string()),
     }
 }

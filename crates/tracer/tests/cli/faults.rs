@@ -12,6 +12,7 @@ fn a_wrong_command_line_ends_with_2() {
     render(&[]).says(&["--output"]);
     render(&["-o", "a.gif"]).says(&["a.gif", "`.gif`", "png, exr, hdr, pfm"]);
     render(&["-o", "a"]).says(&["no extension", "a.png"]);
+    render(&["-o", "."]).says(&["-o . is a folder", "-o ./scene.png"]);
     render(&["-o", "a.png", "-o", "a.png"]).says(&["a.png is given twice"]);
     render(&["-o", "a.png", "-o", "./a.png"]).says(&["./a.png is given twice (it is a.png)"]);
     render(&["-o", "a.png", "--report", "a.png"]).says(&["-o and --report"]);
@@ -118,8 +119,29 @@ fn diagnostics_as_json_are_one_object_a_line() {
 fn what_cannot_be_read_ends_with_1() {
     let sandbox = Sandbox::new();
     sandbox.run(&["render", "nowhere.ron", "-o", "a.png"]).ends(1).says(&["nowhere.ron", "tracer new nowhere.ron"]);
-    sandbox.run(&["check", "."]).ends(1).says(&["cannot read"]);
+    sandbox.run(&["check", "."]).ends(1).says(&["cannot read .: it is a folder; name a scene file in it"]);
+    for near in ["scen.ron", "scene.toml", "./scnee.ron"] {
+        sandbox.run(&["check", near]).ends(1).says(&["there is no scene file", near, "did you mean", "scene.ron?"]);
+    }
     sandbox.run(&["convert", "nowhere.ron"]).ends(1).says(&["nowhere.ron"]);
+}
+
+#[test]
+fn a_picture_or_a_mesh_is_no_scene() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["render", "scene.ron", "-o", "a.png"]).ends(0);
+    sandbox
+        .run(&["render", "a.png", "-o", "b.png"])
+        .ends(2)
+        .says(&["a.png is a picture, not a scene", "Texture(file:"]);
+    sandbox.write("cat.obj", "v 0 0 0\n");
+    sandbox.run(&["check", "cat.obj"]).ends(2).says(&["cat.obj is a mesh, not a scene", "Mesh(file:", "tracer new"]);
+    sandbox.write("cat.mtl", "newmtl fur\n");
+    sandbox.run(&["info", "cat.mtl"]).ends(2).says(&["cat.mtl holds the materials of an OBJ mesh"]);
+    sandbox.run(&["compare", "scene.ron", "a.png"]).ends(2).says(&["scene.ron is not a picture"]);
+    // A name is only a name: what is said to be a scene is one.
+    sandbox.write("odd.png", SCENE);
+    sandbox.run(&["check", "odd.png", "--syntax", "ron"]).ends(0);
 }
 
 #[test]

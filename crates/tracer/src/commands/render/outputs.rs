@@ -78,6 +78,10 @@ fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Fail
             let shown = path.display();
             return Err(Failure::wrong(if is_dash(path) {
                 format!("-o - needs --format, one of {kinds}")
+            } else if path.is_dir() {
+                let picture =
+                    path.join(args.scene.scene.file_stem().unwrap_or("picture".as_ref())).with_extension("png");
+                format!("-o {shown} is a folder; name the picture in it: -o {}", picture.display())
             } else {
                 format!("-o {shown} has no extension; name it {shown}.png (or exr, hdr, pfm), or give --format")
             }));
