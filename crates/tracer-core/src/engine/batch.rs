@@ -3,6 +3,7 @@
 //! A batch is up to [`ITEMS`] items; an item is a quarter of a tile of 16x16 pixels, 64 of them, at one sample index. Slot s is
 //! pixel s % 64 of item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
+use super::stages::shade::BRANCHING;
 use super::statistics::Watch;
 use crate::scene::NONE;
 
@@ -18,6 +19,8 @@ pub const ITEMS: usize = 16;
 pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
 /// Room behind every array for one vector more: a compressing store writes whole registers.
 pub const CAPACITY: usize = PATHS + 64;
+/// Room for the paths that there are when all have gone both ways wherever they may (see `stages::shade`).
+const MOST_PATHS: usize = (1 + BRANCHING as usize) * PATHS + 64;
 
 /// Three columns: x, y, z or r, g, b.
 pub type Columns = [Vec<f32>; 3];
@@ -30,6 +33,15 @@ fn words() -> Vec<u32> {
 }
 fn columns() -> Columns {
     [floats(), floats(), floats()]
+}
+fn many_floats() -> Vec<f32> {
+    vec![0.0; MOST_PATHS]
+}
+fn many_words() -> Vec<u32> {
+    vec![0; MOST_PATHS]
+}
+fn many_columns() -> Columns {
+    [many_floats(), many_floats(), many_floats()]
 }
 
 /// One item.
@@ -91,11 +103,16 @@ pub mod path {
     pub const SUM: u32 = SLOT | SHARED;
     /// The path has left a member ([`super::Members`]); what it meets next may be shared.
     pub const MAKER: u32 = 2 * SHARED;
-    /// The path has been past that and carries light to its own pixel only. None of the three: only mirrors and glass so far.
+    /// The path has been past that, or scattered where nothing is shared: it carries light to its own pixel only. None of the three: only
+    /// mirrors and glass so far.
     pub const OWN: u32 = 4 * SHARED;
-    /// The last vertex that was neither mirror nor glass was diffuse: photons bring the light of lamps seen from there over mirrors and
-    /// glass (see `engine::caustics`).
+    /// The last scattering that was neither by mirror nor glass nor a narrow glossy lobe was by a Lambert lobe: photons bring the
+    /// light of lamps seen from there over such things (see `engine::caustics`).
     pub const MAPPED: u32 = 8 * SHARED;
+    /// And since then there was a mirror, glass or narrow lobe.
+    pub const CAUSTIC: u32 = 16 * SHARED;
+    /// The fainter of both ways at glass: it goes both ways no more, and shares nothing.
+    pub const BRANCH: u32 = 32 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -106,9 +123,10 @@ pub struct Paths {
     pub origin: Columns,
     /// Unit direction.
     pub direction: Columns,
-    /// Product of f cos / pdf so far, without the radiance scaling of refraction.
+    /// Product of f cos / pdf so far, without the radiance scaling of refraction and the shares of both ways at glass: what roulette
+    /// goes by.
     pub throughput: Columns,
-    /// Radiance scaling of refraction: product of (n_i / n_t)^2.
+    /// Radiance scaling of refraction, the product of (n_i / n_t)^2, times the shares of both ways at glass.
     pub eta2: Vec<f32>,
     /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
     pub pdf: Vec<f32>,
@@ -124,15 +142,32 @@ impl Paths {
     fn new() -> Self {
         Paths {
             len: 0,
-            origin: columns(),
-            direction: columns(),
-            throughput: columns(),
-            eta2: floats(),
-            pdf: floats(),
-            slot: words(),
-            from_primitive: vec![NONE; CAPACITY],
-            from_instance: vec![NONE; CAPACITY],
+            origin: many_columns(),
+            direction: many_columns(),
+            throughput: many_columns(),
+            eta2: many_floats(),
+            pdf: many_floats(),
+            slot: many_words(),
+            from_primitive: vec![NONE; MOST_PATHS],
+            from_instance: vec![NONE; MOST_PATHS],
         }
+    }
+
+    /// Adds those of another behind these.
+    #[inline(always)]
+    pub fn append(&mut self, other: &Paths) {
+        let (to, from) = (self.len..self.len + other.len, ..other.len);
+        for k in 0..3 {
+            self.origin[k][to.clone()].copy_from_slice(&other.origin[k][from]);
+            self.direction[k][to.clone()].copy_from_slice(&other.direction[k][from]);
+            self.throughput[k][to.clone()].copy_from_slice(&other.throughput[k][from]);
+        }
+        self.eta2[to.clone()].copy_from_slice(&other.eta2[from]);
+        self.pdf[to.clone()].copy_from_slice(&other.pdf[from]);
+        self.slot[to.clone()].copy_from_slice(&other.slot[from]);
+        self.from_primitive[to.clone()].copy_from_slice(&other.from_primitive[from]);
+        self.from_instance[to].copy_from_slice(&other.from_instance[from]);
+        self.len += other.len;
     }
 }
 
@@ -176,16 +211,16 @@ impl Shadows {
     fn new() -> Self {
         Shadows {
             len: 0,
-            origin: columns(),
-            direction: columns(),
-            t_max: floats(),
-            contribution: columns(),
-            slot: words(),
-            from_primitive: words(),
-            from_instance: words(),
-            target_primitive: words(),
-            target_instance: vec![NONE; CAPACITY],
-            occluded: words(),
+            origin: many_columns(),
+            direction: many_columns(),
+            t_max: many_floats(),
+            contribution: many_columns(),
+            slot: many_words(),
+            from_primitive: many_words(),
+            from_instance: many_words(),
+            target_primitive: many_words(),
+            target_instance: vec![NONE; MOST_PATHS],
+            occluded: many_words(),
         }
     }
 }
@@ -348,6 +383,8 @@ pub struct Batch {
     pub paths: Paths,
     /// The paths after the next scattering.
     pub next: Paths,
+    /// The other ways of paths that go both ways at glass.
+    pub branches: Paths,
     /// What [`Batch::paths`] hit.
     pub hits: Hits,
     /// Shadow rays of this bounce.
@@ -385,6 +422,7 @@ impl Batch {
             item_scale: vec![0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
+            branches: Paths::new(),
             photons: Photons {
                 pair: words(),
                 index: words(),
@@ -395,8 +433,14 @@ impl Batch {
                 events: words(),
                 slot: words(),
             },
-            queries: Queries { len: 0, point: columns(), normal: columns(), value: columns(), slot: words() },
-            hits: Hits { t: floats(), primitive: words(), instance: words() },
+            queries: Queries {
+                len: 0,
+                point: many_columns(),
+                normal: many_columns(),
+                value: many_columns(),
+                slot: many_words(),
+            },
+            hits: Hits { t: many_floats(), primitive: many_words(), instance: many_words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),
             radiance: [0, 1, 2].map(|_| vec![0.0; 2 * PATHS + 64]),
@@ -431,7 +475,7 @@ impl Batch {
                 pair_member: words(),
                 gathered: columns(),
             },
-            active: words(),
+            active: many_words(),
             active_len: 0,
             counters: Counters::default(),
             watch: Watch::default(),

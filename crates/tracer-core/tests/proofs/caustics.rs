@@ -11,11 +11,11 @@ use crate::support::meshes::{cube, icosphere, picture, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Caustics, Light, Material, Object, Shading, SphereLight, TextureFilter, TextureWrap, Transform,
+    Albedo, Caustics, Light, Material, Object, Shading, SphereLight, TextureFilter, TextureWrap, Transform,
 };
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 20;
+const SCENES: usize = 24;
 /// Of the mean of a picture.
 const BIAS: f64 = 0.001;
 
@@ -82,6 +82,21 @@ fn seen_otherwise() {
     let around = sphere([-3.0, 14.0, 18.0], 1.0, glass(1.5));
     let within = on_the_floor(vec![around, ball(4.0, glass(1.5))]);
     assert_photons_are_consistent("camera in glass", &within, 512, BIAS, SCENES);
+}
+
+/// Narrow glossy lobes, both kinds, beside mirrors; one so wide that paths bring its light; one with a texture. What they cast on each
+/// other, too.
+#[test]
+fn glossy_lobes() {
+    let shiny = |exponent: f64, specular: f64, energy_conserving: bool, y: f64| {
+        let lobe = glossy(Albedo::Color([0.9, 0.6, 0.3].into()), exponent, specular, energy_conserving);
+        on_the_floor(vec![ball(y, lobe), sphere([-4.0, 2.0, 3.0], 2.0, mirror([0.9; 3]))])
+    };
+    assert_photons_are_consistent("sharp", &shiny(1000.0, 0.2, false, 2.5), 512, BIAS, SCENES);
+    assert_photons_are_consistent("conserving", &shiny(200.0, 0.8, true, 4.0), 512, BIAS, SCENES);
+    assert_photons_are_consistent("wide", &shiny(10.0, 0.1, false, 2.5), 512, BIAS, SCENES);
+    let statue = solid(&icosphere(3).obj("icosphere-3"), conserving([0.8; 3], 300.0, 0.5), Shading::Smooth, 2.5);
+    assert_photons_are_consistent("glossy statue", &on_the_floor(vec![statue]), 512, 0.0025, SCENES);
 }
 
 /// The lamp within glass, in a mirror's hollow, and a caster within the lamp beside a small one outside.

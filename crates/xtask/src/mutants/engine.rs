@@ -34,8 +34,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "glossy-pdf-without-jacobian",
         file: MATERIALS,
-        find: "let half_pdf = lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h;",
-        replace: "let half_pdf = lobe * ((alpha + c(1.0)) * c(0.5 * FRAC_1_PI));",
+        find: "lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h, none)",
+        replace: "lobe * ((alpha + c(1.0)) * c(0.5 * FRAC_1_PI)), none)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
@@ -48,8 +48,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "diffuse-share-not-lessened-by-glossy",
         file: MATERIALS,
-        find: "let value = (c(1.0) - s).fma(lambert, s * glossy);",
-        replace: "let value = s.fma(glossy, lambert);",
+        find: "(c(1.0) - s) * lobes.lambert, lobes.lambert)",
+        replace: "lobes.lambert, lobes.lambert)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
@@ -76,15 +76,15 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "radiance-not-scaled-in-glass",
         file: MATERIALS,
-        find: "eta2: F::select(refracted, eta * eta, one),",
-        replace: "eta2: F::select(refracted, one, one),",
+        find: "reflectance, eta2: eta * eta }",
+        replace: "reflectance, eta2: one }",
         caught_by: proofs(&["analytic::a_light_within_glass"]),
     },
     Mutant {
         name: "radiance-scaled-the-wrong-way",
         file: MATERIALS,
-        find: "eta2: F::select(refracted, eta * eta, one),",
-        replace: "eta2: F::select(refracted, one / (eta * eta), one),",
+        find: "reflectance, eta2: eta * eta }",
+        replace: "reflectance, eta2: one / (eta * eta) }",
         caught_by: proofs(&["analytic::a_light_within_glass"]),
     },
     Mutant {

@@ -18,6 +18,27 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["caustics::glass_ball"]),
     },
     Mutant {
+        name: "narrow-lobes-by-photons-and-by-light-samples",
+        file: SHADE,
+        find: "F::select(by_photons, zero, glossy)",
+        replace: "glossy",
+        caught_by: proofs(&["caustics::glossy_lobes"]),
+    },
+    Mutant {
+        name: "photons-end-at-glossy-lobes",
+        file: PHOTONS,
+        find: "let passes = bsdf.mirror | bsdf.transparent | narrow;",
+        replace: "let passes = bsdf.mirror | bsdf.transparent;",
+        caught_by: proofs(&["caustics::glossy_lobes"]),
+    },
+    Mutant {
+        name: "both-ways-at-glass-with-all-the-light",
+        file: SHADE,
+        find: "share = F::select(both, one - fainter, one);",
+        replace: "share = one;",
+        caught_by: proofs(&["analytic::"]),
+    },
+    Mutant {
         name: "later-gathers-without-their-chance",
         file: SHADE,
         find: "c(std::f32::consts::FRAC_1_PI) / chance)",

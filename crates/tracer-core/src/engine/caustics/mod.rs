@@ -1,10 +1,15 @@
-//! Caustics: light that reaches diffuse surfaces over mirrors and glass, by maps of photons.
+//! Caustics: light that reaches Lambert lobes over mirrors, glass and narrow glossy lobes, by maps of photons.
 //!
-//! A path that scatters at a diffuse surface, goes on over mirrors and glass only and then meets a small light carries nearly all of
-//! the noise of a picture with such objects, because the ray that happens to take this way is rare and bright. For that class of
-//! paths, and no other, photons are sent from the lights at the casters ([`casters`], [`plan`]), followed over mirrors and glass
-//! ([`trace`]) and stored where they first meet a diffuse surface ([`map`]); every diffuse vertex of every path gathers those around it
-//! (`engine::stages::gather`), and scattered rays that find such a light count nothing.
+//! A path that scatters by a Lambert lobe, goes on over mirrors, glass and narrow lobes only and then meets a small light carries
+//! nearly all of the noise of a picture with such objects, because the ray that happens to take this way is rare and bright. For that
+//! class of paths, and no other, photons are sent from the lights at the casters ([`casters`], [`plan`]), followed over mirrors, glass
+//! and narrow lobes ([`trace`]) and stored at every Lambert lobe that they meet ([`map`]); every vertex with such a lobe gathers those
+//! around it (`engine::stages::gather`), and scattered rays that find such a light count nothing.
+//!
+//! A surface with both lobes belongs to both sides: its Lambert lobe gathers, its glossy lobe passes photons on. So with photons
+//! paths take one lobe at a time and know which. Weighing photons against paths where a lobe is neither narrow nor wide (Georgiev et al.:
+//! Light Transport Simulation with Vertex Connection and Merging, 2012) would need both densities along the whole way; a bound on the
+//! exponent needs none, and lobes wider than that are lit well by light samples.
 //!
 //! Four sample indices share a map; from map to map the radius shrinks, so the picture is consistent (its bias goes to zero) rather
 //! than unbiased (Hachisuka, Ogaki, Jensen: Progressive Photon Mapping, 2008). Maps depend on scene, seed and number only:
@@ -18,6 +23,7 @@ pub mod trace;
 use crate::engine::kernels::Kernels;
 use crate::engine::statistics::Stage;
 use crate::engine::{Worker, on_all};
+use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
 use crate::scene::Scene;
 use map::{Map, Photon};
@@ -37,6 +43,14 @@ pub struct PhotonMap<'a> {
     pub plan: &'a Plan,
     /// The photons.
     pub map: &'a Map,
+}
+
+impl PhotonMap<'_> {
+    /// Lights whose light over mirrors, glass and narrow lobes the map holds.
+    #[inline(always)]
+    pub fn brings<F: Lanes>(&self, light: F::U) -> F::M {
+        !F::U::gather(&self.plan.mapped, light).eq(F::U::splat(0))
+    }
 }
 
 /// The maps of a rendering.

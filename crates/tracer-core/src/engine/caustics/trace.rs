@@ -3,7 +3,7 @@
 use super::map::Photon;
 use super::plan::{Plan, Share};
 use crate::engine::Worker;
-use crate::engine::batch::{Batch, PATHS};
+use crate::engine::batch::{Batch, PATHS, Photons};
 use crate::engine::kernels::Kernels;
 use crate::engine::statistics::Stage;
 use crate::engine::trace::closest;
@@ -78,24 +78,28 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
         }
     }
     batch.watch.resume();
-    batch.photons.len = 0;
     kernels.photons_emit(plan, PhotonPass { seed, count }, batch);
+    let mut stored = Vec::new();
     let mut event = 0;
     while batch.paths.len > 0 {
         closest(scene, kernels, false, batch);
+        batch.photons.len = 0;
         kernels.photons_scatter(scene, plan, seed, event, batch);
+        store(&batch.photons, &mut stored);
         event += 1;
     }
     batch.watch.lap(Stage::Photons);
-    let stored = &batch.photons;
+    stored
+}
+
+/// Appends what one event stored.
+fn store(photons: &Photons, stored: &mut Vec<Photon>) {
     let at = |columns: &[Vec<f32>; 3], k: usize| [columns[0][k], columns[1][k], columns[2][k]];
-    (0..stored.len)
-        .map(|k| Photon {
-            point: at(&stored.point, k),
-            normal: at(&stored.normal, k),
-            flux: at(&stored.flux, k),
-            events: stored.events[k],
-            pair: stored.pair[stored.slot[k] as usize],
-        })
-        .collect()
+    stored.extend((0..photons.len).map(|k| Photon {
+        point: at(&photons.point, k),
+        normal: at(&photons.normal, k),
+        flux: at(&photons.flux, k),
+        events: photons.events[k],
+        pair: photons.pair[photons.slot[k] as usize],
+    }));
 }

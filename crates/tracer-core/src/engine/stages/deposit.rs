@@ -2,7 +2,7 @@
 
 use crate::engine::batch::Batch;
 
-/// Adds each unblocked contribution to its slot; a slot has at most one shadow ray per bounce, so the order does not matter.
+/// Adds each unblocked contribution to its slot; those of a slot in the order of its paths.
 pub fn deposit(batch: &mut Batch) {
     let shadows = &batch.shadows;
     let [red, green, blue] = &mut batch.radiance;

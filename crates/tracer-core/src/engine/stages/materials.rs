@@ -2,10 +2,12 @@
 //! densities are in solid angle. Mirror and transparent surfaces are delta lobes: sampled only.
 
 use super::surface::Surface;
+use super::textures::texture_color;
+use crate::engine::caustics::casters::LEAST_EXPONENT;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, exp, ln1p};
 use crate::sampling::warp;
-use crate::scene::{MaterialTable, kind};
+use crate::scene::{MaterialTable, Tables, kind};
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// The parameters of a material, gathered, and which kind it is.
@@ -60,21 +62,36 @@ impl<F: Lanes> Bsdf<F> {
         }
     }
 
+    /// The material of a surface, its texture looked up.
+    #[inline(always)]
+    pub fn at(tables: &Tables, s: &Surface<F>, valid: F::M) -> Self {
+        let mut bsdf = Bsdf::new(&tables.materials, s.material, valid);
+        if tables.materials.textured {
+            let texture = F::gather(&tables.materials.texture, s.material).to_int();
+            let textured = valid & !texture.eq(F::U::splat(0));
+            if textured.any() {
+                let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
+                bsdf.color = V3::select(textured, texel, bsdf.color);
+            }
+        }
+        bsdf
+    }
+
     /// Probability that the glossy lobe is sampled: its share of the reflected light at normal incidence, where the report's
     /// formula with its half-vector lobe reflects 4 s.
     #[inline(always)]
-    fn glossy_probability(&self) -> F {
+    pub fn glossy_probability(&self) -> F {
         let s = F::select(self.conserving, self.specular, self.specular * F::splat(4.0));
         s / (s + (F::splat(1.0) - self.specular))
     }
 
-    /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
+    /// Both lobes at a pair of directions, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
     #[inline(always)]
-    pub fn evaluate(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> (V3<F>, F) {
+    pub fn lobes(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> Lobes<F> {
         let c = F::splat;
-        let lambert = c(FRAC_1_PI);
-        let mut f = self.color.scale(lambert);
-        let mut pdf = cos_i * lambert;
+        let none = c(0.0);
+        let mut lobes =
+            Lobes { lambert: c(FRAC_1_PI), lambert_pdf: cos_i * c(FRAC_1_PI), glossy: none, glossy_pdf: none };
         if self.glossy.any() {
             let (alpha, s) = (self.parameter, self.specular);
             let h = wo.add(wi);
@@ -82,51 +99,92 @@ impl<F: Lanes> Bsdf<F> {
             let side = ns.cross(h);
             // cos^alpha from sin^2, which keeps its digits where the lobe is narrow: (1 - sin^2)^(alpha/2).
             let sin2 = (side.dot(side) / h2).min(c(0.999_999_9));
-            let above = c(0.0).lt(ns.dot(h));
-            let lobe = F::select(above, exp(ln1p(-sin2) * (alpha * c(0.5))), c(0.0));
+            let above = none.lt(ns.dot(h));
+            let lobe = F::select(above, exp(ln1p(-sin2) * (alpha * c(0.5))), none);
             // wo.h = |wo + wi| / 2 for unit vectors.
             let wo_h = (h2.sqrt() * c(0.5)).max(c(1e-15));
             let cos_o = ns.dot(wo);
             let widest = cos_i.max(cos_o).max(c(1e-7));
             let report = lobe * ((alpha + c(2.0)) * c(0.5 * FRAC_1_PI));
             let conserving = lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / (wo_h * widest);
-            let glossy = F::select(self.conserving, conserving, report);
-            let value = (c(1.0) - s).fma(lambert, s * glossy);
-            f = V3::select(self.glossy, self.color.scale(value), f);
-            let half_pdf = lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h;
-            let p = self.glossy_probability();
-            let mixed = p.fma(half_pdf, (c(1.0) - p) * pdf);
-            pdf = F::select(self.glossy, mixed, pdf);
+            lobes.glossy = F::select(self.glossy, s * F::select(self.conserving, conserving, report), none);
+            lobes.glossy_pdf = F::select(self.glossy, lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h, none);
+            lobes.lambert = F::select(self.glossy, (c(1.0) - s) * lobes.lambert, lobes.lambert);
         }
-        (f, pdf)
+        lobes
+    }
+
+    /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
+    #[inline(always)]
+    pub fn evaluate(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> (V3<F>, F) {
+        let lobes = self.lobes(ns, wo, wi, cos_i);
+        if !self.glossy.any() {
+            return (self.color.scale(lobes.lambert), lobes.lambert_pdf);
+        }
+        let p = self.glossy_probability();
+        let mixed = p.fma(lobes.glossy_pdf, (F::splat(1.0) - p) * lobes.lambert_pdf);
+        let pdf = F::select(self.glossy, mixed, lobes.lambert_pdf);
+        (self.color.scale(lobes.lambert + lobes.glossy), pdf)
     }
 
     /// A direction for the diffuse and glossy lanes: cosine-weighted, or the reflection in a half vector of the lobe. The weight
-    /// f cos / pdf and the density; the density is 0 where sampling failed.
+    /// f cos / pdf and the density; the density is 0 where sampling failed. Both are those of the sum of the lobes or, where they are
+    /// to be told `apart`, of the one that was taken.
     #[inline(always)]
-    pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> RoughSample<F> {
+    pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F, apart: bool) -> RoughSample<F> {
         let c = F::splat;
         let local = warp::cosine_hemisphere(u, v);
         let mut wi = ns.to_world(local);
         let mut weight = self.color;
         let mut pdf = local.2 * c(FRAC_1_PI);
+        let mut from_lobe = F::M::from_bits(0);
         if self.glossy.any() {
-            let from_lobe = self.glossy & lobe.lt(self.glossy_probability());
+            let p = self.glossy_probability();
+            from_lobe = self.glossy & lobe.lt(p);
             if from_lobe.any() {
-                let h = ns.to_world(warp::power_cosine(u, v, self.parameter));
-                let d = wo.dot(h);
-                let mirrored = h.scale(d + d).sub(wo);
-                wi = V3::select(from_lobe, mirrored, wi);
+                wi = V3::select(from_lobe, self.reflect_in_lobe(ns, wo, u, v), wi);
             }
             let cos_i = ns.dot(wi);
-            let (f, density) = self.evaluate(ns, wo, wi, cos_i.max(c(0.0)));
+            let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
+            let (from_glossy, from_lambert) = (p * lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
+            let (value, density) = if apart {
+                (F::select(from_lobe, lobes.glossy, lobes.lambert), F::select(from_lobe, from_glossy, from_lambert))
+            } else {
+                (lobes.lambert + lobes.glossy, p.fma(lobes.glossy_pdf, from_lambert))
+            };
             let usable = c(0.0).lt(cos_i) & c(0.0).lt(density);
-            let scale = F::select(usable, cos_i / F::select(usable, density, c(1.0)), c(0.0));
-            weight = V3::select(self.glossy, f.scale(scale), weight);
+            let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
+            weight = V3::select(self.glossy, self.color.scale(scale), weight);
             pdf = F::select(self.glossy, F::select(usable, density, c(0.0)), pdf);
         }
-        RoughSample { wi, weight, pdf }
+        RoughSample { wi, weight, pdf, from_lobe }
     }
+
+    /// wo reflected in a half vector of the glossy lobe.
+    #[inline(always)]
+    pub fn reflect_in_lobe(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> V3<F> {
+        let h = ns.to_world(warp::power_cosine(u, v, self.parameter));
+        let d = wo.dot(h);
+        h.scale(d + d).sub(wo)
+    }
+
+    /// Glossy lanes whose lobe is so narrow that photons carry what it reflects (see `engine::caustics`).
+    #[inline(always)]
+    pub fn narrow(&self) -> F::M {
+        self.glossy & F::splat(LEAST_EXPONENT).le(self.parameter)
+    }
+}
+
+/// The lobes of a rough material at a pair of directions: f without colour, and the densities of their own samples.
+pub struct Lobes<F: Lanes> {
+    /// f of the Lambert lobe.
+    pub lambert: F,
+    /// Its density.
+    pub lambert_pdf: F,
+    /// f of the glossy lobe.
+    pub glossy: F,
+    /// Its density.
+    pub glossy_pdf: F,
 }
 
 /// A sampled direction with f cos / pdf and its density.
@@ -137,6 +195,8 @@ pub struct RoughSample<F: Lanes> {
     pub weight: V3<F>,
     /// Density; 0: no direction.
     pub pdf: F,
+    /// The glossy lobe was taken.
+    pub from_lobe: F::M,
 }
 
 /// wo reflected in the shading normal, bent so that it leaves the geometric surface: where it would start inside, the reflected
@@ -162,7 +222,19 @@ pub fn reflect_bent<F: Lanes>(s: &Surface<F>, wo: V3<F>) -> (V3<F>, V3<F>) {
     (direction, normal)
 }
 
-/// What a smooth dielectric does with wo: one of its two lobes.
+/// What a smooth dielectric does with wo: its two lobes.
+pub struct Dielectric<F: Lanes> {
+    /// Where it reflects to.
+    pub reflected: V3<F>,
+    /// Where it lets pass to; where `reflectance` is 1 this means nothing.
+    pub passed: V3<F>,
+    /// Share that it reflects.
+    pub reflectance: F,
+    /// Radiance scaling of what passes: (n_i / n_t)^2.
+    pub eta2: F,
+}
+
+/// A direction of a smooth dielectric.
 pub struct DielectricSample<F: Lanes> {
     /// Direction.
     pub wi: V3<F>,
@@ -172,37 +244,51 @@ pub struct DielectricSample<F: Lanes> {
     pub eta2: F,
 }
 
-/// Chooses reflection with the Fresnel reflectance as probability, else refraction. `ior` is the inside's against the outside's.
-#[inline(always)]
-pub fn sample_dielectric<F: Lanes>(s: &Surface<F>, wo: V3<F>, ior: F, lobe: F) -> DielectricSample<F> {
-    let c = F::splat;
-    let one = c(1.0);
-    let (mut reflected, mut normal) = reflect_bent(s, wo);
-    // n_incident / n_transmitted.
-    let eta = F::select(s.outside, one / ior, ior);
-    if s.smooth.any() {
-        // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides: else
-        // rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
-        let cos_g = wo.dot(s.ng);
-        let total = one.le(refract(wo, normal, eta).sin2_t);
-        let caught = s.smooth & !s.outside & total & refract(wo, s.ng, eta).sin2_t.lt(one);
-        reflected = V3::select(caught, s.ng.scale(cos_g + cos_g).sub(wo), reflected);
-        normal = V3::select(caught, s.ng, normal);
+impl<F: Lanes> Dielectric<F> {
+    /// `ior` is the inside's against the outside's.
+    #[inline(always)]
+    pub fn new(s: &Surface<F>, wo: V3<F>, ior: F) -> Self {
+        let c = F::splat;
+        let one = c(1.0);
+        let (mut reflected, mut normal) = reflect_bent(s, wo);
+        // n_incident / n_transmitted.
+        let eta = F::select(s.outside, one / ior, ior);
+        if s.smooth.any() {
+            // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides:
+            // else rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
+            let cos_g = wo.dot(s.ng);
+            let total = one.le(refract(wo, normal, eta).sin2_t);
+            let caught = s.smooth & !s.outside & total & refract(wo, s.ng, eta).sin2_t.lt(one);
+            reflected = V3::select(caught, s.ng.scale(cos_g + cos_g).sub(wo), reflected);
+            normal = V3::select(caught, s.ng, normal);
+        }
+        let r = refract(wo, normal, eta);
+        let mut passed = r.direction;
+        let reflectance = F::select(r.sin2_t.lt(one), fresnel(r.cos_i, r.cos_t, eta), one);
+        if s.smooth.any() {
+            // A refracted ray that would stay on the viewer's side takes the geometric normal.
+            let wrong = s.smooth & c(-1e-3).lt(passed.dot(s.ng));
+            let geometric = refract(wo, s.ng, eta);
+            passed = V3::select(wrong & geometric.sin2_t.lt(one), geometric.direction, passed);
+        }
+        let reflectance = F::select(passed.dot(s.ng).lt(c(0.0)), reflectance, one);
+        Dielectric { reflected, passed: passed.normalise(), reflectance, eta2: eta * eta }
     }
-    let r = refract(wo, normal, eta);
-    let mut direction = r.direction;
-    let reflectance = F::select(r.sin2_t.lt(one), fresnel(r.cos_i, r.cos_t, eta), one);
-    if s.smooth.any() {
-        // A refracted ray that would stay on the viewer's side takes the geometric normal.
-        let wrong = s.smooth & c(-1e-3).lt(direction.dot(s.ng));
-        let geometric = refract(wo, s.ng, eta);
-        direction = V3::select(wrong & geometric.sin2_t.lt(one), geometric.direction, direction);
+
+    /// One of the two.
+    #[inline(always)]
+    pub fn take(&self, refracted: F::M) -> DielectricSample<F> {
+        DielectricSample {
+            wi: V3::select(refracted, self.passed, self.reflected),
+            refracted,
+            eta2: F::select(refracted, self.eta2, F::splat(1.0)),
+        }
     }
-    let refracted = reflectance.le(lobe) & direction.dot(s.ng).lt(c(0.0));
-    DielectricSample {
-        wi: V3::select(refracted, direction.normalise(), reflected),
-        refracted,
-        eta2: F::select(refracted, eta * eta, one),
+
+    /// Reflection with the reflectance as probability, else refraction.
+    #[inline(always)]
+    pub fn sample(&self, lobe: F) -> DielectricSample<F> {
+        self.take(self.reflectance.le(lobe))
     }
 }
 

@@ -1,6 +1,7 @@
-//! Photons: from the lights, over mirrors and glass, to the first diffuse surface (see `engine::caustics`).
+//! Photons: from the lights, over mirrors, glass and narrow lobes, to Lambert lobes (see `engine::caustics`).
 
-use super::materials::{Bsdf, reflect_bent, sample_dielectric};
+use super::materials::{Bsdf, Dielectric, reflect_bent};
+use super::shade::leaves;
 use super::surface::{Surface, surface};
 use crate::engine::batch::Batch;
 use crate::engine::caustics::plan::{Plan, aim};
@@ -102,8 +103,8 @@ fn lane_numbers<F: Lanes>(i: usize) -> F::U {
     F::U::load(&numbers)
 }
 
-/// What becomes of the photons in `batch.paths` where they hit: over mirrors and glass they go on, on diffuse surfaces they are
-/// stored if they have come over `event` > 0 of these, all others end. The first thing that a photon meets must belong to the caster
+/// What becomes of the photons in `batch.paths` where they hit: over mirrors, glass and narrow glossy lobes they go on, at Lambert lobes
+/// they are stored if they have come over `event` > 0 of these, all others end. The first thing that a photon meets must belong to the caster
 /// that it was aimed at: so each way from a light over its first mirror or glass is taken by the photons of one caster only.
 #[inline(always)]
 pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
@@ -137,12 +138,12 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
-        let bsdf = Bsdf::<F>::new(&tables.materials, s.material, surfaces);
+        let bsdf = Bsdf::<F>::at(tables, &s, surfaces);
         let wo = direction.neg();
         if event > 0 {
             let facing = wo.dot(s.ng).max(c(1e-6));
             let bent = (wo.dot(s.ns) / facing).min(c(MOST_BENT));
-            let stored = bsdf.diffuse & zero.lt(bent);
+            let stored = (bsdf.diffuse | bsdf.glossy) & zero.lt(bent);
             if stored.any() {
                 let k = photons.len;
                 s.p.compress(stored, &mut photons.point, k);
@@ -153,32 +154,47 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
                 photons.len += stored.count();
             }
         }
-        let specular = bsdf.mirror | bsdf.transparent;
-        if !goes_on || !specular.any() {
+        let narrow = bsdf.narrow() & zero.lt(bsdf.specular);
+        let passes = bsdf.mirror | bsdf.transparent | narrow;
+        if !goes_on || !passes.any() {
             continue;
         }
+        let photon = F::U::gather(&photons.pair, slot);
+        let numbers =
+            Numbers::<F> { index: F::U::gather(&photons.index, slot), key: F::U::gather(&plan.pairs.key, photon) };
         let (mut wi, _) = reflect_bent(&s, wo);
         let mut start = s.ng.mad(s.offset, s.p);
         let mut weight = bsdf.color;
         if bsdf.transparent.any() {
-            let photon = F::U::gather(&photons.pair, slot);
-            let numbers =
-                Numbers::<F> { index: F::U::gather(&photons.index, slot), key: F::U::gather(&plan.pairs.key, photon) };
             let (lobe, _) = numbers.pair(salt);
-            let d = sample_dielectric(&s, wo, bsdf.parameter, lobe);
+            let d = Dielectric::new(&s, wo, bsdf.parameter).sample(lobe);
             wi = V3::select(bsdf.transparent, d.wi, wi);
             let side = F::select(d.refracted, -s.offset, s.offset);
             start = V3::select(bsdf.transparent, s.ng.mad(side, s.p), start);
             weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);
         }
+        let mut leaving = primitive;
+        if narrow.any() {
+            // Always on by the lobe: what the Lambert lobe scatters is gathered.
+            let (u, v) = numbers.pair(salt ^ 0x6c0b_b1e5);
+            let in_lobe = bsdf.reflect_in_lobe(s.ns, wo, u, v);
+            let cos_i = s.ns.dot(in_lobe);
+            let lobes = bsdf.lobes(s.ns, wo, in_lobe, cos_i.max(zero));
+            let usable = zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
+            let scale = F::select(usable, lobes.glossy * cos_i / F::select(usable, lobes.glossy_pdf, one), zero);
+            wi = V3::select(narrow, in_lobe, wi);
+            weight = V3::select(narrow, bsdf.color.scale(scale), weight);
+            start = V3::select(narrow, s.start, start);
+            leaving = F::U::select(narrow, leaves(&s, wi, primitive), leaving);
+        }
         let carried = flux.mul(weight).scale(adjoint(&s, wo, wi));
-        let alive = specular & zero.lt(carried.max_component());
+        let alive = passes & zero.lt(carried.max_component());
         let k = next.len;
         start.compress(alive, &mut next.origin, k);
         wi.compress(alive, &mut next.direction, k);
         carried.compress(alive, &mut next.throughput, k);
         slot.compress(alive, &mut next.slot[k..]);
-        primitive.compress(alive, &mut next.from_primitive[k..]);
+        leaving.compress(alive, &mut next.from_primitive[k..]);
         instance.compress(alive, &mut next.from_instance[k..]);
         next.len += alive.count();
     }

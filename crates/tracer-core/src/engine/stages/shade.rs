@@ -4,10 +4,9 @@
 //! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
 
 use super::lights;
-use super::materials::{Bsdf, reflect_bent, sample_dielectric};
+use super::materials::{Bsdf, Dielectric, reflect_bent};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
-use super::textures::texture_color;
 use crate::engine::batch::{Batch, Columns, Item, path};
 use crate::engine::trace::Pass;
 use crate::lanes::{Bits, Lanes, Mask};
@@ -21,6 +20,13 @@ const ROULETTE_FROM: u32 = 3;
 
 /// Share of the diffuse vertices after a path's first at which photons are gathered.
 const GATHER_LATER: f32 = 0.25;
+
+/// At so many of its first vertices a path from the camera that has met mirrors and glass only goes both ways at glass: what one of them
+/// shows, often the lamp, is far brighter than what the other does.
+pub const BRANCHING: u32 = 3;
+
+/// Where the fainter of both ways carries less than this, one of them is taken at random.
+const LEAST_BRANCH: f32 = 0.003;
 
 /// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in `batch.shadows`.
 /// Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to `batch.members` and `batch.suffixes`.
@@ -45,8 +51,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
     // A member's second vertex needs a scattering of its own.
     let joins = pass.reuse && vertex < scene.max_bounces;
-    let queries = &mut batch.queries;
+    let (queries, branches) = (&mut batch.queries, &mut batch.branches);
     next.len = 0;
+    branches.len = 0;
     shadows.len = 0;
     queries.len = 0;
     for i in (0..paths.len).step_by(F::N) {
@@ -77,9 +84,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let sampled = lights::pdf(&tables.lights, light, origin);
             let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             if let Some(photons) = pass.photons {
-                let by_photons = !(slot & F::U::splat(path::MAPPED)).eq(F::U::splat(0))
-                    & pdf.lt(zero)
-                    & !F::U::gather(&photons.plan.mapped, light).eq(F::U::splat(0));
+                let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
                 weight = F::select(by_photons, zero, weight);
             }
             let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
@@ -90,15 +95,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             continue;
         }
 
-        let mut bsdf = Bsdf::new(&tables.materials, s.material, surfaces);
-        if tables.materials.textured {
-            let texture = F::gather(&tables.materials.texture, s.material).to_int();
-            let textured = surfaces & !texture.eq(F::U::splat(0));
-            if textured.any() {
-                let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
-                bsdf.color = V3::select(textured, texel, bsdf.color);
-            }
-        }
+        let bsdf = Bsdf::at(tables, &s, surfaces);
         let wo = direction.neg();
         let rough = bsdf.diffuse | bsdf.glossy;
         if pass.reuse && vertex > 0 {
@@ -110,7 +107,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
             }
-            let bare = slot & F::U::splat(path::SLOT | path::MAPPED);
+            let bare = slot & F::U::splat(path::SLOT | path::MAPPED | path::CAUSTIC);
             let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
             slot = F::U::select(found, own, slot);
         }
@@ -120,12 +117,12 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
 
         // Light that photons have brought here; to look for it costs as much as all else at a vertex, so after the first diffuse vertex
         // of a path only one in so many does.
-        if pass.photons.is_some() && !last && bsdf.diffuse.any() {
+        if pass.photons.is_some() && !last && rough.any() {
             let (_, choice) = roulettes.points(&pixel);
-            let later = !(slot & F::U::splat(path::MAPPED)).eq(F::U::splat(0));
-            let chance = F::select(later, c(GATHER_LATER), one);
-            let value = bsdf.color.mul(throughput).scale(eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
-            let asks = bsdf.diffuse & choice.lt(chance) & zero.lt(value.max_component());
+            let chance = F::select(has(slot, path::MAPPED), c(GATHER_LATER), one);
+            let lambert = one - bsdf.specular;
+            let value = bsdf.color.mul(throughput).scale(lambert * eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
+            let asks = rough & choice.lt(chance) & zero.lt(value.max_component());
             let k = queries.len;
             s.p.compress(asks, &mut queries.point, k);
             s.ng.compress(asks, &mut queries.normal, k);
@@ -143,8 +140,21 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let cos_i = s.ns.dot(l.wi);
             let lit = rough & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {
-                let (f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
-                let weight = F::select(goes_on, power_heuristic(l.pdf, pdf), one);
+                let (mut f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
+                let mut weight = F::select(goes_on, power_heuristic(l.pdf, pdf), one);
+                if let Some(photons) = pass.photons
+                    && bsdf.glossy.any()
+                {
+                    // Each lobe against its own samples; what a narrow one would bring to a diffuse vertex is the photons'.
+                    let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
+                    let p = bsdf.glossy_probability();
+                    let lambert = lobes.lambert * power_heuristic(l.pdf, (one - p) * lobes.lambert_pdf);
+                    let glossy = lobes.glossy * power_heuristic(l.pdf, p * lobes.glossy_pdf);
+                    let by_photons = has(slot, path::MAPPED) & bsdf.narrow() & photons.brings::<F>(choice.light);
+                    let sum = lambert + F::select(by_photons, zero, glossy);
+                    f = V3::select(bsdf.glossy, bsdf.color.scale(sum), f);
+                    weight = F::select(bsdf.glossy, one, weight);
+                }
                 let value = f.mul(throughput).mul(l.radiance).scale(cos_i / l.pdf * (weight * eta2));
                 let cast = lit & zero.lt(value.max_component());
                 let k = shadows.len;
@@ -172,9 +182,11 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let mut start = s.start;
         let mut new_eta2 = eta2;
         let mut alive = surfaces & goes_on;
+        let mut from_lobe = F::M::from_bits(0);
         if (rough & goes_on).any() {
             let (u, v) = directions.points(&pixel);
-            let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe);
+            let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe, pass.photons.is_some());
+            from_lobe = sample.from_lobe;
             wi = V3::select(rough, sample.wi, wi);
             weight = V3::select(rough, sample.weight, weight);
             pdf = F::select(rough, sample.pdf, pdf);
@@ -186,12 +198,40 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             start = V3::select(bsdf.mirror, s.ng.mad(s.offset, s.p), start);
         }
         if bsdf.transparent.any() {
-            let d = sample_dielectric(&s, wo, bsdf.parameter, lobe);
+            let d = Dielectric::new(&s, wo, bsdf.parameter);
+            let mut refracted = d.reflectance.le(lobe);
+            let mut share = one;
+            if vertex < BRANCHING {
+                // The path goes on where more of the light goes; the rest is a path of its own, and shares nothing. Roulette must not
+                // see their shares: they make a whole.
+                let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
+                let fainter = d.reflectance.min(one - d.reflectance);
+                let both = bsdf.transparent & fresh & c(LEAST_BRANCH).lt(fainter * eta2 * throughput.max_component());
+                let passes = d.reflectance.lt(c(0.5));
+                refracted = (both & passes) | (!both & refracted);
+                share = F::select(both, one - fainter, one);
+                if both.any() {
+                    let o = d.take(!passes);
+                    let color = V3::select(o.refracted, bsdf.color, V3::grey(one));
+                    let side = F::select(o.refracted, -s.offset, s.offset);
+                    let k = branches.len;
+                    s.ng.mad(side, s.p).compress(both, &mut branches.origin, k);
+                    o.wi.compress(both, &mut branches.direction, k);
+                    throughput.mul(color).compress(both, &mut branches.throughput, k);
+                    (eta2 * o.eta2 * fainter).compress(both, &mut branches.eta2[k..]);
+                    c(-1.0).compress(both, &mut branches.pdf[k..]);
+                    (slot | F::U::splat(path::BRANCH)).compress(both, &mut branches.slot[k..]);
+                    primitive.compress(both, &mut branches.from_primitive[k..]);
+                    instance.compress(both, &mut branches.from_instance[k..]);
+                    branches.len += both.count();
+                }
+            }
+            let d = d.take(refracted);
             wi = V3::select(bsdf.transparent, d.wi, wi);
             let side = F::select(d.refracted, -s.offset, s.offset);
             start = V3::select(bsdf.transparent, s.ng.mad(side, s.p), start);
             weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);
-            new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2, eta2);
+            new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2 * share, eta2);
         }
         let mut carried = throughput.mul(weight);
         let mut survival = one;
@@ -212,9 +252,15 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             add_members(members, &bsdf, &s, wo, arrives, survival, slot, primitive, instance, member);
             slot = F::U::select(member, slot | F::U::splat(path::MAKER), slot);
         }
+        let untouched = rough & !has(slot, path::SHARED | path::MAKER | path::OWN);
+        slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
         if pass.photons.is_some() {
-            slot = F::U::select(bsdf.diffuse, slot | F::U::splat(path::MAPPED), slot);
-            slot = F::U::select(bsdf.glossy, slot & F::U::splat(!path::MAPPED), slot);
+            let lambert = rough & !from_lobe;
+            let wide = from_lobe & !bsdf.narrow();
+            let on_the_way = surfaces & !lambert & has(slot, path::MAPPED);
+            slot = F::U::select(on_the_way, slot | F::U::splat(path::CAUSTIC), slot);
+            slot = F::U::select(lambert | wide, slot & F::U::splat(!(path::CAUSTIC | path::MAPPED)), slot);
+            slot = F::U::select(lambert, slot | F::U::splat(path::MAPPED), slot);
         }
         let alive = alive & zero.lt(carried.max_component());
         let k = next.len;
@@ -228,6 +274,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         instance.compress(alive, &mut next.from_instance[k..]);
         next.len += alive.count();
     }
+    // Behind all others, so that their order does not depend on the number of lanes.
+    next.append(branches);
     std::mem::swap(&mut batch.paths, &mut batch.next);
     batch.counters.scattered_rays += batch.paths.len as u64;
     batch.counters.shadow_rays += batch.shadows.len as u64;
@@ -236,9 +284,15 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
 /// The primitive that a ray from this surface must not meet: the one it leaves. A ray that sinks below a smooth triangle starts
 /// above it (Hanika) and may well meet it.
 #[inline(always)]
-fn leaves<F: Lanes>(s: &Surface<F>, wi: V3<F>, primitive: F::U) -> F::U {
+pub fn leaves<F: Lanes>(s: &Surface<F>, wi: V3<F>, primitive: F::U) -> F::U {
     let sinks = s.smooth & wi.dot(s.ng).le(F::splat(0.0)) & !s.start.sub(s.p).dot(s.ng).le(s.offset);
     F::U::select(sinks, F::U::splat(NONE), primitive)
+}
+
+/// Lanes with this bit of [`path`].
+#[inline(always)]
+fn has<U: Bits>(slot: U, bit: u32) -> U::M {
+    !(slot & U::splat(bit)).eq(U::splat(0))
 }
 
 /// a^2 / (a^2 + b^2), written so that large densities do not overflow.
@@ -248,7 +302,7 @@ fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
 }
 
-/// Adds the lanes of the mask to their slots' radiance. A path ends here, so at most one addition per slot.
+/// Adds the lanes of the mask to their slots' radiance, one after the other.
 #[inline(always)]
 fn add_to_slots<F: Lanes>(radiance: &mut Columns, slot: F::U, value: V3<F>, mask: F::M) {
     let mut bits = mask.bits();

@@ -149,7 +149,7 @@ fn sampled_densities_and_weights_are_the_evaluated_ones() {
         for degrees in ANGLES {
             let (n, wo) = (lanes(normal()), lanes(viewer(degrees)));
             for _ in 0..200 {
-                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random));
+                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random), false);
                 if scalar(s.pdf) <= 0.0 {
                     continue;
                 }
@@ -255,7 +255,7 @@ fn samples_have_the_evaluated_density() {
             assert!(within < f64::from(SAMPLES) * 1.003, "{material:?} at {degrees}: density {within}");
             let mut counts = vec![0u64; expected.len() + 1];
             for _ in 0..SAMPLES {
-                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random));
+                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random), false);
                 let cell = if scalar(s.pdf) > 0.0 { cells.of(vector(s.wi)) } else { counts.len() - 1 };
                 counts[cell] += 1;
             }
@@ -281,7 +281,7 @@ fn furnace() {
             let weights: Vec<f64> = (0..4000)
                 .map(|_| {
                     let (u, v, lobe) = (number(&mut random), number(&mut random), number(&mut random));
-                    let s = bsdf.sample_rough(lanes(normal()), lanes(wo), u, v, lobe);
+                    let s = bsdf.sample_rough(lanes(normal()), lanes(wo), u, v, lobe, false);
                     if scalar(s.pdf) > 0.0 { vector(s.weight).x } else { 0.0 }
                 })
                 .collect();
@@ -373,7 +373,7 @@ fn dielectric_obeys_snell_and_fresnel() {
                 let wo = viewer(degrees);
                 let sin_t = eta * libm::sin(f64::to_radians(degrees));
                 let f = closed_form(f64::to_radians(degrees), eta);
-                let at = |lobe: f64| sample_dielectric(&s, lanes(wo), S::splat(ior as f32), S::splat(lobe as f32));
+                let at = |lobe: f64| Dielectric::new(&s, lanes(wo), S::splat(ior as f32)).sample(S::splat(lobe as f32));
                 let margin = 2e-4;
                 if f > margin {
                     let d = at(f - margin);
@@ -442,7 +442,7 @@ fn refracted_directions_pass_the_surface() {
         let (ng, ns, wo) = bent(&mut random);
         let s = surface(ng, ns, random.below(2) == 0);
         let ior = S::splat(random.between(1.0, 2.5) as f32);
-        let d = sample_dielectric(&s, lanes(wo), ior, number(&mut random));
+        let d = Dielectric::new(&s, lanes(wo), ior).sample(number(&mut random));
         let wi = vector(d.wi);
         assert!((wi.length() - 1.0).abs() < 1e-6);
         refracted += u32::from(d.refracted.any());
