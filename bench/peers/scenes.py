@@ -2,6 +2,7 @@
 
 import math
 import os
+import random
 from dataclasses import dataclass, field
 
 ASSETS = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets"))
@@ -54,6 +55,18 @@ class Glass:
     def mitsuba(self):
         glass = {"type": "dielectric", "int_ior": self.ior, "ext_ior": 1.0}
         return {**glass, "specular_transmittance": rgb(self.transmittance)}
+
+
+@dataclass
+class BlinnPhong:
+    """Only of tracer: Mitsuba has no such material."""
+
+    albedo: tuple
+    specular: float
+    exponent: float
+
+    def ron(self):
+        return f"BlinnPhong(albedo: {triple(self.albedo)}, specular: {self.specular}, exponent: {self.exponent})"
 
 
 # Shapes.
@@ -129,6 +142,8 @@ class Scene:
     fov: float = 60.0
     # Diameter of the lens, distance of the plane of focus.
     lens: tuple = None
+    # Blinn-Phong has no counterpart in Mitsuba.
+    ours_only: bool = False
 
     def ron(self, size):
         lens = f"ThinLens(aperture: {self.lens[0]}, focus_distance: {self.lens[1]})" if self.lens else "None"
@@ -265,13 +280,133 @@ def scenes():
     ]
 
 
+def figure_4(middle):
+    balls = row(-10, [Mirror((r,) * 3) for r in (1, 0.5, 0.1)]) + row(10, middle)
+    return room() + balls + row(30, [Glass(n) for n in (1.33, 1.52, 2.42)])
+
+
+BLUE_GREEN_RED = ((0.1, 0.1, 1), (0.1, 1, 0.1), (1, 0.1, 0.1))
+
+
 def timed_scenes():
     """What both are timed with: figure 4, its Blinn-Phong balls diffuse because Mitsuba has no such material, and a diffuse mesh."""
-    diffuse = [Diffuse(c) for c in ((0.1, 0.1, 1), (0.1, 1, 0.1), (1, 0.1, 0.1))]
-    balls = row(-10, [Mirror((r,) * 3) for r in (1, 0.5, 0.1)]) + row(10, diffuse)
-    balls += row(30, [Glass(n) for n in (1.33, 1.52, 2.42)])
-    cat = Mesh("cat_60k.obj", Diffuse((0.8, 0.6, 0.5)), 0.9, -40.0, (0, -20, 0), smooth=True)
     return [
-        Scene("figure 4", room() + balls, [lamp()]),
-        Scene("a diffuse mesh in the room", room() + [cat], [lamp()]),
+        Scene("figure 4", figure_4([Diffuse(c) for c in BLUE_GREEN_RED]), [lamp()]),
+        Scene("a diffuse mesh in the room", room() + [Mesh("cat_60k.obj", FUR, 0.9, -40.0, (0, -20, 0), smooth=True)], [lamp()]),
     ]
+
+
+FUR = Diffuse((0.8, 0.6, 0.5))
+
+
+def statues(size=0.6):
+    """Three cats of 60000 triangles, a mirror, matt and of glass."""
+    materials = (Mirror((0.9,) * 3), FUR, Glass(1.5))
+    return [Mesh("cat_60k.obj", m, size, -30.0, (x, -19.9, 0), smooth=True) for x, m in zip((-26, 0, 26), materials)]
+
+
+def noise_scenes(work):
+    """What noise is compared on with Mitsuba. The last has about a million triangles, made in the folder `work`."""
+    glossy = [BlinnPhong(c, 0.2, e) for c, e in zip(BLUE_GREEN_RED, (10, 100, 1000))]
+    million = Mesh(subdivided("cat_60k.obj", work), FUR, 0.9, -40.0, (0, -20, 0), smooth=True)
+    return [
+        Scene("figure 4, matt middle row", figure_4([Diffuse(c) for c in BLUE_GREEN_RED]), [lamp()]),
+        Scene("figure 4", figure_4(glossy), [lamp()], ours_only=True),
+        Scene("three statues", room() + statues(), [lamp()], bounces=10),
+        Scene("a matt mesh", room() + [Mesh("cat_60k.obj", FUR, 0.9, -40.0, (0, -20, 0), smooth=True)], [lamp()]),
+        Scene("a matt mesh of a million, a lens", room() + [million], [lamp()], lens=(3.0, 55.0)),
+    ]
+
+
+def subdivided(file, work):
+    """A mesh with every triangle cut into four, twice; edges keep their midpoints in common."""
+    out = os.path.join(work, "million.obj")
+    if os.path.exists(out):
+        return out
+    points, faces = [], []
+    with open(os.path.join(ASSETS, file)) as f:
+        for line in f:
+            words = line.split()
+            if words[:1] == ["v"]:
+                points.append(tuple(map(float, words[1:4])))
+            elif words[:1] == ["f"]:
+                faces.append([int(w.split("/")[0]) - 1 for w in words[1:4]])
+    for _ in range(2):
+        middle = {}
+
+        def between(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middle:
+                middle[key] = len(points)
+                points.append(tuple((x + y) / 2 for x, y in zip(points[a], points[b])))
+            return middle[key]
+
+        finer = []
+        for a, b, c in faces:
+            ab, bc, ca = between(a, b), between(b, c), between(c, a)
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        faces = finer
+    with open(out + ".part", "w") as f:
+        f.writelines("v %.6f %.6f %.6f\n" % p for p in points)
+        f.writelines("f %d %d %d\n" % tuple(i + 1 for i in t) for t in faces)
+    os.replace(out + ".part", out)
+    return out
+
+
+def plain_scenes(folder, work, size):
+    """What tracer is compared on with its own plain path tracer: (name, file, size of the picture)."""
+    repository = os.path.join(ASSETS, "..", "scenes")
+    for number in range(1, 10):
+        yield f"figure {number}", os.path.join(repository, f"fig{number}.ron"), (size, size)
+    for name, shape in (("bokeh", 16 / 9), ("cat_planet", 16 / 9), ("cradle", 3 / 2), ("marbles", 4 / 3), ("still_life", 4 / 3)):
+        yield f"gallery: {name}", os.path.join(repository, "gallery", name + ".ron"), (size, round(size / shape))
+    for scene in scenes() + noise_scenes(work)[2:4] + more_scenes():
+        file = os.path.join(folder, "scene.ron")
+        with open(file, "w") as f:
+            f.write(scene.ron(size))
+        yield scene.name, file, (size, size)
+
+
+def more_scenes():
+    """What the others lack: very many lamps, everything specular, outdoors, casters whose light goes nowhere, long paths, random balls."""
+    draw = random.Random(7)
+    lamps = [
+        Light([draw.uniform(-40, 40), draw.uniform(-15, 45), draw.uniform(-40, 90)], 0.3, [draw.uniform(10, 400) for _ in range(3)])
+        for _ in range(1000)
+    ]
+    mirrors_and_glass = [
+        Sphere([draw.uniform(-18, 18), draw.uniform(-18, 18), draw.uniform(-18, 18)], draw.uniform(2, 5), draw.choice([Mirror((0.9,) * 3), Glass(1.5)]))
+        for _ in range(40)
+    ]
+    outdoors = [floor()] + [
+        Sphere((10 * x, 4, 10 * z), 4, draw.choice([Diffuse((0.7, 0.4, 0.3)), Mirror((0.8,) * 3), Glass(1.5), BlinnPhong((0.3, 0.5, 0.7), 0.3, 200)]))
+        for x in range(-2, 3)
+        for z in range(-2, 3)
+    ]
+    white = [Sphere(s.center, s.radius, Diffuse((0.95,) * 3)) for s in room()]
+    sky = (0.6, 0.75, 1.0)
+    view = dict(eye=(20, 30, 60), look_at=(0, 4, 0), fov=40.0)
+    return [
+        Scene("a thousand lamps in the room", room() + three_balls(), lamps),
+        Scene("only mirrors and glass, sky", mirrors_and_glass, background=sky, bounces=20),
+        Scene("outdoors, sky alone", outdoors, background=sky, **view),
+        Scene("outdoors, sky and sun", outdoors, [Light((300, 500, 200), 12, (9000, 8500, 8000))], background=sky, **view),
+        Scene("a mirror floor under a wide lamp", [Sphere((0, -1000, 0), 1000, Mirror((0.9,) * 3)), *three_balls()], [Light((0, 60, 0), 15, (9,) * 3)]),
+        Scene("fifty bounces in a white room", white + row(0, [Glass(1.5), Diffuse((0.95,) * 3), Mirror((0.95,) * 3)]), [lamp()], bounces=50),
+        *(random_balls(k) for k in range(4)),
+    ]
+
+
+def random_balls(k):
+    """Thirty balls of any material in the room under one to three lamps."""
+    draw = random.Random(100 + k)
+
+    def color():
+        return tuple(draw.uniform(0.1, 0.95) for _ in range(3))
+
+    def material():
+        return draw.choice([Diffuse(color()), Diffuse(color()), Mirror(color()), Glass(draw.uniform(1.2, 2.4)), BlinnPhong(color(), 0.2, 10 ** draw.uniform(0.5, 3.5))])
+
+    balls = [Sphere([draw.uniform(-30, 30), draw.uniform(-18, 30), draw.uniform(-40, 20)], draw.uniform(2, 7), material()) for _ in range(30)]
+    lamps = [Light([draw.uniform(-40, 40), draw.uniform(30, 45), draw.uniform(0, 60)], draw.uniform(1, 5), [draw.uniform(30, 90)] * 3) for _ in range(draw.randint(1, 3))]
+    return Scene(f"random balls {k}", room() + balls, lamps)

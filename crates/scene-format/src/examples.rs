@@ -1,7 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter,
+    TextureWrap, ToneMap,
 };
 use crate::desc::{DepthOfField, Pattern, TransformWords};
 use crate::schema::EnumDef;
@@ -36,11 +37,12 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 14] = [
+pub(crate) const CHOICES: [&EnumDef; 15] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
     &Acceleration::DEF,
+    &Integrator::DEF,
     &Reuse::DEF,
     &Caustics::DEF,
     &Light::DEF,
@@ -54,7 +56,7 @@ pub(crate) const CHOICES: [&EnumDef; 14] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 37] = [
+const SNIPPETS: [(&str, &str, &str); 39] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -67,6 +69,8 @@ const SNIPPETS: [(&str, &str, &str); 37] = [
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
+    ("Integrator", "Full", "integrator: Full"),
+    ("Integrator", "Path", "integrator: Path"),
     ("Reuse", "Blocks", "reuse: Blocks"),
     ("Reuse", "None", "reuse: None"),
     ("Caustics", "Photons", "caustics: Photons"),
@@ -116,7 +120,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
         "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
-        "Acceleration" | "Reuse" | "Caustics" => render = format!("{render}, {words}"),
+        "Acceleration" | "Integrator" | "Reuse" | "Caustics" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "Pattern" | "TextureFilter" | "TextureWrap" => {

@@ -135,6 +135,7 @@ fn scene(random: &mut Random) -> SceneDesc {
         render: Render {
             seed: (random.next() as u32).into(),
             acceleration: *random.pick(&[Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None]),
+            integrator: *random.pick(&[Integrator::Full, Integrator::Path]),
             ..Render::default()
         },
         effects: Effects {

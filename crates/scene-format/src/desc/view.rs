@@ -41,6 +41,8 @@ scene_struct! {
         seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);
         /// What finds the hits; the picture is the same, byte for byte.
         acceleration: Acceleration = Acceleration::Bvh;
+        /// With or without what saves noise.
+        integrator: Integrator = Integrator::Full;
         /// Whether the pixels of a block share what they find.
         reuse: Reuse = Reuse::Blocks;
         /// How light comes over mirrors and glass to diffuse surfaces.
@@ -57,6 +59,17 @@ scene_words! {
         BoundingBox,
         /// Every triangle tested for every ray.
         None,
+    }
+}
+
+scene_words! {
+    /// With or without what saves noise.
+    pub enum Integrator, "integrator" {
+        /// Path tracing with all that `reuse` and `caustics` say.
+        Full,
+        /// The plain path tracer, whatever `reuse` and `caustics` say: every pixel for itself, no photons; right on average with any
+        /// number of samples.
+        Path,
     }
 }
 
@@ -107,6 +120,7 @@ impl Default for Render {
             max_bounces: 5.into(),
             seed: 0.into(),
             acceleration: Acceleration::Bvh,
+            integrator: Integrator::Full,
             reuse: Reuse::Blocks,
             caustics: Caustics::Photons,
         }

@@ -12,7 +12,7 @@ use crate::scene::{
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
-use scene_format::desc::{Acceleration, Caustics, Emission, Object, PixelFilter, Reuse, SphereLight};
+use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
@@ -90,6 +90,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let tree = start.elapsed().as_secs_f64();
+    let full = desc.render.integrator == Integrator::Full;
     Ok(Scene {
         frame,
         camera: camera(desc, &frame),
@@ -97,8 +98,8 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
-        reuse: desc.render.reuse == Reuse::Blocks,
-        caustics: desc.render.caustics == Caustics::Photons,
+        reuse: full && desc.render.reuse == Reuse::Blocks,
+        caustics: full && desc.render.caustics == Caustics::Photons,
         background: desc.background.map(|x| x as f32),
         spheres,
         materials,

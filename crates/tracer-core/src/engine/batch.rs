@@ -17,10 +17,9 @@ pub const BLOCK_PIXELS: usize = 64;
 pub const ITEMS: usize = 16;
 /// Paths in a batch.
 pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
-/// Room behind every array for one vector more: a compressing store writes whole registers.
-pub const CAPACITY: usize = PATHS + 64;
-/// Room for the paths that there are when all have gone both ways wherever they may (see `stages::shade`).
-const MOST_PATHS: usize = (1 + BRANCHING as usize) * PATHS + 64;
+/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`), and behind every array for one vector
+/// more: a compressing store writes whole registers.
+pub const CAPACITY: usize = (1 + BRANCHING as usize) * PATHS + 64;
 
 /// Three columns: x, y, z or r, g, b.
 pub type Columns = [Vec<f32>; 3];
@@ -34,16 +33,6 @@ fn words() -> Vec<u32> {
 fn columns() -> Columns {
     [floats(), floats(), floats()]
 }
-fn many_floats() -> Vec<f32> {
-    vec![0.0; MOST_PATHS]
-}
-fn many_words() -> Vec<u32> {
-    vec![0; MOST_PATHS]
-}
-fn many_columns() -> Columns {
-    [many_floats(), many_floats(), many_floats()]
-}
-
 /// One item.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Item {
@@ -142,14 +131,14 @@ impl Paths {
     fn new() -> Self {
         Paths {
             len: 0,
-            origin: many_columns(),
-            direction: many_columns(),
-            throughput: many_columns(),
-            eta2: many_floats(),
-            pdf: many_floats(),
-            slot: many_words(),
-            from_primitive: vec![NONE; MOST_PATHS],
-            from_instance: vec![NONE; MOST_PATHS],
+            origin: columns(),
+            direction: columns(),
+            throughput: columns(),
+            eta2: floats(),
+            pdf: floats(),
+            slot: words(),
+            from_primitive: vec![NONE; CAPACITY],
+            from_instance: vec![NONE; CAPACITY],
         }
     }
 
@@ -211,16 +200,16 @@ impl Shadows {
     fn new() -> Self {
         Shadows {
             len: 0,
-            origin: many_columns(),
-            direction: many_columns(),
-            t_max: many_floats(),
-            contribution: many_columns(),
-            slot: many_words(),
-            from_primitive: many_words(),
-            from_instance: many_words(),
-            target_primitive: many_words(),
-            target_instance: vec![NONE; MOST_PATHS],
-            occluded: many_words(),
+            origin: columns(),
+            direction: columns(),
+            t_max: floats(),
+            contribution: columns(),
+            slot: words(),
+            from_primitive: words(),
+            from_instance: words(),
+            target_primitive: words(),
+            target_instance: vec![NONE; CAPACITY],
+            occluded: words(),
         }
     }
 }
@@ -433,14 +422,8 @@ impl Batch {
                 events: words(),
                 slot: words(),
             },
-            queries: Queries {
-                len: 0,
-                point: many_columns(),
-                normal: many_columns(),
-                value: many_columns(),
-                slot: many_words(),
-            },
-            hits: Hits { t: many_floats(), primitive: many_words(), instance: many_words() },
+            queries: Queries { len: 0, point: columns(), normal: columns(), value: columns(), slot: words() },
+            hits: Hits { t: floats(), primitive: words(), instance: words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),
             radiance: [0, 1, 2].map(|_| vec![0.0; 2 * PATHS + 64]),
@@ -475,7 +458,7 @@ impl Batch {
                 pair_member: words(),
                 gathered: columns(),
             },
-            active: many_words(),
+            active: words(),
             active_len: 0,
             counters: Counters::default(),
             watch: Watch::default(),

@@ -6,7 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Object, PixelFilter, Placements, Shading, TextureFilter, TextureWrap, Transform,
+    Acceleration, Caustics, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter, TextureWrap,
+    Transform,
 };
 use std::ops::ControlFlow;
 use tracer_core::lanes::level::Level;
@@ -182,6 +183,24 @@ fn accelerations() {
                 assert!(rendered(&scene, &options) == expected, "{name}: {acceleration:?}, {}", level.name());
             }
         }
+    }
+}
+
+/// `integrator: Path` is the picture without sharing and photons, `Full` that with what the scene says of them.
+#[test]
+fn integrators() {
+    let render = |integrator, reuse, caustics| {
+        let mut desc = many_balls();
+        (desc.render.integrator, desc.render.reuse, desc.render.caustics) = (integrator, reuse, caustics);
+        rendered(&compiled(&desc), &options())
+    };
+    let plain = render(Integrator::Full, Reuse::None, Caustics::None);
+    for (reuse, caustics) in [(Reuse::Blocks, Caustics::None), (Reuse::None, Caustics::Photons)] {
+        assert!(
+            render(Integrator::Full, reuse, caustics) != plain,
+            "{reuse:?}, {caustics:?}: nothing shared, no photons"
+        );
+        assert!(render(Integrator::Path, reuse, caustics) == plain, "{reuse:?}, {caustics:?}");
     }
 }
 

@@ -20,6 +20,13 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["analytic::n_bounces_are_the_partial_sum_of_a_series"]),
     },
     Mutant {
+        name: "photons-in-the-plain-path-tracer",
+        file: COMPILE,
+        find: "caustics: full && desc.render",
+        replace: "caustics: desc.render",
+        caught_by: proofs(&["same_bytes::integrators"]),
+    },
+    Mutant {
         name: "lens-radius-for-its-diameter",
         file: COMPILE,
         find: "frame.length(l.aperture.value / 2.0)",

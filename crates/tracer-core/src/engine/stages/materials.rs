@@ -117,7 +117,12 @@ impl<F: Lanes> Bsdf<F> {
     /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
     #[inline(always)]
     pub fn evaluate(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> (V3<F>, F) {
-        let lobes = self.lobes(ns, wo, wi, cos_i);
+        self.both(&self.lobes(ns, wo, wi, cos_i))
+    }
+
+    /// f and density of the lobes together.
+    #[inline(always)]
+    pub fn both(&self, lobes: &Lobes<F>) -> (V3<F>, F) {
         if !self.glossy.any() {
             return (self.color.scale(lobes.lambert), lobes.lambert_pdf);
         }

@@ -140,13 +140,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let cos_i = s.ns.dot(l.wi);
             let lit = rough & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {
-                let (mut f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
+                let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
+                let (mut f, pdf) = bsdf.both(&lobes);
                 let mut weight = F::select(goes_on, power_heuristic(l.pdf, pdf), one);
                 if let Some(photons) = pass.photons
                     && bsdf.glossy.any()
                 {
                     // Each lobe against its own samples; what a narrow one would bring to a diffuse vertex is the photons'.
-                    let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
                     let p = bsdf.glossy_probability();
                     let lambert = lobes.lambert * power_heuristic(l.pdf, (one - p) * lobes.lambert_pdf);
                     let glossy = lobes.glossy * power_heuristic(l.pdf, p * lobes.glossy_pdf);
