@@ -193,9 +193,51 @@ def plain(arguments):
         sys.exit(f"plain path tracing is ahead in: {', '.join(worse)}")
 
 
+def pictures(arguments):
+    """Montages at equal time, rows 0.5, 2 and 8 seconds, columns tracer, plain, Mitsuba; and their errors, grey where there is none."""
+    import drjit as dr
+    import mitsuba as mi
+
+    mi.set_variant(arguments.variant)
+    dr.set_thread_count(arguments.threads)
+    os.makedirs(arguments.out, exist_ok=True)
+    for description in scenes.noise_scenes(arguments.work):
+        if arguments.scene not in description.name or description.ours_only:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "scene.ron")
+            with open(file, "w") as f:
+                f.write(description.ron(arguments.size))
+            full, path = (Tracer(arguments, file, folder, i) for i in (FULL, PLAIN))
+            reference = Reference(full, arguments.reference)
+            truth = 0.5 * (reference.pair[0] + reference.pair[1])
+            seen, errors = [], []
+            for wanted in (0.5, 2.0, 8.0):
+                row = []
+                for name, renderer in (("tracer", full), ("plain", path), ("Mitsuba", Mitsuba(mi, description, arguments.size))):
+                    samples = 8
+                    for _ in range(2):
+                        seconds = renderer.render(samples, 61)[1]
+                        samples = max(1, round(samples * wanted / seconds))
+                    picture, seconds = renderer.render(samples, 62)
+                    row.append(picture)
+                    print(f"{description.name}: {name}, {wanted} s: {samples} samples in {seconds:.2f} s, "
+                          f"relMSE {reference.error(picture):.3g}", flush=True)
+                seen.append(np.concatenate(row, axis=1))
+                # A grey of a fifth, half a stop of the truth up and down.
+                relative = [(p - truth).mean(axis=2) / (truth.mean(axis=2) + 0.1) for p in row]
+                errors.append(np.concatenate([np.clip(0.2 + 0.5 * e, 0, 1)[..., None].repeat(3, axis=2) for e in relative], axis=1))
+            word = description.name.replace(",", "").replace(" ", "-")
+            for kind, rows in (("", seen), ("-error", errors)):
+                bitmap = mi.Bitmap(np.concatenate(rows, axis=0).astype(np.float32))
+                bitmap = bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.UInt8, srgb_gamma=True)
+                bitmap.write(os.path.join(arguments.out, word + kind + ".jpg"), quality=88)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("command", choices=["peers", "plain"], help="against Mitsuba on five scenes, or against our plain path tracer on many")
+    parser.add_argument("command", choices=["peers", "plain", "pictures"],
+                        help="against Mitsuba on five scenes; against our plain path tracer on many; pictures at equal time")
     parser.add_argument("--tracer", default=os.path.join(ROOT, "target", "release", "tracer"))
     parser.add_argument("--variant", default="llvm_ad_rgb", help="Mitsuba's variant")
     parser.add_argument("--scene", default="", help="only scenes whose names contain this")
@@ -205,9 +247,10 @@ def main():
     parser.add_argument("--reference", type=int, default=512, help="samples of each of the two references")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--work", default=os.path.join(ROOT, "target", "noise"), help="a folder for a large mesh")
+    parser.add_argument("--out", default=os.path.join(ROOT, "docs", "noise"), help="a folder for the pictures")
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
-    (peers if arguments.command == "peers" else plain)(arguments)
+    {"peers": peers, "plain": plain, "pictures": pictures}[arguments.command](arguments)
 
 
 if __name__ == "__main__":

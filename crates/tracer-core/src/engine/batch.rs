@@ -119,6 +119,9 @@ pub struct Paths {
     pub eta2: Vec<f32>,
     /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
     pub pdf: Vec<f32>,
+    /// Shading normal that the light was sampled with where the ray starts; written and read only where there are several lights and
+    /// `pdf` is not negative.
+    pub normal: Columns,
     /// Slot and state, see [`path`].
     pub slot: Vec<u32>,
     /// The surface the ray leaves.
@@ -136,13 +139,14 @@ impl Paths {
             throughput: columns(),
             eta2: floats(),
             pdf: floats(),
+            normal: columns(),
             slot: words(),
             from_primitive: vec![NONE; CAPACITY],
             from_instance: vec![NONE; CAPACITY],
         }
     }
 
-    /// Adds those of another behind these.
+    /// Adds those of another, which come from glass, behind these.
     #[inline(always)]
     pub fn append(&mut self, other: &Paths) {
         let (to, from) = (self.len..self.len + other.len, ..other.len);

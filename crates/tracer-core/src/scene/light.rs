@@ -24,7 +24,7 @@ pub(crate) struct LightTable {
     pub radiance: [Vec<f32>; 3],
     /// Primitive id of the light's sphere.
     pub primitive: Vec<u32>,
-    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, squared radius and
+    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius and
     /// power of the lights below, and the bits of the first child's index, or of [`LightTable::LEAF`] and a light.
     pub tree: Vec<f32>,
     /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
@@ -122,7 +122,7 @@ impl Builder<'_> {
             self.node(first + LightTable::STRIDE as usize, right, trail | 1 << depth, depth + 1);
             first as u32 / LightTable::STRIDE
         };
-        let numbers = [center.x, center.y, center.z, radius * radius, power].map(|x| x as f32);
+        let numbers = [center.x, center.y, center.z, radius, power].map(|x| x as f32);
         self.tree[at..at + 5].copy_from_slice(&numbers);
         self.tree[at + 5] = f32::from_bits(content);
     }

@@ -4,7 +4,7 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, square};
 use crate::support::{compiled, effort, film};
 use scene_format::SceneDesc;
-use scene_format::desc::{PixelFilter, Shading, ToneMap, Transform};
+use scene_format::desc::{Light, PixelFilter, Shading, ToneMap, Transform};
 use std::f64::consts::PI;
 use tracer_core::{Image, Look, develop, srgb_encode};
 use tracer_reference::statistics::Estimate;
@@ -99,6 +99,34 @@ fn a_sphere_light_above_and_partly_below_the_horizon() {
         let expected = 0.6 * irradiance(sigma, theta) / PI;
         let name = format!("sphere light, sigma {sigma}, theta {theta}");
         assert_mean(&name, &lit_floor(0.6, sigma, theta), 256, expected);
+    }
+}
+
+/// Several lamps, above, on and below the horizon, light the floor as the sum of each alone: by light samples only (no bounces), and by
+/// light samples and scattered rays together.
+#[test]
+fn several_lamps_are_the_sum_of_each() {
+    // Half angle, angle from the normal, azimuth, radiance. Seen from the floor's middle none hides another.
+    let lamps = [
+        (0.5, 0.2, 0.0, 1.0),
+        (0.3, 1.45, 2.0, 4.0),
+        (0.3, 1.6, 4.0, 9.0),
+        (0.2, 1.0, 5.0, 0.5),
+        (0.3, 2.2, 1.0, 20.0),
+    ];
+    let expected = lamps.iter().map(|&(sigma, theta, _, radiance)| match theta - sigma {
+        below if below >= PI / 2.0 => 0.0,
+        _ => 0.6 / PI * radiance * irradiance(sigma, theta),
+    });
+    let expected: f64 = expected.sum();
+    let place = |(sigma, theta, azimuth, radiance): (f64, f64, f64, f64)| {
+        let center = [theta.sin() * azimuth.cos(), theta.cos(), theta.sin() * azimuth.sin()];
+        Light::SphereLight(light(center.map(|x| 8.0 * x), 8.0 * sigma.sin(), [radiance; 3])).into()
+    };
+    for bounces in [0, 1] {
+        let mut desc = lit_floor(0.6, 0.1, 0.0).bounces(bounces);
+        desc.lights = lamps.into_iter().map(place).collect();
+        assert_mean(&format!("five lamps, {bounces} bounces"), &desc, 1024, expected);
     }
 }
 

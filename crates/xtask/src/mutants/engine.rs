@@ -244,6 +244,20 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "let second = u.lt(step.first);",
         caught_by: units(&["engine::stages::lights"]),
     },
+    Mutant {
+        name: "light-tree-loses-lights-on-the-horizon",
+        file: LIGHTS,
+        find: "(to.dot(receiver.n) + radius)",
+        replace: "(to.dot(receiver.n) - radius)",
+        caught_by: units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "lights-met-as-if-from-the-other-side",
+        file: SHADE,
+        find: "Receiver { p: origin, n: normal }",
+        replace: "Receiver { p: origin, n: normal.neg() }",
+        caught_by: proofs(&["analytic::several_lamps"]),
+    },
     // Camera and filters.
     Mutant {
         name: "picture-upside-down",

@@ -28,19 +28,27 @@ pub struct Choice<F: Lanes> {
     pub probability: F,
 }
 
-/// Which light to ask from `p`: down the tree of lights, at each step to one of two children by what they may send, power over
-/// squared distance (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018). Unlike there
-/// neither normals nor the direction of the lights count (spheres shine everywhere), so that the probability of a light that was hit
-/// is known from the point alone.
+/// Where light is asked for.
+#[derive(Clone, Copy)]
+pub struct Receiver<F: Lanes> {
+    /// The point.
+    pub p: V3<F>,
+    /// Unit normal: what comes from behind it is not asked for. Not read where there is one light.
+    pub n: V3<F>,
+}
+
+/// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over squared distance
+/// times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree
+/// Splitting, 2018). Unlike there the direction of the lights does not count (spheres shine everywhere).
 #[inline(always)]
-pub fn choose<F: Lanes>(lights: &LightTable, p: V3<F>, u: F, v: F) -> Choice<F> {
+pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
     let (mut u, mut node, mut probability) = (u, F::U::splat(0), F::splat(1.0));
     for level in 0..lights.depth {
         // Each step takes a bit of a number of 24.
         if level == SECOND_NUMBER {
             u = v;
         }
-        let step = Step::new(lights, node, p);
+        let step = Step::new(lights, node, at);
         let second = step.first.le(u);
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
         let rest = F::select(second, u - step.first, u) / chance;
@@ -55,13 +63,13 @@ pub fn choose<F: Lanes>(lights: &LightTable, p: V3<F>, u: F, v: F) -> Choice<F> 
 const SECOND_NUMBER: u32 = 11;
 const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
 
-/// The probability that [`choose`] takes this light from `p`.
+/// The probability that [`choose`] takes this light.
 #[inline(always)]
-fn probability<F: Lanes>(lights: &LightTable, light: F::U, p: V3<F>) -> F {
+fn probability<F: Lanes>(lights: &LightTable, light: F::U, at: Receiver<F>) -> F {
     let (mut node, mut probability) = (F::U::splat(0), F::splat(1.0));
     let mut trail = F::U::gather(&lights.trail, light);
     for _ in 0..lights.depth {
-        let step = Step::new(lights, node, p);
+        let step = Step::new(lights, node, at);
         let second = (trail & F::U::splat(1)).eq(F::U::splat(1));
         trail = trail.shr::<1>();
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
@@ -83,11 +91,11 @@ struct Step<F: Lanes> {
 
 impl<F: Lanes> Step<F> {
     #[inline(always)]
-    fn new(lights: &LightTable, node: F::U, p: V3<F>) -> Self {
+    fn new(lights: &LightTable, node: F::U, at: Receiver<F>) -> Self {
         let content = content::<F>(lights, node);
         let inner = content.lt(F::U::splat(LightTable::LEAF));
         let children = F::U::select(inner, content, F::U::splat(0));
-        let (a, b) = (importance(lights, children, p), importance(lights, children + F::U::splat(1), p));
+        let (a, b) = (importance(lights, children, at), importance(lights, children + F::U::splat(1), at));
         let sum = a + b;
         let any = F::splat(0.0).lt(sum);
         let first = F::select(any, a / F::select(any, sum, F::splat(1.0)), F::splat(0.5));
@@ -101,17 +109,20 @@ impl<F: Lanes> Step<F> {
     }
 }
 
-/// What the lights below a node may send to `p`, but for a factor: their power over the squared distance of their middle; within
-/// the sphere around them no distance says more than its radius.
+/// What the lights below a node may send to the receiver, but for a factor: their power over the squared distance of their middle, times
+/// the cosine there of the point of the sphere around them that lies highest above the horizon, or what is simpler and never less and
+/// zero where that is: (h + r) / d for a middle h above the horizon. Within that sphere no distance says more than its radius.
 #[inline(always)]
-fn importance<F: Lanes>(lights: &LightTable, node: F::U, p: V3<F>) -> F {
+fn importance<F: Lanes>(lights: &LightTable, node: F::U, receiver: Receiver<F>) -> F {
     let at = node * F::U::splat(LightTable::STRIDE);
     let tree = &lights.tree;
     let (one, two) = (F::U::splat(1), F::U::splat(2));
     let center = V3(F::gather(tree, at), F::gather(tree, at + one), F::gather(tree, at + two));
-    let (radius2, power) = (F::gather(tree, at + one + two), F::gather(tree, at + two + two));
-    let to = center.sub(p);
-    power / to.dot(to).max(radius2)
+    let (radius, power) = (F::gather(tree, at + one + two), F::gather(tree, at + two + two));
+    let to = center.sub(receiver.p);
+    let d2 = to.dot(to).max(radius * radius);
+    let highest = (to.dot(receiver.n) + radius).max(F::splat(0.0)) / d2.sqrt();
+    power / d2 * highest.min(F::splat(1.0))
 }
 
 /// What a node holds; see [`LightTable::tree`].
@@ -167,14 +178,14 @@ pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F,
     }
 }
 
-/// Density with which [`choose`] and [`sample`] take a direction from `p` that meets light k.
+/// Density with which [`choose`] and [`sample`] take a direction that meets light k.
 #[inline(always)]
-pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>) -> F {
+pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>) -> F {
     let center = V3(F::gather(&lights.center[0], k), F::gather(&lights.center[1], k), F::gather(&lights.center[2], k));
     let radius = F::gather(&lights.radius, k);
-    let to_center = center.sub(p);
+    let to_center = center.sub(at.p);
     let opening = one_minus_cos(to_center.dot(to_center), radius * radius);
-    probability(lights, k, p) / (opening * F::splat(TWO_PI))
+    probability(lights, k, at) / (opening * F::splat(TWO_PI))
 }
 
 /// Radiance of light k.

@@ -3,7 +3,7 @@
 //! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the material's lobe.
 //! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
 
-use super::lights;
+use super::lights::{self, Receiver};
 use super::materials::{Bsdf, Dielectric, reflect_bent};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
@@ -43,6 +43,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, item_z);
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
+    let several = tables.lights.len > 1;
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
@@ -81,7 +82,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
-            let sampled = lights::pdf(&tables.lights, light, origin);
+            let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
+            let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal });
             let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             if let Some(photons) = pass.photons {
                 let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
@@ -133,8 +135,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
 
         // Light sampled from here.
         if rough.any() && tables.lights.len > 0 {
-            let (u, v) = if tables.lights.len == 1 { (zero, zero) } else { choices.points(&pixel) };
-            let choice = lights::choose(&tables.lights, s.start, u, v);
+            let (u, v) = if several { choices.points(&pixel) } else { (zero, zero) };
+            let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = light_points.points(&pixel);
             let l = lights::sample(&tables.lights, &choice, s.start, u, v);
             let cos_i = s.ns.dot(l.wi);
@@ -269,6 +271,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         carried.compress(alive, &mut next.throughput, k);
         new_eta2.compress(alive, &mut next.eta2[k..]);
         pdf.compress(alive, &mut next.pdf[k..]);
+        if several {
+            s.ns.compress(alive, &mut next.normal, k);
+        }
         slot.compress(alive, &mut next.slot[k..]);
         leaves(&s, wi, primitive).compress(alive, &mut next.from_primitive[k..]);
         instance.compress(alive, &mut next.from_instance[k..]);

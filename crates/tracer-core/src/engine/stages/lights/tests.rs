@@ -22,6 +22,11 @@ fn number(random: &mut Random) -> S {
     S::splat((random.bits() >> 40) as f32 / 16_777_216.0)
 }
 
+/// A receiver at a point, facing up.
+fn facing_up(p: V3<S>) -> Receiver<S> {
+    Receiver { p, n: V3::splat([0.0, 1.0, 0.0]) }
+}
+
 /// Lights of these centres, radii and radiances.
 fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let spheres: Vec<Sphere> = lights
@@ -59,7 +64,7 @@ fn densities_integrate_to_one() {
         for _ in 0..20 {
             let p = (center + distance * random.direction()).as_vec3();
             let v = V3::<S>::splat(p.to_array());
-            let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), v));
+            let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), facing_up(v)));
             // Where the point really is, after rounding. Close to the surface the solid angle grows with a square root of the
             // distance to it: rounding of the point (1e-7) then moves it by up to sqrt(2e-7) = 5e-4.
             let at = (p.as_dvec3() - center.as_vec3().as_dvec3()).length();
@@ -87,7 +92,7 @@ fn samples_meet_the_light() {
             let k = <S as Lanes>::U::splat(0);
             let choice = Choice { light: k, probability: S::splat(1.0) };
             let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random));
-            assert_eq!(scalar(sample.pdf), scalar(pdf(&lights, k, v)), "distance {distance}");
+            assert_eq!(scalar(sample.pdf), scalar(pdf(&lights, k, facing_up(v))), "distance {distance}");
             let (wi, t) = (point(sample.wi), scalar(sample.distance));
             assert!((wi.length() - 1.0).abs() < 2e-6);
             assert!(t > 0.0 || (distance - 1.0).abs() < 1e-2, "behind, from distance {distance}: {t}");
@@ -145,7 +150,8 @@ fn lights_are_chosen_as_their_probabilities_say() {
     let points = [[6.0, 9.0, 6.0], [0.0, 0.05, 0.0], [-300.0, 200.0, 100.0], [7.0, -2.0, 3.0]];
     let level = sidak(0.05, points.len());
     for p in points {
-        let p = V3::<S>::splat(p);
+        // From the second and the third, lights lie on both sides of the horizon.
+        let p = Receiver { p: V3::<S>::splat(p), n: V3::splat([0.6, 0.0, 0.8]) };
         let chance = |k: u32| scalar(probability(&table, <S as Lanes>::U::splat(k), p));
         let chances: Vec<f64> = (0..23).map(chance).collect();
         // 23 products of up to 5 factors that are rounded to 2^-24.
@@ -172,14 +178,17 @@ fn densities_hold_the_choice_of_the_light() {
     let mut random = Random::new(5);
     for p in [[1.0, 1.0, 1.0], [0.1, 0.2, -0.1], [-8.0, 3.0, 5.0]] {
         let v = V3::<S>::splat(p);
+        // Facing the middle of them, so that none lies behind.
+        let n = (DVec3::new(1.0, 2.0 / 3.0, 0.0) - DVec3::from(p.map(f64::from))).normalize().as_vec3();
+        let at = Receiver { p: v, n: V3::splat(n.to_array()) };
         for (k, (center, radius, _)) in lights.iter().enumerate() {
             let light = <S as Lanes>::U::splat(k as u32);
-            let chance = probability(&table, light, v);
+            let chance = probability(&table, light, at);
             let distance = (DVec3::from(p.map(f64::from)) - center).length() / radius;
             let expected = scalar(chance) / solid_angle(distance);
             // Some twenty roundings of 2^-24.
             let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
-            assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, v))), "light {k} from {p:?}");
+            assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at))), "light {k} from {p:?}");
             let choice = Choice { light, probability: chance };
             let sample = sample(&table, &choice, v, number(&mut random), number(&mut random));
             assert!(is_right(scalar(sample.pdf)), "light {k} from {p:?}, sampled");
@@ -191,11 +200,28 @@ fn densities_hold_the_choice_of_the_light() {
 #[test]
 fn near_lights_are_chosen_more_often() {
     let table = table(&[(DVec3::ZERO, 0.1, 1.0), (DVec3::X * 10.0, 0.1, 2.5)]);
-    let chance = |p: [f32; 3]| scalar(probability(&table, <S as Lanes>::U::splat(0), V3::<S>::splat(p)));
+    let chance = |p: [f32; 3], n: [f32; 3]| {
+        let at = Receiver { p: V3::<S>::splat(p), n: V3::splat(n) };
+        scalar(probability(&table, <S as Lanes>::U::splat(0), at))
+    };
     // (1 + 0.5) / (1 + 0.5 + 2.5 + 0.5), see `table`.
-    assert!((chance([5.0, 1e6, 0.0]) - 1.0 / 3.0).abs() < 1e-5);
-    let near = 1.5 / (1.5 + 3.0 / 81.0);
-    assert!((chance([1.0, 0.0, 0.0]) - near).abs() < 1e-5);
+    assert!((chance([5.0, 1e6, 0.0], [0.0, -1.0, 0.0]) - 1.0 / 3.0).abs() < 1e-5);
+    // Both on the horizon, where the cosine is bounded by their radius over the distance.
+    let near = 1.5 * 0.1 / (1.5 * 0.1 + 3.0 / 81.0 * 0.1 / 9.0);
+    assert!((chance([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) - near).abs() < 1e-5);
+}
+
+/// A light that lies wholly behind the receiver is not chosen where another is not; one of which a bit shows is.
+#[test]
+fn lights_behind_are_not_chosen() {
+    let table = table(&[(DVec3::Y * 10.0, 0.5, 1.0), (DVec3::Y * -10.0, 0.5, 100.0)]);
+    let chance = |light: u32, height: f32| {
+        let at = facing_up(V3::splat([1.0, height, 0.0]));
+        scalar(probability(&table, <S as Lanes>::U::splat(light), at))
+    };
+    assert_eq!([chance(0, 0.0), chance(1, 0.0)], [1.0, 0.0]);
+    assert_eq!([chance(0, -9.49), chance(1, -9.49)], [1.0, 0.0]);
+    assert!(chance(1, -9.51) > 0.0 && chance(1, -10.4) > 0.5);
 }
 
 /// A thousand lights, and ten thousand at one place: the way to none is longer than the logarithm, and none is out
@@ -209,7 +235,7 @@ fn many_lights_are_all_found() {
         let table = table(&lights);
         assert_eq!(table.depth, depth);
         let mut random = Random::new(6);
-        let p = V3::<S>::splat([3.0, 400.0, 2.0]);
+        let p = facing_up(V3::splat([3.0, -5.0, 2.0]));
         let mut seen = vec![false; lights.len()];
         for k in 0..lights.len() as u32 {
             assert!(scalar(probability(&table, <S as Lanes>::U::splat(k), p)) > 0.0);
