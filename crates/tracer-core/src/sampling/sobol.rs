@@ -106,6 +106,28 @@ pub fn higher_dimension(which: usize, i: u32) -> u32 {
     word
 }
 
+/// Columns of [`companion_index`]'s matrix for the first 2^16 indices: upper triangular, ones on the diagonal. Found by a search
+/// column by column: all subsets of rows of the four generator matrices that an elementary interval asks about were tried, and what left
+/// the fewest of them dependent was kept.
+const COMPANION: [u32; 16] =
+    [0x1, 0x3, 0x4, 0xd, 0x11, 0x32, 0x57, 0x81, 0x16c, 0x325, 0x505, 0xf47, 0x1c69, 0x269f, 0x6a92, 0xe8cd];
+
+/// The index of a second pair that belongs to a first pair of index `i`: the four dimensions together are a (t, 4)-sequence whose
+/// first 2^m points have t = 0, 1, 1, 1, 2, 1, 2, 2, 2, 3 for m = 1 to 10 (four dimensions of Sobol': 0, 1, 2, 2, 2, 2, 2, 3, 3, 2),
+/// and, as those of Sobol' do not, both pairs alone are (0, 2)-sequences: a linear map of the index whose matrix is upper
+/// triangular only changes the order of the points within [2^m, 2^(m + 1)). Ahmed, Skopenkov, Hadwiger and Wonka: Analysis and Synthesis of
+/// Digital Dyadic Sequences (2023) build such sequences in another way.
+pub fn companion_index(i: u32) -> u32 {
+    let (mut word, mut rest) = (0, i);
+    while rest != 0 {
+        let k = rest.trailing_zeros() as usize;
+        let column = COMPANION[k & 15];
+        word ^= if k < 16 { column } else { column << 16 | column };
+        rest &= rest - 1;
+    }
+    word
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,6 +180,62 @@ mod tests {
                     cells[((column << (m - a)) | row) as usize] += 1;
                 }
                 assert!(cells.iter().all(|&c| c == 1), "m {m} a {a}");
+            }
+        }
+    }
+
+    /// Indices keep their powers of two, so that every prefix of one of them is the same set.
+    #[test]
+    fn companion_indices_are_a_permutation_of_every_power_of_two() {
+        for m in 0..=17 {
+            let mut seen: Vec<u32> = (0..1 << m).map(companion_index).collect();
+            seen.sort_unstable();
+            assert!(seen.iter().enumerate().all(|(k, &i)| k as u32 == i), "m {m}");
+        }
+        for k in 0..32 {
+            assert_eq!(companion_index(1 << k) >> k, 1, "bit {k}");
+        }
+    }
+
+    /// The least t so that every elementary interval of volume 2^(t - m) holds 2^t of the first 2^m points.
+    fn quality(points: &[[u32; 4]], m: u32) -> u32 {
+        let even = |t: u32| {
+            let s = m - t;
+            let splits = (0..=s).flat_map(|a| (0..=s - a).flat_map(move |b| (0..=s - a - b).map(move |c| [a, b, c])));
+            splits.into_iter().all(|[a, b, c]| {
+                let bits = [a, b, c, s - a - b - c];
+                let mut cells = vec![0u32; 1 << s];
+                for point in points {
+                    // The upper bits of each dimension, one after the other.
+                    let cell =
+                        point.iter().zip(bits).fold(0, |cell, (&x, n)| cell << n | (u64::from(x) << n >> 32) as usize);
+                    cells[cell] += 1;
+                }
+                cells.iter().all(|&count| count == 1 << t)
+            })
+        };
+        (0..=m).find(|&t| even(t)).expect("all points lie in the whole")
+    }
+
+    #[test]
+    fn a_pair_and_its_companion_are_stratified_together_and_alone() {
+        let point = |i: u32| {
+            let j = companion_index(i);
+            [i, upper(i), j, upper(j)].map(u32::reverse_bits)
+        };
+        let expected = [0, 0, 1, 1, 1, 2, 1, 2, 2, 2, 3];
+        for m in 0..=10u32 {
+            let points: Vec<[u32; 4]> = (0..1 << m).map(point).collect();
+            assert_eq!(quality(&points, m), expected[m as usize], "m {m}");
+            // Alone: the other two dimensions are the same for all and out of the way.
+            let pair: Vec<[u32; 4]> = points.iter().map(|p| [p[2], p[3], 0, 0]).collect();
+            for a in 0..=m {
+                let mut cells = vec![0u32; 1 << m];
+                for [x, y, ..] in &pair {
+                    let (column, row) = (u64::from(*x) << a >> 32, u64::from(*y) << (m - a) >> 32);
+                    cells[(column << (m - a) | row) as usize] += 1;
+                }
+                assert!(cells.iter().all(|&c| c == 1), "the second pair alone, m {m} a {a}");
             }
         }
     }
