@@ -219,7 +219,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "mis-without-the-choice-of-light",
         file: LIGHTS,
-        find: "    probability(lights, k, p) / (opening * F::splat(TWO_PI))",
+        find: "    probability(lights, k, at) / (opening * F::splat(TWO_PI))",
         replace: "    F::splat(1.0) / (opening * F::splat(TWO_PI))",
         caught_by: units(&["engine::stages::lights"]),
     },
