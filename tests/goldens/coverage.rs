@@ -32,7 +32,7 @@ fn material(scene: &SceneDesc) -> Option<&'static str> {
     };
     let material = match used {
         MaterialRef::Default => return None,
-        MaterialRef::Named(name) => &scene.materials.iter().find(|m| m.name.value == name.value)?.material,
+        MaterialRef::Named { name, .. } => &scene.materials.iter().find(|m| m.name.value == *name)?.material,
         MaterialRef::Inline(material) => &material.value,
     };
     Some(match material {

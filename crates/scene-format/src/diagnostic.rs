@@ -1,6 +1,7 @@
 //! Diagnostics as data: what is wrong, where, what was expected, and how to mend it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A range of bytes in one source text. `Span::NONE` stands for things that no file says (built in code, defaults).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,6 +37,18 @@ pub struct Spanned<T> {
 impl<T> From<T> for Spanned<T> {
     fn from(value: T) -> Self {
         Spanned { value, span: Span::NONE }
+    }
+}
+
+impl From<PathBuf> for Spanned<Arc<Path>> {
+    fn from(file: PathBuf) -> Self {
+        Spanned::from(Arc::from(file))
+    }
+}
+
+impl From<String> for Spanned<Arc<str>> {
+    fn from(name: String) -> Self {
+        Spanned::from(Arc::from(name))
     }
 }
 

@@ -117,6 +117,8 @@ fn load_string(
     let scene = analyse(&text, syntax, overrides, &mut sink);
     let mut sources = vec![Source { name: name.to_owned(), text }];
     sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
+    // What could be read of a wrong scene is of no use any more, and may be large.
+    let scene = scene.filter(|_| sink.errors == 0);
     let mut diagnostics = sink.diagnostics;
     if sink.errors > 1 {
         follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
@@ -128,7 +130,7 @@ fn load_string(
     }
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
     match scene {
-        Some(scene) if sink.errors == 0 => {
+        Some(scene) => {
             let scene = SceneDesc {
                 version: scene.version,
                 camera: scene.camera,
@@ -144,7 +146,7 @@ fn load_string(
             };
             Ok(Loaded { scene, warnings: diagnostics })
         }
-        _ => Err(LoadError::Invalid { diagnostics, sources }),
+        None => Err(LoadError::Invalid { diagnostics, sources }),
     }
 }
 

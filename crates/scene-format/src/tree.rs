@@ -272,6 +272,20 @@ impl<'t, 's> Item<'t, 's> {
         matches!(self.kind(), Kind::Integer | Kind::Float).then(|| decode::number(self.lexeme()))
     }
 
+    /// `[1, 2, 3]` or `(1, 2, 3)`, as most vectors are written: its numbers.
+    #[inline]
+    pub fn three_numbers(&self) -> Option<[f64; 3]> {
+        let bare = matches!(self.node.kind, Kind::List | Kind::Tuple) && self.lexeme().starts_with(['(', '[']);
+        if !bare || self.node.size != 4 {
+            return None;
+        }
+        let mut numbers = [0.0; 3];
+        for (number, index) in numbers.iter_mut().zip(self.index + 1..) {
+            *number = Item { tree: self.tree, index, node: self.tree.nodes.at(index) }.number()?;
+        }
+        Some(numbers)
+    }
+
     /// Children; for structs and maps see [`Item::fields`].
     pub fn children(&self) -> Children<'t, 's> {
         let added = match self.tree.added.is_empty() {
@@ -359,6 +373,13 @@ impl<'t, 's> Iterator for Children<'t, 's> {
 #[derive(Clone)]
 pub(crate) struct Fields<'t, 's> {
     children: Children<'t, 's>,
+}
+
+impl Fields<'_, '_> {
+    /// Where the piece begins that the last field stands in.
+    pub fn piece(&self) -> usize {
+        self.children.begin
+    }
 }
 
 impl<'t, 's> Iterator for Fields<'t, 's> {

@@ -32,7 +32,7 @@ fn check(syntax: Syntax, extension: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken").join(extension);
     let update = std::env::var_os("UPDATE_EXPECT").is_some();
     let scenes = files(extension, &folder);
-    assert!(scenes.len() >= 60, "only {} broken scenes in {extension}", scenes.len());
+    assert!(scenes.len() >= 120, "only {} broken scenes in {extension}", scenes.len());
     let mut wrong = Vec::new();
     for scene in &scenes {
         let expected = scene.with_extension("txt");

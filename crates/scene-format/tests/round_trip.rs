@@ -4,8 +4,10 @@ mod common;
 
 use common::{FULL_RON, FULL_TOML, Random, load};
 use scene_format::desc::*;
+use scene_format::diagnostic::Span;
 use scene_format::{Defaults, SceneDesc, Syntax, convert, examples, hash, hash_hex, to_text};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 fn number(random: &mut Random, low: f64, high: f64) -> f64 {
     match random.below(6) {
@@ -50,18 +52,21 @@ fn material(random: &mut Random) -> Material {
     match random.below(4) {
         0 => Material::Diffuse { albedo: albedo(random) },
         1 => Material::Mirror { reflectance: share(random).into() },
-        2 => Material::Transparent { ior: number(random, 1.0, 3.0).into(), transmittance: share(random).into() },
+        2 => Material::Transparent {
+            ior: number(random, 1.0, 3.0).into(),
+            transmittance: Box::new(share(random).into()),
+        },
         _ => Material::BlinnPhong {
-            albedo: albedo(random),
-            exponent: number(random, 0.0, 1e5).into(),
-            specular: random.unit().into(),
+            albedo: Box::new(albedo(random)),
+            exponent: Box::new(number(random, 0.0, 1e5).into()),
+            specular: Box::new(random.unit().into()),
             energy_conserving: random.below(2) == 0,
         },
     }
 }
 
 fn transform(random: &mut Random) -> Transform {
-    let about = (random.below(2) == 0).then(|| vector(random));
+    let about = (random.below(2) == 0).then(|| Box::new(vector(random)));
     match random.below(4) {
         0 => Transform::Translate(vector(random)),
         1 => {
@@ -80,9 +85,9 @@ fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Tran
 
 /// A valid scene that uses much of the language.
 fn scene(random: &mut Random) -> SceneDesc {
-    let names: Vec<String> = (0..random.below(4)).map(|index| format!("{index}{}", text(random))).collect();
+    let names: Vec<Arc<str>> = (0..random.below(4)).map(|index| format!("{index}{}", text(random)).into()).collect();
     let material_ref = |random: &mut Random| match random.below(3) {
-        0 if !names.is_empty() => MaterialRef::Named(random.pick(&names).clone().into()),
+        0 if !names.is_empty() => MaterialRef::Named { name: Arc::clone(random.pick(&names)), span: Span::NONE },
         1 => MaterialRef::Inline(Box::new(material(random).into())),
         _ => MaterialRef::Default,
     };
@@ -96,8 +101,8 @@ fn scene(random: &mut Random) -> SceneDesc {
                 let material = material_ref(random);
                 let placements = match random.below(3) {
                     0 => Placements::One,
-                    1 => Placements::File(PathBuf::from(text(random)).into()),
-                    _ => Placements::List((0..1 + random.below(3)).map(|_| transforms(random)).collect()),
+                    1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
+                    _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
                 };
                 Object::Mesh(Mesh {
                     file: PathBuf::from(text(random)).into(),
@@ -351,7 +356,7 @@ fn the_ron_crate_reads_the_same_numbers_and_texts() {
                 let OracleObject::Sphere { center, radius, material } = &oracle.objects[0];
                 assert_eq!(sphere.center.value, [center.0, center.1, center.2], "{source}");
                 assert_eq!(sphere.radius.value, *radius);
-                assert_eq!(sphere.material, MaterialRef::Named(material.clone().into()));
+                assert_eq!(sphere.material, MaterialRef::Named { name: material.as_str().into(), span: Span::NONE });
                 assert_eq!(loaded.scene.camera.fov.value, oracle.camera.fov);
                 assert_eq!(loaded.scene.camera.position.value[1], oracle.camera.position.1);
             }

@@ -4,7 +4,7 @@ use crate::args::{DiagnosticsForm, SceneArgs};
 use crate::failure::Failure;
 use crate::memory::human;
 use crate::shell::{Shell, counted};
-use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
+use scene_format::desc::{Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::Source;
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
@@ -63,12 +63,16 @@ fn no_scene(path: &Path) -> Option<String> {
     path.is_file().then_some(why)
 }
 
+/// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of millions of files.
+const MAX_NAMES: usize = 5000;
+
 /// A scene file near a path where none is: of nearly the same name, or of the same one in the other syntax.
 fn nearby(path: &Path) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let mut scenes: Vec<String> = std::fs::read_dir(folder.unwrap_or(Path::new(".")))
         .ok()?
+        .take(MAX_NAMES)
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .filter(|name| Syntax::from_path(Path::new(name)).is_some())
         .collect();
@@ -177,11 +181,7 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
         }
     }
     for material in materials {
-        if let Material::Diffuse { albedo: Albedo::Texture(texture) }
-        | Material::BlinnPhong { albedo: Albedo::Texture(texture), .. } = material
-        {
-            files.push(&texture.file.value);
-        }
+        files.extend(material.texture().map(|texture| &*texture.file.value));
     }
     let mut seen = HashSet::new();
     files.retain(|file| seen.insert(*file));

@@ -1,23 +1,25 @@
 //! Materials and textures.
 
 use super::Color;
-use crate::diagnostic::Spanned;
+use crate::diagnostic::{Span, Spanned};
 use crate::form::{Entry, Form};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum, scene_struct, scene_words};
-use std::path::PathBuf;
+use std::path::Path;
+use std::sync::Arc;
 
 /// A material with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedMaterial {
     /// The name.
-    pub name: Spanned<String>,
+    pub name: Spanned<Arc<str>>,
     /// The material.
     pub material: Material,
 }
 
+// What only the longer kinds have is in boxes: a file of millions of mirrors must not take many times its size.
 scene_enum! {
     /// How a surface scatters light.
     pub enum Material, "material" {
@@ -36,19 +38,34 @@ scene_enum! {
             /// Index of refraction of the inside against the outside.
             ior: Spanned<f64> => Rule::within("an index of refraction", 1.0, 100.0);
             /// Share of refracted light that passes each surface, per channel.
-            transmittance: Spanned<Color> = [1.0; 3] => Rule::share();
+            transmittance: Box<Spanned<Color>> = Spanned::from([1.0; 3]) => Rule::share();
         };
         /// Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
         BlinnPhong as "a Blinn-Phong material" {
             /// Colour of both lobes.
-            albedo: Albedo = Albedo::default() => Rule::share();
+            albedo: Box<Albedo> = Albedo::default() => Rule::share();
             /// alpha: 1 is dull, 100000 nearly a mirror.
-            exponent: Spanned<f64> => Rule::within("a number", 0.0, 10_000_000.0);
+            exponent: Box<Spanned<f64>> => Rule::within("a number", 0.0, 10_000_000.0);
             /// s: share of the glossy lobe, 0 to 1.
-            specular: Spanned<f64> => Rule::within("a share", 0.0, 1.0);
+            specular: Box<Spanned<f64>> => Rule::within("a share", 0.0, 1.0);
             /// The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
             energy_conserving: bool = false;
         };
+    }
+}
+
+impl Material {
+    /// The picture that it takes its colour from.
+    pub fn texture(&self) -> Option<&Texture> {
+        let albedo = match self {
+            Material::Diffuse { albedo } => albedo,
+            Material::BlinnPhong { albedo, .. } => &**albedo,
+            Material::Mirror { .. } | Material::Transparent { .. } => return None,
+        };
+        match albedo {
+            Albedo::Texture(texture) => Some(texture),
+            Albedo::Color(_) => None,
+        }
     }
 }
 
@@ -104,7 +121,7 @@ scene_struct! {
     /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
     pub struct Texture as "Texture", "a texture" {
         /// PNG or JPEG, relative to the scene file.
-        file: Spanned<PathBuf>;
+        file: Spanned<Arc<Path>>;
         /// Between texels.
         filter: TextureFilter = TextureFilter::Bilinear;
         /// Beyond the borders.
@@ -135,15 +152,32 @@ scene_words! {
 }
 
 /// Which material an object has.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, Default)]
 pub enum MaterialRef {
     /// None was written.
     #[default]
     Default,
     /// By name.
-    Named(Spanned<String>),
+    Named {
+        /// The name.
+        name: Arc<str>,
+        /// Where it stands.
+        span: Span,
+    },
     /// Written inline.
     Inline(Box<Spanned<Material>>),
+}
+
+/// Two are equal when they say the same, wherever they stand.
+impl PartialEq for MaterialRef {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (MaterialRef::Default, MaterialRef::Default) => true,
+            (MaterialRef::Named { name, .. }, MaterialRef::Named { name: other, .. }) => name == other,
+            (MaterialRef::Inline(material), MaterialRef::Inline(other)) => material == other,
+            _ => false,
+        }
+    }
 }
 
 impl Words for MaterialRef {
@@ -152,7 +186,10 @@ impl Words for MaterialRef {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let item = item.without_some();
         match item.kind() {
-            Kind::Text => reader.material_name(item, at).map(MaterialRef::Named),
+            Kind::Text => {
+                let name = reader.material_name(item, at)?;
+                Some(MaterialRef::Named { name, span: item.span() })
+            }
             Kind::Struct | Kind::Map | Kind::Tuple | Kind::Word => {
                 let material = Material::read(reader, item, at)?;
                 Some(MaterialRef::Inline(Box::new(Spanned { value: material, span: item.span() })))
@@ -164,7 +201,7 @@ impl Words for MaterialRef {
     fn form(&self, all: bool) -> Form {
         match self {
             MaterialRef::Default => Form::Absent,
-            MaterialRef::Named(name) => Form::Text(name.value.clone()),
+            MaterialRef::Named { name, .. } => Form::Text((**name).to_owned()),
             MaterialRef::Inline(material) => material.form(all),
         }
     }
@@ -175,10 +212,11 @@ impl Words for Vec<NamedMaterial> {
     const TYPE: Type = Type::Map(&Material::TYPE);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        reader.materials(item, at)
+        // They stay with the reader until all objects are read.
+        reader.materials(item, at).map(|()| Vec::new())
     }
 
     fn form(&self, all: bool) -> Form {
-        Form::Map(self.iter().map(|named| Entry::new(named.name.value.clone(), named.material.form(all))).collect())
+        Form::Map(self.iter().map(|named| Entry::new(&*named.name.value, named.material.form(all))).collect())
     }
 }

@@ -105,3 +105,17 @@ impl Default for SceneDesc {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Spanned;
+
+    /// A scene may have millions of these; `tests/memory.rs` says why they must be small.
+    #[test]
+    fn what_scenes_have_many_of_is_small() {
+        assert_eq!(size_of::<Spanned<Object>>(), 128);
+        assert_eq!(size_of::<NamedMaterial>(), 80);
+        assert_eq!(size_of::<Spanned<Transform>>(), 64);
+    }
+}

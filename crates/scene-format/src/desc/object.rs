@@ -3,11 +3,12 @@
 use super::{MaterialRef, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
-use crate::read::Reader;
+use crate::read::{Reader, make_room};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum, scene_struct, scene_words};
-use std::path::PathBuf;
+use std::path::Path;
+use std::sync::Arc;
 
 scene_enum! {
     /// A thing in the scene.
@@ -35,7 +36,7 @@ scene_struct! {
     /// A triangle mesh.
     pub struct Mesh as "Mesh", "a mesh" {
         /// OFF or OBJ file, relative to the scene file.
-        file: Spanned<PathBuf>;
+        file: Spanned<Arc<Path>>;
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
@@ -67,9 +68,55 @@ pub enum Placements {
     #[default]
     One,
     /// Copies, each with its own transforms (about the origin of the scene unless they say `about`).
-    List(Vec<Vec<Spanned<Transform>>>),
+    List(Box<PlacementList>),
     /// A text file of placements, one a line, relative to the scene file.
-    File(Spanned<PathBuf>),
+    File(Box<Spanned<Arc<Path>>>),
+}
+
+/// Placements that a scene writes out. The steps of all of them stand in one list: a scene may have millions.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct PlacementList {
+    steps: Vec<Spanned<Transform>>,
+    /// Where the steps of each placement end.
+    ends: Vec<u32>,
+}
+
+impl PlacementList {
+    /// Adds a step to the last placement, which [`PlacementList::end`] ends.
+    pub fn push(&mut self, step: Spanned<Transform>) {
+        self.steps.push(step);
+    }
+
+    /// Ends a placement.
+    pub fn end(&mut self) {
+        self.ends.push(self.steps.len() as u32);
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The placements, each with its steps from first to last.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Spanned<Transform>]> {
+        let mut start = 0;
+        self.ends.iter().map(move |&end| {
+            let steps = &self.steps[start..end as usize];
+            start = end as usize;
+            steps
+        })
+    }
+}
+
+impl FromIterator<Vec<Spanned<Transform>>> for PlacementList {
+    fn from_iter<I: IntoIterator<Item = Vec<Spanned<Transform>>>>(placements: I) -> Self {
+        let mut list = PlacementList::default();
+        for steps in placements {
+            list.steps.extend(steps);
+            list.end();
+        }
+        list
+    }
 }
 
 /// The text in `File("..")` or `{ File = ".." }`: the name of a file needs no word around it.
@@ -88,10 +135,21 @@ impl Words for Placements {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         match item.kind() {
-            Kind::Text => <Spanned<PathBuf>>::read(reader, item, at).map(Placements::File),
+            Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| Placements::File(Box::new(file))),
             Kind::List => {
-                let list = <Vec<Vec<Spanned<Transform>>>>::read(reader, item, at)?;
-                Some(if list.is_empty() { Placements::One } else { Placements::List(list) })
+                let mut list = PlacementList::default();
+                reader.items(item, at, |reader, placement| {
+                    let steps = reader.items(placement, at, |reader, step| {
+                        let value = <Spanned<Transform>>::read(reader, step, at);
+                        make_room(&mut list.steps, item, step);
+                        list.steps.extend(value);
+                    });
+                    if steps.is_some() {
+                        make_room(&mut list.ends, item, placement);
+                        list.end();
+                    }
+                });
+                Some(if list.is_empty() { Placements::One } else { Placements::List(Box::new(list)) })
             }
             _ => {
                 let expected = "a list of lists of transforms, or the name of a placements file between quotes";
@@ -103,7 +161,10 @@ impl Words for Placements {
     fn form(&self, all: bool) -> Form {
         match self {
             Placements::One => Form::List(Vec::new()),
-            Placements::List(list) => list.form(all),
+            Placements::List(list) => {
+                let placement = |steps: &[Spanned<Transform>]| Form::list(steps.iter().map(|step| step.form(all)));
+                Form::list(list.iter().map(placement))
+            }
             Placements::File(file) => file.form(all),
         }
     }

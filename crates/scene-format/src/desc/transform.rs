@@ -17,7 +17,7 @@ pub enum Transform {
         /// Factor per axis; negative mirrors.
         factor: Vec3,
         /// Fixed point; `None`: the barycentre (mean of the vertices).
-        about: Option<Vec3>,
+        about: Option<Box<Vec3>>,
     },
     /// Rotates by the right-hand rule.
     Rotate {
@@ -26,7 +26,7 @@ pub enum Transform {
         /// Angle in degrees.
         degrees: f64,
         /// Fixed point; `None`: the barycentre (mean of the vertices).
-        about: Option<Vec3>,
+        about: Option<Box<Vec3>>,
     },
     /// Moves along y so that the lowest vertex lies at this height.
     DropTo {
@@ -87,18 +87,26 @@ impl Words for Transform {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         TransformWords::read(reader, item, at).map(|words| match words {
             TransformWords::Translate(by) => Transform::Translate(by),
-            TransformWords::Scale { factor, about } => Transform::Scale { factor: factor.0, about },
-            TransformWords::Rotate { axis, degrees, about } => Transform::Rotate { axis, degrees, about },
+            TransformWords::Scale { factor, about } => {
+                Transform::Scale { factor: factor.0, about: about.map(Box::new) }
+            }
+            TransformWords::Rotate { axis, degrees, about } => {
+                Transform::Rotate { axis, degrees, about: about.map(Box::new) }
+            }
             TransformWords::DropTo { y } => Transform::DropTo { y },
         })
     }
 
     fn form(&self, all: bool) -> Form {
-        let words = match *self {
-            Transform::Translate(by) => TransformWords::Translate(by),
-            Transform::Scale { factor, about } => TransformWords::Scale { factor: Factor(factor), about },
-            Transform::Rotate { axis, degrees, about } => TransformWords::Rotate { axis, degrees, about },
-            Transform::DropTo { y } => TransformWords::DropTo { y },
+        let words = match self {
+            Transform::Translate(by) => TransformWords::Translate(*by),
+            Transform::Scale { factor, about } => {
+                TransformWords::Scale { factor: Factor(*factor), about: about.as_deref().copied() }
+            }
+            Transform::Rotate { axis, degrees, about } => {
+                TransformWords::Rotate { axis: *axis, degrees: *degrees, about: about.as_deref().copied() }
+            }
+            Transform::DropTo { y } => TransformWords::DropTo { y: *y },
         };
         let mut form = words.form(all);
         // Scale(2) says the same as Scale(factor: 2).

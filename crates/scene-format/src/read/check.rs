@@ -1,17 +1,14 @@
-//! What only the scene as a whole can tell: version, materials and who uses them, the camera's directions, light.
+//! What only the scene as a whole can tell: version, the camera's directions, light.
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, Material, NamedMaterial, Scene, VERSION, Vec3};
-use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
+use crate::desc::{Camera, Scene, VERSION, Vec3};
+use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
-
-/// Comparisons of unknown names with known ones.
-const MAX_COMPARISONS: usize = 200_000;
 
 static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
@@ -57,7 +54,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.report(no_objects(span, message, root.syntax()));
         reader.path.pop();
     }
-    let scene = scene?;
+    let mut scene = scene?;
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
     if camera.is_none_or(|camera| !camera.holds_damage()) {
         reader.camera(&scene.camera, root.syntax());
@@ -88,6 +85,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
             reader.path.pop();
         }
     }
+    scene.materials = reader.materials.take();
     Some(scene)
 }
 
@@ -124,118 +122,6 @@ fn newer_version(root: Item<'_, '_>, sink: &mut Sink) -> bool {
 }
 
 impl Reader<'_> {
-    /// `{ "name": material }`
-    pub(crate) fn materials(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vec<NamedMaterial>> {
-        match item.kind() {
-            Kind::Map => {}
-            Kind::Tuple if item.name().is_none() && item.children().next().is_none() => return Some(Vec::new()),
-            _ => {
-                // Which names were meant nobody knows, so none is called unknown.
-                self.materials.damaged = true;
-                return self.wrong_type(item, at, "names with their materials: { \"white\": Diffuse(albedo: 1) }");
-            }
-        }
-        self.materials.damaged |= item.is_damaged();
-        let mut list = Vec::new();
-        for (key, value) in item.fields() {
-            if self.sink.is_full() {
-                break;
-            }
-            let name = key.text().into_owned();
-            self.path.push(Step::Key(name.clone()));
-            if name.trim().is_empty() {
-                self.report(
-                    Diagnostic::error(codes::EMPTY_TEXT, key.span(), "the name of a material is empty")
-                        .expected("a name between quotes"),
-                );
-            }
-            let first = self.materials.index.get(&name).and_then(|&first| self.materials.names.get(first));
-            if let Some(first) = first.map(|first| first.span) {
-                self.report(
-                    Diagnostic::error(
-                        codes::DUPLICATE_NAME,
-                        key.span(),
-                        format!("two materials have the name \"{}\"", super::shortened(&name)),
-                    )
-                    .hint("rename one of the two, or remove it")
-                    .label(first, "the first one is here"),
-                );
-            } else {
-                self.materials.index.insert(name.clone(), self.materials.names.len());
-                self.materials.names.push(Spanned { value: name.clone(), span: key.span() });
-                self.materials.used.push(false);
-            }
-            if let Some(material) = Material::read(self, value, at) {
-                super::make_room(&mut list, item, key);
-                list.push(NamedMaterial { name: Spanned { value: name, span: key.span() }, material });
-            }
-            self.path.pop();
-        }
-        Some(list)
-    }
-
-    /// An object names a material.
-    pub(crate) fn use_name(&mut self, name: &Spanned<String>, syntax: Syntax) {
-        if let Some(&index) = self.materials.index.get(&name.value) {
-            if let Some(used) = self.materials.used.get_mut(index) {
-                *used = true;
-            }
-            return;
-        }
-        if self.materials.damaged {
-            return;
-        }
-        let known: Vec<&str> = self.materials.names.iter().map(|name| name.value.as_str()).collect();
-        let kind = Material::DEF.variant(&name.value);
-        let mut fault = Diagnostic::error(
-            codes::UNKNOWN_MATERIAL,
-            name.span,
-            format!("there is no material \"{}\"", super::shortened(&name.value)),
-        );
-        fault.expected = match known.len() {
-            0 => "a material written here: `materials` is empty".to_owned(),
-            1..=8 => format!("a name from `materials`: {}", suggest::list(&known)),
-            count => format!("one of the {count} names in `materials`"),
-        };
-        // Many names times many mistakes would take long: the first mistakes are the ones that are read.
-        self.materials.unknown += 1;
-        let few = known.len() * self.materials.unknown <= MAX_COMPARISONS;
-        let nearest = few.then(|| suggest::nearest(&name.value, known.iter().copied())).flatten();
-        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
-        if nearest.is_none() {
-            fault.hint = match (kind, syntax) {
-                (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {}(..)", name.value),
-                (Some(_), Syntax::Toml) => format!("for a material written here: {{ {} = {{ .. }} }}", name.value),
-                (None, Syntax::Ron) => {
-                    "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()
-                }
-                (None, Syntax::Toml) => {
-                    "add it to [materials], or write the material here: { Diffuse = { albedo = 0.5 } }".to_owned()
-                }
-            };
-        }
-        self.report(fault);
-    }
-
-    fn unused_materials(&mut self) {
-        let materials = std::mem::take(&mut self.materials);
-        for (name, _) in materials.names.iter().zip(&materials.used).filter(|(_, used)| !**used) {
-            if self.sink.is_full() {
-                break;
-            }
-            self.path = vec![Step::Field("materials"), Step::Key(name.value.clone())];
-            self.report(
-                Diagnostic::warning(
-                    codes::UNUSED_MATERIAL,
-                    name.span,
-                    format!("no object uses the material \"{}\"", super::shortened(&name.value)),
-                )
-                .hint("remove it, or give its name to an object"),
-            );
-        }
-        self.path.clear();
-    }
-
     /// The view must have a direction, and `up` must not lie along it.
     fn camera(&mut self, camera: &Camera, syntax: Syntax) {
         if self.sink.diagnostics.iter().any(|fault| fault.path.starts_with("camera")) {

@@ -4,6 +4,8 @@
 //! wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said twice.
 
 mod check;
+mod hints;
+mod materials;
 mod value;
 mod variant;
 mod vector;
@@ -13,14 +15,17 @@ pub(crate) use value::expected;
 pub(crate) use variant::choices;
 
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{FieldDef, StructDef};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
 use crate::words::Words;
-use std::collections::HashMap;
+use hints::{other_way, right_place, synonym};
+use materials::Materials;
 use std::fmt::Write;
+use std::path::Path;
+use std::sync::Arc;
 
 /// Words that later versions of the language will give a meaning.
 const RESERVED: [&str; 6] = ["include", "vars", "repeat", "keyframes", "for", "let"];
@@ -37,20 +42,9 @@ enum Step {
 pub(crate) struct Reader<'r> {
     sink: &'r mut Sink,
     path: Vec<Step>,
-    /// The names of all materials that are written, also of those that could not be read.
     materials: Materials,
-}
-
-/// Names of materials, and whether an object uses them.
-#[derive(Debug, Default)]
-struct Materials {
-    names: Vec<Spanned<String>>,
-    used: Vec<bool>,
-    index: HashMap<String, usize>,
-    /// Part of `materials` could not be read: names may be missing.
-    damaged: bool,
-    /// Uses of names that are not there.
-    unknown: usize,
+    /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
+    file: Option<Arc<Path>>,
 }
 
 /// Fields of one struct, by their number in the schema.
@@ -86,17 +80,21 @@ const SHORT_LIST: usize = 64;
 
 /// Makes room in the list that `item` is read into, `child` being read next. A list that grows by doubling is in memory one and a
 /// half times too often; after a few items one can tell how many more there will be.
-fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_, '_>) {
+pub(crate) fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_, '_>) {
     if list.len() == list.capacity() && list.len() >= SHORT_LIST {
         let (read, rest) = item.nodes_around(child);
-        let more = (rest * list.len() / read.max(1)).max(list.len() / 4);
-        list.reserve_exact(if list.len() < 16 * SHORT_LIST { more.min(list.len()) } else { more });
+        // A few more than that, so that a good guess is not a little too small.
+        let guess = rest * list.len() / read.max(1);
+        let more = (guess + guess / 64).max(list.len() / 4);
+        // Long lists grow in steps, while the memory of what was read is given back.
+        let step = if list.len() < 16 * SHORT_LIST { list.len() } else { list.len() / 8 };
+        list.reserve_exact(more.min(step));
     }
 }
 
 impl<'r> Reader<'r> {
     pub fn new(sink: &'r mut Sink) -> Reader<'r> {
-        Reader { sink, path: Vec::new(), materials: Materials::default() }
+        Reader { sink, path: Vec::new(), materials: Materials::default(), file: None }
     }
 
     pub(crate) fn path(&self) -> String {
@@ -188,20 +186,26 @@ impl<'r> Reader<'r> {
             if self.sink.is_full() {
                 break;
             }
-            let name = key.text();
+            // Most fields are written in order and without quotes.
+            let written = key.lexeme();
             let slot = match def.fields.get(guess) {
-                Some(field) if field.name == name => Some(guess),
-                _ => def.fields.iter().position(|field| field.name == name),
+                Some(field) if field.name == written => Some(guess),
+                _ => {
+                    let name = key.text();
+                    def.fields.iter().position(|field| field.name == name)
+                }
             };
             match slot {
-                // Where the schema is, for editors.
-                None if name == "$schema" && def.name == "Scene" => {}
-                None => self.unknown_field(key, &name, item, def),
+                None => match &*key.text() {
+                    // Where the schema is, for editors.
+                    "$schema" if def.name == "Scene" => {}
+                    name => self.unknown_field(key, name, item, def),
+                },
                 Some(slot) => {
                     guess = slot + 1;
                     if let Some(first) = fields.get(slot) {
                         self.path.push(Step::Field(def.fields[slot].name));
-                        self.duplicate(key, &name, first);
+                        self.duplicate(key, def.fields[slot].name, first);
                         self.path.pop();
                     } else {
                         fields.set(slot, value);
@@ -303,6 +307,11 @@ impl<'r> Reader<'r> {
         {
             fault.hint = way.to_owned();
         }
+        if fault.hint.is_empty()
+            && let Some(place) = right_place(name, def, item)
+        {
+            fault.hint = place;
+        }
         self.report(fault);
     }
 
@@ -334,10 +343,28 @@ impl<'r> Reader<'r> {
 
     /// Reads the items of a list; those that are wrong are left out.
     pub(crate) fn list<T: Words>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vec<T>> {
+        let few = if item.kind() == Kind::List { item.children().take(SHORT_LIST).count() } else { 0 };
+        let mut list = Vec::with_capacity(few);
+        self.items(item, at, |reader, child| {
+            if let Some(value) = T::read(reader, child, at) {
+                make_room(&mut list, item, child);
+                list.push(value);
+            }
+        })?;
+        Some(list)
+    }
+
+    /// Goes through the items of a list, and gives back the memory of those that were read. `None`: it is no list, which is reported.
+    #[inline]
+    pub(crate) fn items<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        at: &'static FieldDef,
+        mut read: impl FnMut(&mut Self, Item<'t, 's>),
+    ) -> Option<()> {
         if item.kind() != Kind::List {
             return self.not_a_list(item, at);
         }
-        let mut list = Vec::with_capacity(item.children().take(SHORT_LIST).count());
         let mut children = item.children();
         let (mut piece, mut begin) = (0, 0);
         for index in 0.. {
@@ -351,13 +378,10 @@ impl<'r> Reader<'r> {
                 continue;
             }
             self.path.push(Step::Index(index));
-            if let Some(value) = T::read(self, child, at) {
-                make_room(&mut list, item, child);
-                list.push(value);
-            }
+            read(self, child);
             self.path.pop();
         }
-        Some(list)
+        Some(())
     }
 
     fn not_a_list<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
@@ -502,58 +526,4 @@ fn field_words(def: &'static StructDef) -> String {
 
 fn is_plain(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
-}
-
-/// How the language says what other programs have a field for.
-fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
-    let ron = syntax == Syntax::Ron;
-    let has = |field| def.field(field).is_some();
-    match name.to_ascii_lowercase().as_str() {
-        "color" | "colour" | "albedo" | "texture" if has("material") && ron => {
-            Some("colours belong to a material: `material: Diffuse(albedo: ..)`")
-        }
-        "color" | "colour" | "albedo" | "texture" if has("material") => {
-            Some("colours belong to a material: `material = { Diffuse = { albedo = .. } }`")
-        }
-        "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
-        "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
-        "position" | "center" | "translate" | "translation" if has("transform") && ron => {
-            Some("write it as a transform: `transform: [Translate((x, y, z))]`")
-        }
-        "position" | "center" | "translate" | "translation" if has("transform") => {
-            Some("write it as a transform: `transform = [{ Translate = [x, y, z] }]`")
-        }
-        "rotate" | "rotation" if has("transform") && ron => {
-            Some("write it as a transform: `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`")
-        }
-        "rotate" | "rotation" if has("transform") => {
-            Some("write it as a transform: `transform = [{ Rotate = { axis = [0, 1, 0], degrees = 90 } }]`")
-        }
-        _ => None,
-    }
-}
-
-/// What other programs call a field of ours.
-fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 16] = [
-        ("position", &["eye", "origin", "from", "pos", "location"]),
-        ("look_at", &["target", "lookat", "to"]),
-        ("center", &["centre", "position", "pos", "origin"]),
-        ("radius", &["r", "size"]),
-        ("fov", &["field_of_view", "angle", "vfov"]),
-        ("width", &["w", "x"]),
-        ("height", &["h", "y"]),
-        ("samples", &["spp", "samples_per_pixel"]),
-        ("max_bounces", &["max_depth", "depth", "bounces"]),
-        ("albedo", &["color", "colour", "diffuse", "base_color", "reflectance"]),
-        ("reflectance", &["color", "colour", "albedo"]),
-        ("ior", &["index", "eta", "refractive_index"]),
-        ("file", &["path", "filename", "mesh", "src"]),
-        ("degrees", &["angle", "deg"]),
-        ("exponent", &["shininess", "alpha", "glossiness"]),
-        ("transform", &["transforms"]),
-    ];
-    let lower = name.to_ascii_lowercase();
-    let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
-    found.map(|(field, _)| *field)
 }

@@ -9,7 +9,9 @@ use crate::suggest;
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
-use std::path::PathBuf;
+use std::borrow::Cow;
+use std::path::Path;
+use std::sync::Arc;
 
 /// What a field takes, in words and in the item's syntax: `a length > 0, in the scene's unit`.
 pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
@@ -191,35 +193,34 @@ impl Words for bool {
     }
 }
 
-impl Words for String {
-    const TYPE: Type = Type::Text;
-
-    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+impl Reader<'_> {
+    /// A text that is not empty.
+    pub(super) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {
             let word = matches!(item.kind(), Kind::Word).then(|| format!("\"{}\"", item.lexeme()));
-            return reader.wrong_kind(item, at.noun, &expected_for(at, item), word);
+            return self.wrong_kind(item, at.noun, &expected_for(at, item), word);
         }
         let text = item.text();
         if text.trim().is_empty() {
-            reader.report(
+            self.report(
                 Diagnostic::error(codes::EMPTY_TEXT, item.span(), format!("{} is empty", plain(at.noun)))
                     .expected(expected_for(at, item)),
             );
             return None;
         }
-        Some(text.into_owned())
-    }
-
-    fn form(&self, _all: bool) -> Form {
-        Form::Text(self.clone())
+        Some(text)
     }
 }
 
-impl Words for PathBuf {
+impl Words for Arc<Path> {
     const TYPE: Type = Type::File;
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        String::read(reader, item, at).map(PathBuf::from)
+        let text = reader.text(item, at)?;
+        let known = reader.file.as_ref().filter(|file| file.to_str() == Some(&*text));
+        let file = known.map_or_else(|| Arc::from(Path::new(&*text)), Arc::clone);
+        reader.file = Some(Arc::clone(&file));
+        Some(file)
     }
 
     fn form(&self, _all: bool) -> Form {
@@ -237,6 +238,18 @@ impl<T: Words> Words for Spanned<T> {
 
     fn form(&self, all: bool) -> Form {
         self.value.form(all)
+    }
+}
+
+impl<T: Words> Words for Box<T> {
+    const TYPE: Type = T::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        T::read(reader, item, at).map(Box::new)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        (**self).form(all)
     }
 }
 
@@ -273,15 +286,6 @@ macro_rules! optional {
 }
 
 optional!(crate::desc::Vec3, Spanned<crate::desc::Color>);
-
-impl Reader<'_> {
-    /// The name of a material; whether it is known is looked up when all are read.
-    pub(crate) fn material_name(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Spanned<String>> {
-        let name = <Spanned<String>>::read(self, item, at)?;
-        self.use_name(&name, item.syntax());
-        Some(name)
-    }
-}
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

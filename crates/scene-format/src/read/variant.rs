@@ -38,9 +38,13 @@ impl Reader<'_> {
                 }
                 (name, item.span(), Body::None)
             }
-            Kind::Struct | Kind::Tuple if item.name().is_some() => {
-                (item.name().unwrap_or_default().into(), item.head(), Body::Brackets(item))
-            }
+            Kind::Struct | Kind::Tuple => match item.name() {
+                Some(name) => {
+                    let span = item.span();
+                    (name.into(), Span { end: span.start + name.len() as u32, ..span }, Body::Brackets(item))
+                }
+                None => return self.no_variant(item, def),
+            },
             Kind::Map => {
                 let mut fields = item.fields();
                 match (fields.next(), fields.next()) {
@@ -63,19 +67,17 @@ impl Reader<'_> {
             }
             _ => return self.no_variant(item, def),
         };
+        if let Some(variant) = def.variant(&name) {
+            return Some(Chosen { variant, body, item });
+        }
         // { albedo = 1 }: the fields of a kind without its name.
         let is_field =
             |variant: &VariantDef| matches!(variant.content, Content::Struct(def) if def.field(&name).is_some());
-        if matches!(body, Body::Value(_)) && def.variant(&name).is_none() && def.variants.iter().any(is_field) {
+        if matches!(body, Body::Value(_)) && def.variants.iter().any(is_field) {
             return self.no_variant(item, def);
         }
-        match def.variant(&name) {
-            Some(variant) => Some(Chosen { variant, body, item }),
-            None => {
-                self.unknown_variant(span, &name, def, item.syntax());
-                None
-            }
-        }
+        self.unknown_variant(span, &name, def, item.syntax());
+        None
     }
 
     fn no_variant<T>(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Option<T> {

@@ -20,6 +20,11 @@ const CHANNELS: [&str; 3] = ["the red channel", "the green channel", "the blue c
 impl Reader<'_> {
     /// Three numbers in brackets of either kind, each in the field's range.
     fn three(&mut self, item: Item<'_, '_>, at: &'static FieldDef, names: [&str; 3]) -> Option<Vec3> {
+        if let Some(value) = item.three_numbers()
+            && value.iter().all(|number| number.is_finite() && at.rule.range.contains(*number))
+        {
+            return Some(value);
+        }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
             return self.wrong_type(item, at, &expected_for(at, item));

@@ -369,6 +369,12 @@ impl<'p> Parser<'p> {
             self.map_entry();
             return true;
         }
+        // Most entries of brackets are numbers, and no name begins like one.
+        if matches!(self.peek(), Some(b'0'..=b'9' | b'-')) && matches!(*shape, Shape::Unknown | Shape::Positional) {
+            *shape = Shape::Positional;
+            self.number_literal();
+            return true;
+        }
         let named = self.field_ahead().or_else(|| {
             let fields = bracket == b'(' && matches!(*shape, Shape::Unknown | Shape::Named);
             fields.then(|| self.field_without_colon()).flatten()

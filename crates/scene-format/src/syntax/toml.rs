@@ -216,12 +216,30 @@ impl Parser<'_> {
             self.sink.push(fault);
             return true;
         }
+        if let Some(end) = self.words_before_equals(last.end) {
+            let found = self.range(last.start, end);
+            let name = &self.text[last.start..end];
+            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "a name of several words needs quotes")
+                .expected("letters, digits, `_` and `-`; other names between quotes")
+                .hint(format!("write \"{name}\""));
+            fault.edit = Some(Edit { span: found, replacement: format!("\"{name}\"") });
+            self.sink.push(fault);
+            return false;
+        }
         let found = key_span(self.values.source, last);
         self.sink.push(
             Diagnostic::error(codes::MISSING_COLON, found, "there is no `=` and no value after this name")
                 .expected("name = value"),
         );
         false
+    }
+
+    /// `clear glass = ..`, after the first word of the name, which ends at `end`: where the last one ends.
+    fn words_before_equals(&self, end: usize) -> Option<usize> {
+        let line = super::line_ahead(self.text, end);
+        let words = line.split_once('=')?.0.trim_end();
+        let plain = words.chars().all(|c| c.is_alphanumeric() || matches!(c, ' ' | '_' | '-'));
+        (plain && words.starts_with(' ') && !words.trim().is_empty()).then(|| end + words.len())
     }
 
     /// Keys joined by points.
@@ -361,6 +379,12 @@ impl Parser<'_> {
                 let found = self.range(start, end);
                 let mut fault = Diagnostic::error(codes::TEXT_AFTER_END, found, format!("{what} ended before this"))
                     .expected("the end of the line, or a # comment");
+                let rest = self.text.get(start..end).unwrap_or("");
+                if what == "the header" && rest.contains('=') {
+                    fault.hint = "put it on the next line".to_owned();
+                    let found = self.range(start, start);
+                    fault.edit = Some(Edit { span: found, replacement: "\n".to_owned() });
+                }
                 if let Some(hint) = sign.filter(|_| end == start + 1) {
                     fault.hint = hint.to_owned();
                     fault.edit = Some(Edit { span: found, replacement: String::new() });

@@ -83,8 +83,7 @@ impl Parser<'_> {
                 self.extra_comma();
                 continue;
             }
-            if self.kind == TokenKind::Atom && self.plain_atom() {
-                self.separator();
+            if self.kind == TokenKind::Atom && self.plain_numbers() {
                 continue;
             }
             if self.kind == TokenKind::Equals || self.at_key() && self.assignment_ahead() {

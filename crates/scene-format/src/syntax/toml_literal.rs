@@ -30,6 +30,42 @@ impl Parser<'_> {
         ends
     }
 
+    /// Numbers of a list with the commas after them, as most are, in one go.
+    #[inline]
+    pub(super) fn plain_numbers(&mut self) -> bool {
+        let bytes = self.text.as_bytes();
+        let (mut at, mut any, mut comma) = (self.span.start(), false, false);
+        let mut previous_end = at;
+        while let Some((length, kind)) = plain_number(&bytes[at..]) {
+            let end = at + length;
+            let ends = match bytes.get(end) {
+                Some(b',' | b']' | b'}' | b'\r' | b'\n') => true,
+                // `1 = 2` in a list is a name.
+                Some(b' ') => !matches!(bytes.get(end + 1), Some(b'=')),
+                _ => false,
+            };
+            if !ends {
+                break;
+            }
+            self.values.leaf(kind, at, end);
+            (any, comma) = (true, bytes[end] == b',');
+            previous_end = end + usize::from(comma);
+            at = previous_end;
+            if !comma {
+                break;
+            }
+            at += usize::from(bytes.get(at) == Some(&b' '));
+        }
+        if any {
+            self.resume(at);
+            self.previous_end = previous_end;
+            if !comma {
+                self.separator();
+            }
+        }
+        any
+    }
+
     /// A number, `true`, `false`, a date, or a word that should have quotes.
     pub(super) fn atom(&mut self) {
         if self.plain_atom() {
@@ -278,11 +314,16 @@ impl Parser<'_> {
     }
 
     pub(super) fn unclosed_text(&mut self) {
-        let quote = &self.lexeme()[..1];
+        // Three quotes begin a text of several lines.
+        let many = self.lexeme().starts_with("\"\"\"") || self.lexeme().starts_with("'''");
+        let (quote, place) = match many {
+            true => (&self.lexeme()[..3], "at its end"),
+            false => (&self.lexeme()[..1], "at its end, on the same line"),
+        };
         let message = "this text is never closed";
-        let found = self.range(self.span.start(), self.span.start() + 1);
+        let found = self.range(self.span.start(), self.span.start() + quote.len());
         let fault = Diagnostic::error(codes::UNCLOSED_TEXT, found, message)
-            .expected(format!("{quote} at its end, on the same line"))
+            .expected(format!("{quote} {place}"))
             .hint(format!("write `{quote}` where the text ends"));
         self.sink.push(fault);
     }

@@ -46,9 +46,9 @@ impl<'a> MaterialBuilder<'a> {
                 let base = self.desc.base_dir.clone();
                 self.add(&material.value, Some(&base))
             }
-            MaterialRef::Named(name) => self.named.get(name.value.as_str()).copied().unwrap_or_else(|| {
+            MaterialRef::Named { name, span } => self.named.get(&**name).copied().unwrap_or_else(|| {
                 diagnostics.push(
-                    Diagnostic::error("E0402", name.span, format!("there is no material named {:?}", name.value))
+                    Diagnostic::error("E0402", *span, format!("there is no material named {name:?}"))
                         .expected("the name of an entry of `materials`"),
                 );
                 0
@@ -90,7 +90,7 @@ impl<'a> MaterialBuilder<'a> {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
             desc::Albedo::Texture(t) => t,
         };
-        let path = base.map_or_else(|| t.file.value.clone(), |base| base.join(&t.file.value));
+        let path = base.map_or_else(|| t.file.value.to_path_buf(), |base| base.join(&t.file.value));
         let image = self.images.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
             self.images.push((path, t.file.span));
             self.images.len() - 1

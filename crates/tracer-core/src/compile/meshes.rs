@@ -11,8 +11,9 @@ use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::desc::{self, MaterialRef, Object, Placements, Shading};
-use scene_format::diagnostic::{Span, Spanned};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The mesh files of a scene.
@@ -34,13 +35,14 @@ fn mesh_objects(desc: &SceneDesc) -> impl Iterator<Item = (&desc::Mesh, Span)> {
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
 pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
+    let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut path_of_object = Vec::new();
     // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
     for (mesh, _) in mesh_objects(desc) {
         let path = desc.base_dir.join(&mesh.file.value);
-        let index = paths.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
-            paths.push((path, mesh.file.span));
+        let index = *index_of_path.entry(path).or_insert_with_key(|path| {
+            paths.push((path.clone(), mesh.file.span));
             own_materials.push(false);
             paths.len() - 1
         });
@@ -149,9 +151,7 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
 fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
-        Placements::List(list) => {
-            list.iter().map(|steps: &Vec<Spanned<_>>| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect()
-        }
+        Placements::List(list) => list.iter().map(|steps| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect(),
         Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {

@@ -1,11 +1,12 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
-use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
+use scene_format::desc::{Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::{Edit, Span, Spanned};
 use scene_format::{Diagnostics, SceneDesc, nearest};
 use std::collections::{BTreeMap, VecDeque};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Names in folders that are looked at, all together: the search must be short wherever the scene lies.
 const MAX_NAMES: usize = 5000;
@@ -19,7 +20,7 @@ pub fn suggest(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
     if diagnostics.iter().all(|fault| fault.code != "E0501") {
         return;
     }
-    let wanted: BTreeMap<Span, &Path> = named_files(desc).map(|file| (file.span, file.value.as_path())).collect();
+    let wanted: BTreeMap<Span, &Path> = named_files(desc).map(|file| (file.span, &*file.value)).collect();
     let near = files_near(&desc.base_dir);
     for fault in diagnostics.iter_mut().filter(|fault| fault.code == "E0501") {
         let Some(wanted) = wanted.get(&fault.span) else { continue };
@@ -50,13 +51,13 @@ fn slashed(path: &Path) -> String {
 }
 
 /// All files that the scene names.
-fn named_files(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<PathBuf>> {
+fn named_files(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
         let (files, material) = match &object.value {
             Object::Sphere(sphere) => ([None, None], &sphere.material),
             Object::Mesh(mesh) => {
                 let placements = match &mesh.placements {
-                    Placements::File(file) => Some(file),
+                    Placements::File(file) => Some(&**file),
                     Placements::One | Placements::List(_) => None,
                 };
                 ([Some(&mesh.file), placements], &mesh.material)
@@ -64,19 +65,15 @@ fn named_files(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<PathBuf>> {
         };
         let texture = match material {
             MaterialRef::Inline(material) => texture_file(&material.value),
-            MaterialRef::Default | MaterialRef::Named(_) => None,
+            MaterialRef::Default | MaterialRef::Named { .. } => None,
         };
         files.into_iter().chain([texture]).flatten()
     });
     of_objects.chain(desc.materials.iter().filter_map(|named| texture_file(&named.material)))
 }
 
-fn texture_file(material: &Material) -> Option<&Spanned<PathBuf>> {
-    match material {
-        Material::Diffuse { albedo: Albedo::Texture(texture) }
-        | Material::BlinnPhong { albedo: Albedo::Texture(texture), .. } => Some(&texture.file),
-        _ => None,
-    }
+fn texture_file(material: &Material) -> Option<&Spanned<Arc<Path>>> {
+    material.texture().map(|texture| &texture.file)
 }
 
 /// Files near the scene, as it would name them, the nearest first.

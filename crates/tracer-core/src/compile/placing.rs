@@ -10,16 +10,16 @@ use scene_format::diagnostic::Spanned;
 pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
-        let here = |about: Option<[f64; 3]>, map: &DAffine3| {
-            about.map_or_else(|| map.transform_point3(barycentre), DVec3::from)
+        let here = |about: &Option<Box<[f64; 3]>>, map: &DAffine3| {
+            about.as_deref().map_or_else(|| map.transform_point3(barycentre), |about| DVec3::from(*about))
         };
         let step = match &transform.value {
             Transform::Translate(by) => DAffine3::from_translation(DVec3::from(*by)),
             Transform::Scale { factor, about } => {
-                about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(*about, &map))
+                about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(about, &map))
             }
             Transform::Rotate { axis, degrees, about } => {
-                about_point(rotation(DVec3::from(*axis), *degrees), here(*about, &map))
+                about_point(rotation(DVec3::from(*axis), *degrees), here(about, &map))
             }
             Transform::DropTo { y } => DAffine3::from_translation(DVec3::new(0.0, y - lowest(&map), 0.0)),
         };
@@ -63,9 +63,11 @@ mod tests {
 
     #[test]
     fn about_a_point_and_drop() {
-        let steps =
-            [Transform::Scale { factor: [3.0, 3.0, -3.0], about: Some([0.0; 3]) }, Transform::DropTo { y: -20.0 }]
-                .map(Spanned::from);
+        let steps = [
+            Transform::Scale { factor: [3.0, 3.0, -3.0], about: Some(Box::new([0.0; 3])) },
+            Transform::DropTo { y: -20.0 },
+        ]
+        .map(Spanned::from);
         let map = place(&steps, DVec3::ONE, &|m| m.transform_point3(DVec3::new(0.0, -1.0, 0.0)).y);
         near(map.transform_point3(DVec3::new(1.0, -1.0, 1.0)), [3.0, -20.0, -3.0]);
     }

@@ -48,7 +48,7 @@ fn glass_ball_above_the_floor_and_on_it() {
 /// Water within glass, and a diamond of flat triangles.
 #[test]
 fn glass_of_several_surfaces() {
-    let tinted = Material::Transparent { ior: 1.5.into(), transmittance: [0.4, 0.8, 1.0].into() };
+    let tinted = Material::Transparent { ior: 1.5.into(), transmittance: Box::new([0.4, 0.8, 1.0].into()) };
     let nested = vec![ball(2.6, tinted), sphere([0.0, 2.6, 0.0], 2.2, glass(1.33 / 1.5))];
     assert_photons_are_consistent("nested", &on_the_floor(nested), 512, BIAS, SCENES);
     let diamond = solid(&icosphere(1).obj("icosphere-1"), glass(2.42), Shading::Flat, 2.5);

@@ -84,7 +84,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
 
 /// One mesh, stretched about the origin.
 fn stretched(file: &Path, factor: [f64; 3], shading: Shading) -> SceneDesc {
-    let steps = vec![Transform::Scale { factor, about: Some([0.0; 3]) }];
+    let steps = vec![Transform::Scale { factor, about: Some(Box::new([0.0; 3])) }];
     let object = mesh(file, diffuse([0.5; 3]), shading, steps);
     scene(8, vec![], vec![object]).camera([0.0, 0.0, 9.0], [0.0; 3], 40.0)
 }

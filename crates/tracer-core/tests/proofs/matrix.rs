@@ -13,7 +13,7 @@ use tracer_core::{Crop, RenderOptions, Unobserved, develop};
 
 /// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map.
 fn plain(filter: PixelFilter, tone_map: ToneMap) -> SceneDesc {
-    let tinted = Material::Transparent { ior: 1.4.into(), transmittance: [0.9, 0.6, 0.4].into() };
+    let tinted = Material::Transparent { ior: 1.4.into(), transmittance: Box::new([0.9, 0.6, 0.4].into()) };
     let objects = vec![
         sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.6; 3])),
         sphere([-1.2, 1.0, 0.0], 1.0, tinted.clone()),

@@ -40,7 +40,7 @@ fn material(random: &mut Random) -> Material {
         2 => mirror(color(random)),
         3 => Material::Transparent {
             ior: random.between(1.05, 2.4).into(),
-            transmittance: [0; 3].map(|_| random.between(0.7, 1.0)).into(),
+            transmittance: Box::new([0; 3].map(|_| random.between(0.7, 1.0)).into()),
         },
         _ => {
             let exponent = 10f64.powf(random.between(0.0, 3.5));
@@ -80,11 +80,11 @@ fn object(random: &mut Random) -> Object {
             let by = point(random).map(|x| 0.6 * x);
             let mirrored = if random.below(2) == 0 { [1.0, 1.0, -1.0] } else { [1.0; 3] };
             vec![
-                Spanned::from(Transform::Scale { factor: mirrored, about: Some([0.0; 3]) }),
+                Spanned::from(Transform::Scale { factor: mirrored, about: Some(Box::new([0.0; 3])) }),
                 Spanned::from(Transform::Translate(by)),
             ]
         };
-        Placements::List((0..2).map(|_| copy(random)).collect())
+        Placements::List(Box::new((0..2).map(|_| copy(random)).collect()))
     };
     placed(&file, material, shading, steps, placements)
 }

@@ -43,17 +43,22 @@ pub(crate) fn everything() -> SceneDesc {
             diffuse([0.7, 0.5, 0.3]),
             Shading::Auto,
             vec![scale(0.25)],
-            Placements::List(
+            Placements::List(Box::new(
                 (0..9)
                     .map(|k| {
                         let angle = 40.0 * f64::from(k);
                         vec![
                             Transform::Translate([0.0, 0.3, 5.0]).into(),
-                            Transform::Rotate { axis: [0.1, 1.0, 0.0], degrees: angle, about: Some([0.0; 3]) }.into(),
+                            Transform::Rotate {
+                                axis: [0.1, 1.0, 0.0],
+                                degrees: angle,
+                                about: Some(Box::new([0.0; 3])),
+                            }
+                            .into(),
                         ]
                     })
                     .collect(),
-            ),
+            )),
         ),
     ];
     let lights = vec![

@@ -294,7 +294,7 @@ fn elsewhere(desc: &SceneDesc, scale: f64, offset: f64) -> SceneDesc {
                 sphere.radius.value *= scale;
             }
             Object::Mesh(mesh) => {
-                mesh.transform.push(Transform::Scale { factor: [scale; 3], about: Some([0.0; 3]) }.into());
+                mesh.transform.push(Transform::Scale { factor: [scale; 3], about: Some(Box::new([0.0; 3])) }.into());
                 mesh.transform.push(Transform::Translate([offset; 3]).into());
             }
         }

@@ -132,7 +132,7 @@ impl Facts {
             "triangles": s.triangles,
             "placed_triangles": s.placed_triangles,
             "materials": s.materials,
-            "material_names": self.desc.materials.iter().map(|named| &named.name.value).collect::<Vec<_>>(),
+            "material_names": self.desc.materials.iter().map(|named| &*named.name.value).collect::<Vec<_>>(),
             "textures": s.textures,
             "bounds": { "min": s.bounds.min, "max": s.bounds.max },
             "tree": s.tree.map(|tree| json!({

@@ -167,7 +167,7 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
         }
         let transmittance = mtl.transmission.map_or([1.0; 3], |color| clipped("Tf", color, notes));
         let ior = if ior < 1.0 { DEFAULT_IOR } else { ior };
-        return Material::Transparent { ior: ior.into(), transmittance: transmittance.into() };
+        return Material::Transparent { ior: ior.into(), transmittance: Box::new(transmittance.into()) };
     }
     if matches!(mtl.illumination, Some(3 | 5)) && is_specular {
         if mtl.picture.is_some() || diffuse.is_some_and(|color| color != [0.0; 3]) {
@@ -191,9 +191,9 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
         }
         let share = specular.iter().sum::<f64>() / sum.iter().sum::<f64>();
         return Material::BlinnPhong {
-            albedo: picture.unwrap_or(Albedo::Color(sum.map(|part| part / largest).into())),
-            exponent: exponent.clamp(*EXPONENTS.start(), *EXPONENTS.end()).into(),
-            specular: share.into(),
+            albedo: Box::new(picture.unwrap_or(Albedo::Color(sum.map(|part| part / largest).into()))),
+            exponent: Box::new(exponent.clamp(*EXPONENTS.start(), *EXPONENTS.end()).into()),
+            specular: Box::new(share.into()),
             energy_conserving: false,
         };
     }

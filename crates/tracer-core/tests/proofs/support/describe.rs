@@ -120,7 +120,7 @@ pub fn mirror(reflectance: Color) -> Material {
 
 /// A smooth dielectric.
 pub fn glass(ior: f64) -> Material {
-    Material::Transparent { ior: ior.into(), transmittance: [1.0; 3].into() }
+    Material::Transparent { ior: ior.into(), transmittance: Box::new([1.0; 3].into()) }
 }
 
 /// Blinn-Phong by the report's formula.
@@ -135,7 +135,8 @@ pub fn conserving(albedo: Color, exponent: f64, specular: f64) -> Material {
 
 /// Blinn-Phong.
 pub fn glossy(albedo: Albedo, exponent: f64, specular: f64, energy_conserving: bool) -> Material {
-    Material::BlinnPhong { albedo, exponent: exponent.into(), specular: specular.into(), energy_conserving }
+    let [exponent, specular] = [exponent, specular].map(|number| Box::new(number.into()));
+    Material::BlinnPhong { albedo: Box::new(albedo), exponent, specular, energy_conserving }
 }
 
 /// The room of the report: six diffuse spheres of radius 10000.

@@ -1,0 +1,231 @@
+//! Materials by name, and who uses them.
+
+use super::{Reader, Step, make_room, shortened};
+use crate::codes;
+use crate::desc::{Material, NamedMaterial};
+use crate::diagnostic::{Diagnostic, Spanned};
+use crate::schema::FieldDef;
+use crate::suggest;
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind, NOWHERE};
+use crate::words::Words;
+use std::hash::{BuildHasher, RandomState};
+use std::sync::Arc;
+
+/// Comparisons of unknown names with known ones.
+const MAX_COMPARISONS: usize = 200_000;
+
+/// All materials that are written. Their names are in memory once: whoever uses one shares it.
+#[derive(Debug, Default)]
+pub(super) struct Materials {
+    /// Those that could be read, in order of writing.
+    read: Vec<NamedMaterial>,
+    /// The names of the others, each of which has been reported.
+    unread: Vec<Spanned<Arc<str>>>,
+    /// Whether an object uses them: first those that could be read, then the others.
+    used: Vec<bool>,
+    /// Open addressing over four bytes a name: the number of a name that could be read, or of another, counted down from `NOWHERE`.
+    slots: Vec<u32>,
+    hash: RandomState,
+    /// Part of `materials` could not be read: names may be missing.
+    pub damaged: bool,
+    /// Uses of names that are not there.
+    unknown: usize,
+}
+
+/// In place of a name's number: none.
+const FREE: u32 = NOWHERE;
+
+impl Materials {
+    /// The materials, which no name is asked of any more.
+    pub fn take(&mut self) -> Vec<NamedMaterial> {
+        std::mem::take(&mut self.read)
+    }
+
+    fn name(&self, number: u32) -> &Spanned<Arc<str>> {
+        match self.read.get(number as usize) {
+            Some(named) => &named.name,
+            None => &self.unread[(FREE - 1 - number) as usize],
+        }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &Spanned<Arc<str>>> {
+        self.read.iter().map(|named| &named.name).chain(&self.unread)
+    }
+
+    /// Where a name stands in the index, or where it would.
+    fn slot(&self, name: &str) -> usize {
+        let mask = self.slots.len() - 1;
+        let mut at = self.hash.hash_one(name) as usize & mask;
+        while self.slots[at] != FREE && *self.name(self.slots[at]).value != *name {
+            at = (at + 1) & mask;
+        }
+        at
+    }
+
+    fn find(&self, name: &str) -> Option<u32> {
+        let slot = (!self.slots.is_empty()).then(|| self.slots[self.slot(name)])?;
+        (slot != FREE).then_some(slot)
+    }
+
+    /// Remembers a name that is not known yet, and its material.
+    fn insert(&mut self, name: Spanned<Arc<str>>, material: Option<Material>) {
+        // At most seven of eight slots are taken.
+        if (self.read.len() + self.unread.len()) * 8 >= self.slots.len() * 7 {
+            let grown = vec![FREE; (self.slots.len() * 2).max(16)];
+            for number in std::mem::replace(&mut self.slots, grown) {
+                if number != FREE {
+                    let at = self.slot(&self.name(number).value);
+                    self.slots[at] = number;
+                }
+            }
+        }
+        let at = self.slot(&name.value);
+        match material {
+            Some(material) => {
+                self.slots[at] = self.read.len() as u32;
+                self.read.push(NamedMaterial { name, material });
+            }
+            None => {
+                self.slots[at] = FREE - 1 - self.unread.len() as u32;
+                self.unread.push(name);
+            }
+        }
+    }
+
+    fn mark(&mut self, number: u32) {
+        let at = match (number as usize) < self.read.len() {
+            true => number as usize,
+            false => self.read.len() + (FREE - 1 - number) as usize,
+        };
+        if self.used.is_empty() {
+            self.used = vec![false; self.read.len() + self.unread.len()];
+        }
+        self.used[at] = true;
+    }
+}
+
+impl Reader<'_> {
+    /// `{ "name": material }`. They stay with the reader until all objects are read.
+    pub(crate) fn materials(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<()> {
+        match item.kind() {
+            Kind::Map => {}
+            Kind::Tuple if item.name().is_none() && item.children().next().is_none() => return Some(()),
+            _ => {
+                // Which names were meant nobody knows, so none is called unknown.
+                self.materials.damaged = true;
+                let expected = match item.syntax() {
+                    Syntax::Ron => "names with their materials: { \"white\": Diffuse(albedo: 1) }",
+                    Syntax::Toml => "a table [materials], with a line for each: white = { Diffuse = { albedo = 1 } }",
+                };
+                return self.wrong_type(item, at, expected);
+            }
+        }
+        self.materials.damaged |= item.is_damaged();
+        let mut fields = item.fields();
+        let (mut piece, mut begin) = (0, 0);
+        while let Some((key, value)) = fields.next().filter(|_| !self.sink.is_full()) {
+            if fields.piece() != piece {
+                (piece, begin) = (fields.piece(), value.index());
+            }
+            begin = key.release_before(begin);
+            let name = key.text();
+            self.path.push(Step::Key((*name).to_owned()));
+            if name.trim().is_empty() {
+                self.report(
+                    Diagnostic::error(codes::EMPTY_TEXT, key.span(), "the name of a material is empty")
+                        .expected("a name between quotes"),
+                );
+            }
+            let first = self.materials.find(&name).map(|first| self.materials.name(first).span);
+            if let Some(first) = first {
+                self.report(
+                    Diagnostic::error(
+                        codes::DUPLICATE_NAME,
+                        key.span(),
+                        format!("two materials have the name \"{}\"", shortened(&name)),
+                    )
+                    .hint("rename one of the two, or remove it")
+                    .label(first, "the first one is here"),
+                );
+            }
+            let material = Material::read(self, value, at);
+            if first.is_none() {
+                make_room(&mut self.materials.read, item, key);
+                self.materials.insert(Spanned { value: (*name).into(), span: key.span() }, material);
+            }
+            self.path.pop();
+        }
+        Some(())
+    }
+
+    /// The name of a material, which an object uses.
+    pub(crate) fn material_name(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Arc<str>> {
+        let name = self.text(item, at)?;
+        if let Some(number) = self.materials.find(&name) {
+            self.materials.mark(number);
+            return Some(Arc::clone(&self.materials.name(number).value));
+        }
+        if !self.materials.damaged {
+            self.unknown_material(&name, item);
+        }
+        Some((*name).into())
+    }
+
+    fn unknown_material(&mut self, name: &str, item: Item<'_, '_>) {
+        let count = self.materials.read.len() + self.materials.unread.len();
+        // Many names times many mistakes would take long: the first mistakes are the ones that are read.
+        let few = count * (self.materials.unknown + 1) <= MAX_COMPARISONS;
+        let mut known: Vec<_> = self.materials.names().filter(|_| few).collect();
+        known.sort_by_key(|name| name.span);
+        let known: Vec<&str> = known.into_iter().map(|name| &*name.value).collect();
+        let kind = Material::DEF.variant(name);
+        let mut fault = Diagnostic::error(
+            codes::UNKNOWN_MATERIAL,
+            item.span(),
+            format!("there is no material \"{}\"", shortened(name)),
+        );
+        fault.expected = match count {
+            0 => "a material written here: `materials` is empty".to_owned(),
+            1..=8 if few => format!("a name from `materials`: {}", suggest::list(&known)),
+            count => format!("one of the {count} names in `materials`"),
+        };
+        let nearest = suggest::nearest(name, known.iter().copied());
+        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        if nearest.is_none() {
+            fault.hint = match (kind, item.syntax()) {
+                (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {name}(..)"),
+                (Some(_), Syntax::Toml) => format!("for a material written here: {{ {name} = {{ .. }} }}"),
+                (None, Syntax::Ron) => {
+                    "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()
+                }
+                (None, Syntax::Toml) => {
+                    "add it to [materials], or write the material here: { Diffuse = { albedo = 0.5 } }".to_owned()
+                }
+            };
+        }
+        self.materials.unknown += 1;
+        self.report(fault);
+    }
+
+    pub(super) fn unused_materials(&mut self) {
+        let materials = std::mem::take(&mut self.materials);
+        let used = materials.used.iter().copied().chain(std::iter::repeat(false));
+        for (name, _) in materials.names().zip(used).filter(|(_, used)| !*used) {
+            if self.sink.is_full() {
+                break;
+            }
+            self.path = vec![Step::Field("materials"), Step::Key((*name.value).to_owned())];
+            self.report(
+                Diagnostic::warning(
+                    codes::UNUSED_MATERIAL,
+                    name.span,
+                    format!("no object uses the material \"{}\"", shortened(&name.value)),
+                )
+                .hint("remove it, or give its name to an object"),
+            );
+        }
+        self.path.clear();
+        self.materials = materials;
+    }
+}
