@@ -17,7 +17,10 @@ pub struct MaterialBuilder<'a> {
     named: BTreeMap<&'a str, u32>,
     default: Option<u32>,
     images: Vec<(PathBuf, Span)>,
+    index_of_image: BTreeMap<PathBuf, usize>,
     uses: Vec<TextureUse>,
+    /// Per image the indices of its uses, at most one for each filter and wrap.
+    uses_of_image: Vec<Vec<u32>>,
 }
 
 impl<'a> MaterialBuilder<'a> {
@@ -29,7 +32,9 @@ impl<'a> MaterialBuilder<'a> {
             named: BTreeMap::new(),
             default: None,
             images: Vec::new(),
+            index_of_image: BTreeMap::new(),
             uses: Vec::new(),
+            uses_of_image: Vec::new(),
         };
         for named in &desc.materials {
             let index = builder.add(&named.material, Some(&desc.base_dir));
@@ -91,16 +96,21 @@ impl<'a> MaterialBuilder<'a> {
             desc::Albedo::Texture(t) => t,
         };
         let path = base.map_or_else(|| t.file.value.to_path_buf(), |base| base.join(&t.file.value));
-        let image = self.images.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
-            self.images.push((path, t.file.span));
+        let image = *self.index_of_image.entry(path).or_insert_with_key(|path| {
+            self.images.push((path.clone(), t.file.span));
+            self.uses_of_image.push(Vec::new());
             self.images.len() - 1
         });
-        let same = |u: &TextureUse| u.image == image && u.filter == t.filter && u.wrap == t.wrap;
-        let index = self.uses.iter().position(same).unwrap_or_else(|| {
-            self.uses.push(TextureUse { image, filter: t.filter, wrap: t.wrap });
-            self.uses.len() - 1
-        });
-        Albedo::Texture(index as u32)
+        let same = |&&index: &&u32| {
+            self.uses.get(index as usize).is_some_and(|u| u.filter == t.filter && u.wrap == t.wrap)
+        };
+        if let Some(&index) = self.uses_of_image[image].iter().find(same) {
+            return Albedo::Texture(index);
+        }
+        let index = self.uses.len() as u32;
+        self.uses.push(TextureUse { image, filter: t.filter, wrap: t.wrap });
+        self.uses_of_image[image].push(index);
+        Albedo::Texture(index)
     }
 
     /// Loads the textures.
