@@ -294,15 +294,13 @@ pub mod member_kind {
     pub const RAISED: u32 = 4;
 }
 
-/// Second vertices that are diffuse, and the background: light leaves them alike in all directions. In the order of vertices, items, pixels.
+/// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items, pixels.
 pub struct Suffixes {
     /// Number of suffixes.
     pub len: usize,
-    /// The point, off the surface by its error; of the background the unit direction to it.
+    /// The point, off the surface by its error.
     pub point: Columns,
-    /// 1; of the background 0, so that `point - w start` leads to it from everywhere.
-    pub w: Vec<f32>,
-    /// Geometric normal, on the side that light leaves; of the background against `point`.
+    /// Geometric normal, on the side that light leaves.
     pub normal: Columns,
     /// Slot of the path that found it; its radiance is in the upper half of [`Batch::radiance`] there.
     pub slot: Vec<u32>,
@@ -451,7 +449,6 @@ impl Batch {
             suffixes: Suffixes {
                 len: 0,
                 point: columns(),
-                w: floats(),
                 normal: columns(),
                 slot: words(),
                 primitive: words(),

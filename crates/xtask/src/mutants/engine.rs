@@ -124,13 +124,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["reuse::"]),
     },
     Mutant {
-        name: "sharing-the-background-as-if-it-were-near",
-        file: SHARE,
-        find: "V3::load(&members.start, i).scale(target.w)",
-        replace: "V3::load(&members.start, i)",
-        caught_by: proofs(&["reuse::meshes"]),
-    },
-    Mutant {
         name: "sharing-forgets-roulette",
         file: SHARE,
         find: "density * survival",

@@ -67,14 +67,18 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let primitive = F::U::load(&batch.hits.primitive[i..]);
         let instance = F::U::load(&batch.hits.instance[i..]);
         let hit = valid & !primitive.eq(F::U::splat(NONE));
-        let none = F::M::from_bits(0);
-
-        // Light met by the ray: of a lamp, or of the background. A maker's background is shared.
-        let left = if open { valid & !hit } else { none };
-        let left_shared = if pass.reuse { left & has(slot, path::MAKER) } else { none };
+        if open {
+            let miss = valid & !hit;
+            let sum = slot & F::U::splat(path::SUM);
+            add_to_slots(&mut batch.radiance, sum, throughput.scale(eta2).mul(background), miss);
+        }
+        if !hit.any() {
+            continue;
+        }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+
+        // Light met by the ray.
         let emits = hit & !s.light.eq(F::U::splat(0));
-        let mut seen = throughput.scale(eta2).mul(background);
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
@@ -85,18 +89,11 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
                 weight = F::select(by_photons, zero, weight);
             }
-            let lamp = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
-            seen = V3::select(emits, lamp, seen);
+            let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
+            add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits);
         }
-        let arrives = emits | (left & !left_shared);
-        add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, arrives);
-        let to_share = slot & F::U::splat(path::SLOT) | F::U::splat(path::SHARED);
-        add_to_slots(&mut batch.radiance, to_share, background, left_shared);
         let surfaces = hit & !emits;
         if !scatters || !surfaces.any() {
-            if left_shared.any() {
-                add_suffixes(suffixes, &s, direction, left_shared, slot, primitive, instance, left_shared);
-            }
             continue;
         }
 
@@ -107,8 +104,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
             // Light leaves a diffuse vertex alike in all directions: what comes from here on is any member's.
             let shared = found & bsdf.diffuse;
-            if (shared | left_shared).any() {
-                add_suffixes(suffixes, &s, direction, left_shared, slot, primitive, instance, shared | left_shared);
+            if shared.any() {
+                add_suffixes(suffixes, &s, slot, primitive, instance, shared);
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
             }

@@ -14,10 +14,6 @@
 //! that hold a blocked segment, is the probability that this was noticed. The expectation is W'; single samples can be negative.
 //! A suffix is always seen by the member that has found it.
 //!
-//! A ray that meets nothing has found the background, a suffix, too: at infinity, where cos_y / d^2 is one and all directions to it are
-//! parallel. Without that outdoor scenes lose by sharing: what a pixel's own ray sees, surface or sky, is often nearly the same, and to share
-//! one and not the other makes noise of which of both it was.
-//!
 //! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and glass behind x
 //! and the light that the ray itself meets stay with the path's own pixel.
 
@@ -84,24 +80,19 @@ pub fn add_members<F: Lanes>(
     members.len += mask.count();
 }
 
-/// Adds the lanes of the mask to the suffixes: the surface, or what a ray of this direction met where it left the scene.
+/// Adds the lanes of the mask to the suffixes.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 pub fn add_suffixes<F: Lanes>(
     suffixes: &mut Suffixes,
     s: &Surface<F>,
-    direction: V3<F>,
-    left: F::M,
     slot: F::U,
     primitive: F::U,
     instance: F::U,
     mask: F::M,
 ) {
     let k = suffixes.len;
-    let (zero, one) = (F::splat(0.0), F::splat(1.0));
-    V3::select(left, direction, s.ng.mad(s.offset, s.p)).compress(mask, &mut suffixes.point, k);
-    F::select(left, zero, one).compress(mask, &mut suffixes.w[k..]);
-    V3::select(left, direction.neg(), s.ng).compress(mask, &mut suffixes.normal, k);
+    s.ng.mad(s.offset, s.p).compress(mask, &mut suffixes.point, k);
+    s.ng.compress(mask, &mut suffixes.normal, k);
     (slot & F::U::splat(path::SLOT)).compress(mask, &mut suffixes.slot[k..]);
     primitive.compress(mask, &mut suffixes.primitive[k..]);
     instance.compress(mask, &mut suffixes.instance[k..]);
@@ -128,7 +119,6 @@ fn looked_at(seed: u32, item_z: u32, item: &Item, slot: u32) -> u64 {
 /// A suffix, the same in all lanes.
 struct Target<F: Lanes> {
     point: V3<F>,
-    w: F,
     normal: V3<F>,
     slot: F::U,
 }
@@ -139,7 +129,6 @@ impl<F: Lanes> Target<F> {
         let at = |columns: &[Vec<f32>; 3]| [columns[0][j], columns[1][j], columns[2][j]];
         Target {
             point: V3::splat(at(&suffixes.point)),
-            w: F::splat(suffixes.w[j]),
             normal: V3::splat(at(&suffixes.normal)),
             slot: F::U::splat(suffixes.slot[j]),
         }
@@ -172,7 +161,7 @@ struct Pairs<F: Lanes> {
 impl<F: Lanes> Pairs<F> {
     #[inline(always)]
     fn new(members: &Members, i: usize, target: &Target<F>) -> Self {
-        let to = target.point.sub(V3::load(&members.start, i).scale(target.w));
+        let to = target.point.sub(V3::load(&members.start, i));
         Pairs {
             to,
             distance2: to.dot(to).max(F::splat(LEAST_DISTANCE2)),
@@ -196,8 +185,7 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
         let i = F::U::load(&batch.groups.pair_member[k..]);
         let j = tag.shr::<6>();
         let start = V3::<F>::gather_columns(&members.start, i);
-        let w = F::gather(&suffixes.w, j);
-        let to = V3::<F>::gather_columns(&suffixes.point, j).sub(start.scale(w));
+        let to = V3::<F>::gather_columns(&suffixes.point, j).sub(start);
         let faces = zero.lt(V3::gather_columns(&members.normal, i).dot(to))
             & V3::<F>::gather_columns(&suffixes.normal, j).dot(to).lt(zero);
         let own = F::U::gather(&members.slot, i).eq(F::U::gather(&suffixes.slot, j));
@@ -210,11 +198,10 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
             from = F::U::select(sinks, F::U::splat(NONE), from);
         }
         let distance = to.dot(to).max(F::splat(LEAST_DISTANCE2)).sqrt();
-        let end = F::select(zero.lt(w), distance, F::splat(f32::INFINITY));
         let k = rays.len;
         start.compress(cast, &mut rays.origin, k);
         to.scale(F::splat(1.0) / distance).compress(cast, &mut rays.direction, k);
-        end.compress(cast, &mut rays.t_max[k..]);
+        distance.compress(cast, &mut rays.t_max[k..]);
         from.compress(cast, &mut rays.from_primitive[k..]);
         F::U::gather(&members.instance, i).compress(cast, &mut rays.from_instance[k..]);
         F::U::gather(&suffixes.primitive, j).compress(cast, &mut rays.target_primitive[k..]);
