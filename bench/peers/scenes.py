@@ -299,10 +299,10 @@ def timed_scenes():
 FUR = Diffuse((0.8, 0.6, 0.5))
 
 
-def statues(size=0.5):
+def statues(size=0.6):
     """Three cats of 60000 triangles, a mirror, matt and of glass."""
     materials = (Mirror((0.9,) * 3), FUR, Glass(1.5))
-    return [Mesh("cat_60k.obj", m, size, -30.0, (x, -19.9, 0), smooth=True) for x, m in zip((-21, 0, 21), materials)]
+    return [Mesh("cat_60k.obj", m, size, -30.0, (x, -19.9, 0), smooth=True) for x, m in zip((-26, 0, 26), materials)]
 
 
 def noise_scenes(work):

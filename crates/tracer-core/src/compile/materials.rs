@@ -101,9 +101,8 @@ impl<'a> MaterialBuilder<'a> {
             self.uses_of_image.push(Vec::new());
             self.images.len() - 1
         });
-        let same = |&&index: &&u32| {
-            self.uses.get(index as usize).is_some_and(|u| u.filter == t.filter && u.wrap == t.wrap)
-        };
+        let same =
+            |&&index: &&u32| self.uses.get(index as usize).is_some_and(|u| u.filter == t.filter && u.wrap == t.wrap);
         if let Some(&index) = self.uses_of_image[image].iter().find(same) {
             return Albedo::Texture(index);
         }

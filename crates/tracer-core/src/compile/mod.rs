@@ -98,7 +98,8 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
-        reuse: full && desc.render.reuse == Reuse::Blocks,
+        // What a ray sees where it leaves the scene is its own pixel's, and shared or not it never paid (docs/noise.md).
+        reuse: full && desc.render.reuse == Reuse::Blocks && desc.background == [0.0; 3],
         caustics: full && desc.render.caustics == Caustics::Photons,
         background: desc.background.map(|x| x as f32),
         spheres,

@@ -47,6 +47,8 @@ const CROPS: [Crop; 4] = [
 
 fn every_combination(name: &str, mut desc: SceneDesc) {
     let look = compiled(&desc).look;
+    // Under a background, too, where by itself the engine does not share.
+    let reuse = Some(desc.render.reuse == Reuse::Blocks);
     let mut expected = None;
     for acceleration in [Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None] {
         desc.render.acceleration = acceleration;
@@ -56,7 +58,7 @@ fn every_combination(name: &str, mut desc: SceneDesc) {
         for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
             for threads in [1, 3] {
                 for crop in std::iter::once(whole).chain(CROPS) {
-                    let options = RenderOptions { threads, level: Some(level), crop: Some(crop), ..options() };
+                    let options = RenderOptions { threads, level: Some(level), crop: Some(crop), reuse, ..options() };
                     let film = tracer_core::render(&scene, &options, &Unobserved);
                     let (film_bits, image) = (bits(&film), develop(&film, &look));
                     let (pixels, display) = expected.get_or_insert_with(|| (film_bits.clone(), image.display.clone()));

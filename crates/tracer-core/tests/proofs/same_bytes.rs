@@ -106,8 +106,9 @@ fn scenes() -> [(&'static str, SceneDesc); 2] {
 
 const SAMPLES: u32 = 21;
 
+/// Sharing even under a background, where by itself the engine does not.
 pub(crate) fn options() -> RenderOptions {
-    RenderOptions { samples: Some(SAMPLES), seed: Some(77), threads: 1, ..RenderOptions::default() }
+    RenderOptions { samples: Some(SAMPLES), seed: Some(77), threads: 1, reuse: Some(true), ..RenderOptions::default() }
 }
 
 /// All that a film says of its pixels, as bits.
@@ -197,7 +198,7 @@ fn integrators() {
     let render = |integrator, reuse, caustics| {
         let mut desc = many_balls();
         (desc.render.integrator, desc.render.reuse, desc.render.caustics) = (integrator, reuse, caustics);
-        rendered(&compiled(&desc), &options())
+        rendered(&compiled(&desc), &RenderOptions { reuse: None, ..options() })
     };
     let plain = render(Integrator::Full, Reuse::None, Caustics::None);
     for (reuse, caustics) in [(Reuse::Blocks, Caustics::None), (Reuse::None, Caustics::Photons)] {
