@@ -67,17 +67,16 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let primitive = F::U::load(&batch.hits.primitive[i..]);
         let instance = F::U::load(&batch.hits.instance[i..]);
         let hit = valid & !primitive.eq(F::U::splat(NONE));
-        if open {
-            let miss = valid & !hit;
-            let sum = slot & F::U::splat(path::SUM);
-            add_to_slots(&mut batch.radiance, sum, throughput.scale(eta2).mul(background), miss);
-        }
+        let left = if open { valid & !hit } else { F::M::from_bits(0) };
+        let mut seen = throughput.scale(eta2).mul(background);
         if !hit.any() {
+            add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, left);
             continue;
         }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
 
-        // Light met by the ray.
+        // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass have one slot, and the
+        // order of a sum must not depend on the number of lanes.
         let emits = hit & !s.light.eq(F::U::splat(0));
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
@@ -89,9 +88,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
                 weight = F::select(by_photons, zero, weight);
             }
-            let seen = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
-            add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits);
+            let lamp = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
+            seen = V3::select(emits, lamp, seen);
         }
+        add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
         let surfaces = hit & !emits;
         if !scatters || !surfaces.any() {
             continue;
