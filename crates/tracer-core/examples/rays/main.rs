@@ -11,10 +11,10 @@
 
 mod sets;
 
-use sets::{Answers, build, count, field, load, room, sets, trace};
+use sets::{Answers, Set, batches, build, field, load, room, sets, trace};
 use std::path::Path;
 use std::time::Instant;
-use tracer_core::bvh::{Acceleration, Coherence, Level};
+use tracer_core::bvh::{Accel, Acceleration, Coherence, Counters, Level};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words = std::env::args().skip(1);
@@ -90,4 +90,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Ok(())
+}
+
+/// Traces a set in batches and says what was visited.
+fn count(accel: &Accel, set: &Set, answers: &mut Answers) -> Counters {
+    let total = std::cell::Cell::new(Counters::default());
+    let add = |counters: Counters| {
+        let sum = total.get();
+        total.set(Counters {
+            nodes: sum.nodes + counters.nodes,
+            triangle_leaves: sum.triangle_leaves + counters.triangle_leaves,
+            sphere_leaves: sum.sphere_leaves + counters.sphere_leaves,
+            instances: sum.instances + counters.instances,
+        });
+    };
+    batches(
+        set,
+        answers,
+        |rays, active, hits| add(accel.closest_counted(rays, active, hits, set.coherence)),
+        |rays, active, ends| add(accel.occluded_counted(rays, active, ends, set.coherence)),
+    );
+    total.get()
 }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use tracer_core::bvh::{
-    Accel, Acceleration, Coherence, Counters, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
+    Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
 };
 
 /// Rays a call: what a stage of the renderer hands over.
@@ -84,29 +84,8 @@ pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
     );
 }
 
-/// Traces a set in batches and says what was visited.
-#[allow(dead_code, reason = "the comparison with Embree has no use for it")]
-pub fn count(accel: &Accel, set: &Set, answers: &mut Answers) -> Counters {
-    let total = std::cell::Cell::new(Counters::default());
-    let add = |counters: Counters| {
-        let sum = total.get();
-        total.set(Counters {
-            nodes: sum.nodes + counters.nodes,
-            triangle_leaves: sum.triangle_leaves + counters.triangle_leaves,
-            sphere_leaves: sum.sphere_leaves + counters.sphere_leaves,
-            instances: sum.instances + counters.instances,
-        });
-    };
-    batches(
-        set,
-        answers,
-        |rays, active, hits| add(accel.closest_counted(rays, active, hits, set.coherence)),
-        |rays, active, ends| add(accel.occluded_counted(rays, active, ends, set.coherence)),
-    );
-    total.get()
-}
-
-fn batches(
+/// Hands a set over in batches: to `closest` with its rays, their indices and hits, or to `occluded` with the ends of its segments.
+pub fn batches(
     set: &Set,
     answers: &mut Answers,
     mut closest: impl FnMut(&Rays, &[u32], &mut Hits),
