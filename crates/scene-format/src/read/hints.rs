@@ -1,7 +1,7 @@
-//! What was meant by a field that is not there: the words of other programs, and the right place.
+//! What was meant by a word that is not there: the words of other programs, and the right place.
 
 use crate::desc::Scene;
-use crate::schema::{StructDef, Type};
+use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
 use crate::tree::Item;
 
@@ -77,4 +77,44 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
     let lower = name.to_ascii_lowercase();
     let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
     found.map(|(field, _)| *field)
+}
+
+/// What other programs call a kind of ours.
+pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
+    const SYNONYMS: [(&str, &[&str]); 8] = [
+        ("Diffuse", &["lambertian", "lambert", "matte", "matt", "roughdiffuse"]),
+        ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
+        ("Transparent", &["glass", "dielectric", "refractive"]),
+        ("BlinnPhong", &["phong", "glossy", "plastic", "roughplastic"]),
+        ("Mesh", &["obj", "off", "trianglemesh", "model", "shape"]),
+        ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
+        ("Sphere", &["ball"]),
+        ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
+    ];
+    let lower = name.to_ascii_lowercase();
+    let found = SYNONYMS.iter().find(|(kind, others)| def.variant(kind).is_some() && others.contains(&lower.as_str()));
+    found.map(|(kind, _)| *kind)
+}
+
+/// How the language says what other programs have a kind for.
+pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static str> {
+    let has = |kind| def.variant(kind).is_some();
+    match name.to_ascii_lowercase().as_str() {
+        "plane" | "ground" | "floor" | "rectangle" | "quad" if has("Sphere") => {
+            Some("a floor is a very large sphere, or a mesh of two triangles")
+        }
+        "box" | "cube" | "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
+            Some("other shapes are meshes: name an OBJ or OFF file in a `Mesh`")
+        }
+        "directional" | "distant" | "sun" | "directionallight" | "distantlight" if has("SphereLight") => {
+            Some("a sun is a large sphere light far away")
+        }
+        "environment" | "sky" | "constant" | "envmap" | "infinite" | "ambientlight" if has("SphereLight") => {
+            Some("light from all around is the scene's `background`")
+        }
+        "emissive" | "emitter" | "light" | "area" if has("Diffuse") => {
+            Some("what shines is a light: put a `SphereLight` into `lights`")
+        }
+        _ => None,
+    }
 }

@@ -122,7 +122,7 @@ impl<'r> Reader<'r> {
             && name != def.name
         {
             self.wrong_name(item, name, def);
-            return None;
+            suggest::nearest(name, [def.name])?;
         }
         self.fields_unnamed(item, def)
     }
@@ -182,6 +182,7 @@ impl<'r> Reader<'r> {
             }
         }
         let mut guess = 0;
+        let mut mistyped = Vec::new();
         for (key, value) in item.fields() {
             if self.sink.is_full() {
                 break;
@@ -199,7 +200,10 @@ impl<'r> Reader<'r> {
                 None => match &*key.text() {
                     // Where the schema is, for editors.
                     "$schema" if def.name == "Scene" => {}
-                    name => self.unknown_field(key, name, item, def),
+                    name => {
+                        let meant = self.unknown_field(key, name, item, def);
+                        mistyped.extend(meant.map(|field| (field, value)));
+                    }
                 },
                 Some(slot) => {
                     guess = slot + 1;
@@ -213,6 +217,13 @@ impl<'r> Reader<'r> {
                 }
             }
         }
+        // What a mistyped name stands for is read as well, so that what is wrong with it is told in the same run.
+        for (meant, value) in mistyped {
+            let slot = def.fields.iter().position(|field| field.name == meant);
+            if let Some(slot) = slot.filter(|slot| fields.get(*slot).is_none()) {
+                fields.set(slot, value);
+            }
+        }
         if !item.is_damaged() {
             self.missing_fields(item, def, &fields);
         }
@@ -221,7 +232,7 @@ impl<'r> Reader<'r> {
 
     fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {
         for (field, &slot) in def.fields.iter().zip(&fields.slots) {
-            if slot == NOWHERE && field.default.is_none() && !self.mistyped(item, def, field.name) {
+            if slot == NOWHERE && field.default.is_none() {
                 let mut fault = Diagnostic::error(
                     codes::MISSING_FIELD,
                     item.head(),
@@ -245,19 +256,11 @@ impl<'r> Reader<'r> {
         let choice = suggest::list(def.exactly_one);
         match written().count() {
             1 => {}
-            0 => {
-                if !def.exactly_one.iter().any(|name| self.mistyped(item, def, name)) {
-                    self.report(
-                        Diagnostic::error(
-                            codes::EXACTLY_ONE,
-                            item.head(),
-                            format!("{} needs one of {choice}", def.noun),
-                        )
-                        .expected(format!("exactly one of {choice}"))
-                        .hint(format!("add `{}`", def.exactly_one[0])),
-                    );
-                }
-            }
+            0 => self.report(
+                Diagnostic::error(codes::EXACTLY_ONE, item.head(), format!("{} needs one of {choice}", def.noun))
+                    .expected(format!("exactly one of {choice}"))
+                    .hint(format!("add `{}`", def.exactly_one[0])),
+            ),
             _ => {
                 let mut slots: Vec<_> =
                     written().filter_map(|(field, slot)| slot.map(|item| (item.head(), field.name))).collect();
@@ -277,15 +280,14 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Whether an unknown field of the item looks like `name`: then it is not missing, it is mistyped.
-    fn mistyped(&self, item: Item<'_, '_>, def: &'static StructDef, name: &str) -> bool {
-        item.fields().take(LOOK_AT).any(|(key, _)| {
-            let key = key.text();
-            def.field(&key).is_none() && meant(&key, item, def) == Some(name)
-        })
-    }
-
-    fn unknown_field(&mut self, key: Item<'_, '_>, name: &str, item: Item<'_, '_>, def: &'static StructDef) {
+    /// Reports a field that there is not; gives the one that is meant.
+    fn unknown_field(
+        &mut self,
+        key: Item<'_, '_>,
+        name: &str,
+        item: Item<'_, '_>,
+        def: &'static StructDef,
+    ) -> Option<&'static str> {
         if RESERVED.contains(&name) {
             self.report(
                 Diagnostic::error(
@@ -295,13 +297,14 @@ impl<'r> Reader<'r> {
                 )
                 .expected(field_list(def)),
             );
-            return;
+            return None;
         }
         let mut fault =
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
         let quoted = key.lexeme().starts_with(['"', '\'']);
-        fault.did_you_mean(meant(name, item, def), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
+        let meant = meant(name, item, def);
+        fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
             && let Some(way) = other_way(name, def, item.syntax())
         {
@@ -313,6 +316,7 @@ impl<'r> Reader<'r> {
             fault.hint = place;
         }
         self.report(fault);
+        meant
     }
 
     fn duplicate(&mut self, key: Item<'_, '_>, name: &str, first: Item<'_, '_>) {

@@ -295,6 +295,12 @@ pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
     Some([value >> 16, value >> 8, value].map(|channel| linear_from_srgb(f64::from(channel & 0xff) / 255.0)))
 }
 
+/// Whether a text looks like the path of a picture.
+fn is_picture(text: &str) -> bool {
+    let (_, suffix) = text.rsplit_once('.').unwrap_or_default();
+    ["png", "jpg", "jpeg"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
+}
+
 /// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.
 fn linear_from_srgb(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
@@ -325,6 +331,15 @@ impl Reader<'_> {
         } else if decode::number(&text).is_finite() {
             fault.hint = "write the number without quotes".to_owned();
             fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
+        } else if hex && text.starts_with('#') {
+            fault.hint = format!("this has {} digits; it needs two for each of red, green and blue", digits.len());
+        } else if is_picture(&text) && expected_for(at, item).contains("Texture") {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Texture(file: {})", item.lexeme()),
+                Syntax::Toml => format!("{{ Texture = {{ file = {} }} }}", item.lexeme()),
+            };
+            fault.hint = format!("a picture is written {}", shortened(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
         } else {
             fault.hint = match item.syntax() {
                 Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),

@@ -1,5 +1,6 @@
 //! Choices: `Name`, `Name(..)` in RON; `"Name"`, `{ Name = .. }` in TOML.
 
+use super::hints::{kind_elsewhere, other_kind};
 use super::{Fields, Reader, describe, plain};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -76,8 +77,10 @@ impl Reader<'_> {
         if matches!(body, Body::Value(_)) && def.variants.iter().any(is_field) {
             return self.no_variant(item, def);
         }
-        self.unknown_variant(span, &name, def, item.syntax());
-        None
+        // What is meant is read all the same, so that what is wrong inside is told in the same run.
+        let variant = self.unknown_variant(span, &name, def, item.syntax())?;
+        let readable = !matches!(body, Body::None) || matches!(variant.content, Content::Unit);
+        readable.then_some(Chosen { variant, body, item })
     }
 
     fn no_variant<T>(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Option<T> {
@@ -120,7 +123,14 @@ impl Reader<'_> {
         None
     }
 
-    fn unknown_variant(&mut self, span: Span, name: &str, def: &'static EnumDef, syntax: Syntax) {
+    /// Reports a kind that there is not; gives the one that is meant.
+    fn unknown_variant(
+        &mut self,
+        span: Span,
+        name: &str,
+        def: &'static EnumDef,
+        syntax: Syntax,
+    ) -> Option<&'static VariantDef> {
         let mut fault = Diagnostic::error(
             codes::UNKNOWN_VARIANT,
             span,
@@ -128,10 +138,16 @@ impl Reader<'_> {
         )
         .expected(choices(def, syntax));
         let quoted = syntax == Syntax::Toml && span.end - span.start == name.len() as u32 + 2;
-        fault.did_you_mean(suggest::nearest(name, def.variants.iter().map(|variant| variant.name)), |word| {
-            if quoted { format!("\"{word}\"") } else { word.to_owned() }
-        });
+        let names = def.variants.iter().map(|variant| variant.name);
+        let meant = kind_elsewhere(name, def).or_else(|| suggest::nearest(name, names));
+        fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
+        if fault.hint.is_empty()
+            && let Some(way) = other_kind(name, def)
+        {
+            fault.hint = way.to_owned();
+        }
         self.report(fault);
+        meant.and_then(|word| def.variant(word))
     }
 
     fn quoted_variant<T>(&mut self, item: Item<'_, '_>, name: &str, def: &'static EnumDef) -> Option<T> {

@@ -2,7 +2,7 @@
 
 use crate::args::ConvertArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::{is_dash, read, told};
+use crate::loading::{asset_files, is_dash, read, told};
 use crate::shell::Shell;
 use crate::write::save;
 use scene_format::{LoadError, Syntax};
@@ -44,7 +44,8 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
     match output {
         Some(path) => {
             save(path, converted.as_bytes())?;
-            if folder(path) != folder(&args.scene) && !is_dash(&args.scene) {
+            let moves = folder(path) != folder(&args.scene) && !is_dash(&args.scene);
+            if moves && names_files(&name, &text, from) {
                 shell.say("warning: paths in a scene start from its folder, and this one moves to another folder");
             }
         }
@@ -55,6 +56,12 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
         }
     }
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// Whether a scene names files by where they lie from its own folder.
+fn names_files(name: &str, text: &str, syntax: Syntax) -> bool {
+    let loaded = scene_format::load_bytes(name, text.as_bytes().to_vec(), Some(syntax), Path::new(""), &[]);
+    loaded.is_ok_and(|loaded| asset_files(&loaded.scene).into_iter().any(Path::is_relative))
 }
 
 /// The folder of a file, as the system sees it.
