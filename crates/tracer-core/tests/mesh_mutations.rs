@@ -103,10 +103,17 @@ fn run(seed: u64, count: usize, original: &[u8], mut test: impl FnMut(&[u8]) -> 
     let mut good = 0;
     for number in 0..count {
         let bytes = random.mutate(original);
-        let start = Instant::now();
-        good += usize::from(test(&bytes));
-        // Files of a few KB: a second is a thousand times what they take.
-        assert!(start.elapsed() < Duration::from_secs(1), "mutant {number}: {:?}", String::from_utf8_lossy(&bytes));
+        let mut soon = |right: &mut bool| {
+            let start = Instant::now();
+            *right = test(&bytes);
+            start.elapsed() < Duration::from_secs(1)
+        };
+        // Files of a few KB: a second is a thousand times what they take. What takes longer is tried again, for the machine may be busy
+        // with other things.
+        let mut right = false;
+        let in_time = (0..4).any(|_| soon(&mut right));
+        assert!(in_time, "mutant {number}: {:?}", String::from_utf8_lossy(&bytes));
+        good += usize::from(right);
     }
     good
 }

@@ -8,7 +8,10 @@ use super::stages::share::Round;
 use super::stages::{camera, gather, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
+use crate::lanes::ArrayF;
 use crate::lanes::level::Level;
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::{F8, F16, Pair};
 use crate::scene::Scene;
 
 /// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
@@ -27,9 +30,9 @@ pub struct Kernels {
     gather: unsafe fn(&Map, u32, &mut Batch),
 }
 
-/// The entry functions of a level.
+/// The entry functions of a level: the lanes of all stages but those of the spheres, and of those.
 macro_rules! kernels {
-    ($name:ident, $lanes:ty $(, $features:literal)?) => {
+    ($name:ident, $lanes:ty, $of_spheres:ty $(, $features:literal)?) => {
         mod $name {
             use super::*;
             $(#[target_feature(enable = $features)])?
@@ -38,7 +41,7 @@ macro_rules! kernels {
             }
             $(#[target_feature(enable = $features)])?
             fn closest_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_closest::<$lanes>(scene, batch)
+                spheres::spheres_closest::<$of_spheres>(scene, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -46,7 +49,7 @@ macro_rules! kernels {
             }
             $(#[target_feature(enable = $features)])?
             fn occluded_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_occluded::<$lanes>(scene, batch)
+                spheres::spheres_occluded::<$of_spheres>(scene, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn reach_closest_entry(boxes: &TopBoxes, batch: &mut Batch) {
@@ -93,15 +96,20 @@ macro_rules! kernels {
     };
 }
 
-kernels!(portable, crate::lanes::ArrayF<1>);
+type One = ArrayF<1>;
 #[cfg(not(target_arch = "x86_64"))]
-kernels!(portable_8, crate::lanes::ArrayF<8>);
+type Eight = ArrayF<8>;
+
+kernels!(portable, One, One);
+#[cfg(not(target_arch = "x86_64"))]
+kernels!(portable_8, Eight, Eight);
 #[cfg(target_arch = "x86_64")]
-kernels!(scalar_fma, crate::lanes::ArrayF<1>, "fma");
+kernels!(scalar_fma, One, One, "fma");
+// The spheres' chains of operations are long: with twice the lanes they take a tenth less time on Zen 3. Shading takes as much more.
 #[cfg(target_arch = "x86_64")]
-kernels!(avx2, crate::lanes::F8, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+kernels!(avx2, F8, Pair<F8>, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 #[cfg(target_arch = "x86_64")]
-kernels!(avx512, crate::lanes::F16, "avx512f,avx512vl,avx512dq,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+kernels!(avx512, F16, F16, "avx512f,avx512vl,avx512dq,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 
 impl Kernels {
     /// The stages for a level that this CPU has ([`Level::available`]).

@@ -69,6 +69,7 @@ impl<const N: usize> Neg for ArrayF<N> {
 }
 
 impl<const N: usize> Mask for ArrayM<N> {
+    const N: usize = N;
     #[inline(always)]
     fn bits(self) -> u32 {
         let mut bits = 0;

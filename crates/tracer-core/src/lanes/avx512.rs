@@ -62,6 +62,7 @@ impl Not for M16 {
     }
 }
 impl Mask for M16 {
+    const N: usize = 16;
     #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self.0)

@@ -14,16 +14,20 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 pub mod level;
+mod pair;
 
 pub use array::{ArrayF, ArrayM, ArrayU};
 #[cfg(target_arch = "x86_64")]
 pub use avx2::{F8, M8, U8};
 #[cfg(target_arch = "x86_64")]
 pub use avx512::{F16, M16, U16};
+pub use pair::Pair;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// A truth value per lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Number of lanes.
+    const N: usize;
     /// One bit per lane, lane 0 lowest; bits above N are zero.
     fn bits(self) -> u32;
     /// The inverse of [`Mask::bits`].
@@ -70,6 +74,12 @@ pub trait Bits:
     fn select(mask: Self::M, a: Self, b: Self) -> Self;
     /// `table[index]`; indices past the end read the last entry (the table must not be empty).
     fn gather(table: &[u32], index: Self) -> Self;
+    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold three).
+    #[inline(always)]
+    fn gather3(table: &[u32], place: Self) -> [Self; 3] {
+        let one = Self::splat(1);
+        [Self::gather(table, place), Self::gather(table, place + one), Self::gather(table, place + one + one)]
+    }
     /// Bit 31 becomes bit 0 and so on.
     fn reverse_bits(self) -> Self;
     /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
@@ -130,6 +140,17 @@ pub trait Lanes:
     fn to_int(self) -> Self::U;
     /// `table[index]`; indices past the end read the last entry (the table must not be empty).
     fn gather(table: &[f32], index: Self::U) -> Self;
+    /// Two consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold two).
+    #[inline(always)]
+    fn gather2(table: &[f32], place: Self::U) -> [Self; 2] {
+        [Self::gather(table, place), Self::gather(table, place + Self::U::splat(1))]
+    }
+    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold three).
+    #[inline(always)]
+    fn gather3(table: &[f32], place: Self::U) -> [Self; 3] {
+        let one = Self::U::splat(1);
+        [Self::gather(table, place), Self::gather(table, place + one), Self::gather(table, place + one + one)]
+    }
     /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
     fn compress(self, mask: Self::M, to: &mut [f32]);
 
@@ -139,3 +160,6 @@ pub trait Lanes:
         Self::M::from_bits(if n >= Self::N { (((1u64 << Self::N) - 1) & 0xffff_ffff) as u32 } else { (1u32 << n) - 1 })
     }
 }
+
+#[cfg(test)]
+mod tests;

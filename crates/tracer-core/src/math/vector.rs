@@ -94,8 +94,8 @@ impl<F: Lanes> V3<F> {
     /// From three consecutive entries of a table, the first at `place`.
     #[inline(always)]
     pub fn gather_at(table: &[f32], place: F::U) -> Self {
-        let one = F::U::splat(1);
-        V3(F::gather(table, place), F::gather(table, place + one), F::gather(table, place + one + one))
+        let [x, y, z] = F::gather3(table, place);
+        V3(x, y, z)
     }
     /// Two unit vectors that make a right-handed frame (t, b, self) with this unit vector.
     /// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited (JCGT 2017).

@@ -15,7 +15,7 @@ use scene_format::desc::{
 };
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 25;
+const SCENES: usize = 26;
 /// Of the mean of a picture.
 const BIAS: f64 = 0.001;
 
@@ -68,6 +68,12 @@ fn meshes() {
     assert_photons_are_consistent("smooth glass", &on_the_floor(vec![statue]), 512, 0.0025, SCENES);
     let box_of_glass = solid(&cube().obj("cube"), glass(1.4), Shading::Flat, 3.0);
     assert_photons_are_consistent("cube", &on_the_floor(vec![box_of_glass]), 512, BIAS, SCENES);
+    // Most objects are 20000 away, and there is the middle of the scene: here rays start a hundredth beside their surface, a tenth of a
+    // triangle's side, and it must be the side that they go to.
+    let fine = solid(&icosphere(5).obj("icosphere-5"), glass(1.5), Shading::Flat, 2.5);
+    let far = (0..7).map(|k| sphere([20000.0 + f64::from(k), 0.0, 0.0], 0.4, diffuse([0.5; 3])));
+    let aside = on_the_floor(std::iter::once(fine).chain(far).collect());
+    assert_photons_are_consistent("far from the middle", &aside, 512, 0.0025, SCENES);
 }
 
 /// Seen in a mirror, on a textured floor, with two lamps, from within glass.

@@ -57,7 +57,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: PHOTONS,
         find: "hit = hit & F::U::select(on_sphere, of_sphere, of_instance).eq(wanted);",
         replace: "hit = hit & !F::U::select(on_sphere, of_sphere, of_instance).eq(wanted + F::U::splat(1));",
-        caught_by: proofs(&["caustics::seen_otherwise"]),
+        caught_by: proofs(&["caustics::many_casters"]),
     },
     Mutant {
         name: "photons-into-the-glass-they-leave",

@@ -110,10 +110,7 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
 /// Three indices of a triangle.
 #[inline(always)]
 fn gather_indices<F: Lanes>(indices: &[[u32; 3]], triangle: F::U) -> [F::U; 3] {
-    let table = indices.as_flattened();
-    let i = triangle * F::U::splat(3);
-    let one = F::U::splat(1);
-    [F::U::gather(table, i), F::U::gather(table, i + one), F::U::gather(table, i + one + one)]
+    F::U::gather3(indices.as_flattened(), triangle * F::U::splat(3))
 }
 
 /// The axes in the order that makes the ray's largest one the last.
@@ -249,11 +246,10 @@ fn on_triangles<F: Lanes>(
         let has = valid & !ti[0].eq(F::U::splat(NONE));
         if has.any() {
             let table = triangles.uvs.as_flattened();
-            let one = F::U::splat(1);
             for k in 0..3 {
-                let i = F::U::select(has, ti[k] + ti[k], F::U::splat(0));
-                u = F::gather(table, i).fma(b[k], u);
-                v = F::gather(table, i + one).fma(b[k], v);
+                let corner = F::gather2(table, F::U::select(has, ti[k] + ti[k], F::U::splat(0)));
+                u = corner[0].fma(b[k], u);
+                v = corner[1].fma(b[k], v);
             }
             u = F::select(has, u, zero);
             v = F::select(has, v, zero);

@@ -21,12 +21,13 @@ pub fn texture_color<F: Lanes>(table: &TextureTable, id: F::U, u: F, v: F, mask:
     let (x0, x1, fx) = axis(x, width, wrap, nearest);
     let (y0, y1, fy) = axis(y, height, wrap, nearest);
     let (row0, row1) = (y0 * width, y1 * width);
-    let top_left = fetch::<F>(table, id, row0 + x0, mask);
+    let texture = Place::new(table, id, mask);
+    let top_left = texture.fetch(row0 + x0);
     if (nearest | !mask).bits() == F::first(F::N).bits() {
         return top_left;
     }
-    let top = mix(top_left, fetch::<F>(table, id, row0 + x1, mask), fx);
-    let bottom = mix(fetch::<F>(table, id, row1 + x0, mask), fetch::<F>(table, id, row1 + x1, mask), fx);
+    let top = mix(top_left, texture.fetch(row0 + x1), fx);
+    let bottom = mix(texture.fetch(row1 + x0), texture.fetch(row1 + x1), fx);
     mix(top, bottom, fy)
 }
 
@@ -82,26 +83,38 @@ fn floor<F: Lanes>(x: F) -> F {
     F::select(x.lt(rounded), rounded - F::splat(1.0), rounded)
 }
 
-#[inline(always)]
-fn fetch<F: Lanes>(table: &TextureTable, id: F::U, texel: F::U, mask: F::M) -> V3<F> {
-    let offset = F::U::gather(&table.offset, id);
-    let wide = mask & F::U::gather(&table.wide, id).eq(F::U::splat(1));
-    let narrow = mask & !wide;
-    let mut color = V3::<F>::zero();
-    if narrow.any() {
-        let word = F::U::gather(&table.words, F::U::select(narrow, offset + texel, F::U::splat(0)));
-        let texel = V3(decode::<F>(word), decode::<F>(word.shr::<8>()), decode::<F>(word.shr::<16>()));
-        color = V3::select(narrow, texel, color);
+/// Where the texels of each lane's texture stand, and how.
+struct Place<'t, F: Lanes> {
+    words: &'t [u32],
+    offset: F::U,
+    /// Three floats a texel.
+    wide: F::M,
+    /// Three bytes in a word.
+    narrow: F::M,
+}
+
+impl<'t, F: Lanes> Place<'t, F> {
+    #[inline(always)]
+    fn new(table: &'t TextureTable, id: F::U, mask: F::M) -> Self {
+        let wide = mask & F::U::gather(&table.wide, id).eq(F::U::splat(1));
+        Place { words: &table.words, offset: F::U::gather(&table.offset, id), wide, narrow: mask & !wide }
     }
-    if wide.any() {
-        let i = F::U::select(wide, offset + texel * F::U::splat(3), F::U::splat(0));
-        let one = F::U::splat(1);
-        let texel = V3(
-            F::from_bits(F::U::gather(&table.words, i)),
-            F::from_bits(F::U::gather(&table.words, i + one)),
-            F::from_bits(F::U::gather(&table.words, i + one + one)),
-        );
-        color = V3::select(wide, texel, color);
+
+    /// The colour of a texel; black outside the mask.
+    #[inline(always)]
+    fn fetch(&self, texel: F::U) -> V3<F> {
+        let zero = F::U::splat(0);
+        let mut color = V3::<F>::zero();
+        if self.narrow.any() {
+            let word = F::U::gather(self.words, F::U::select(self.narrow, self.offset + texel, zero));
+            let texel = V3(decode::<F>(word), decode::<F>(word.shr::<8>()), decode::<F>(word.shr::<16>()));
+            color = V3::select(self.narrow, texel, color);
+        }
+        if self.wide.any() {
+            let place = F::U::select(self.wide, self.offset + texel * F::U::splat(3), zero);
+            let [x, y, z] = F::U::gather3(self.words, place);
+            color = V3::select(self.wide, V3(F::from_bits(x), F::from_bits(y), F::from_bits(z)), color);
+        }
+        color
     }
-    color
 }
