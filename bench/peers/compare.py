@@ -17,10 +17,11 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 TILE = 8
 
 
-def ours(tracer, file, folder, samples, seed, threads):
+def ours(tracer, file, folder, samples, seed, threads, integrator="Full"):
     """One picture, as linear radiance, and the report of its rendering."""
     picture, report = os.path.join(folder, "ours.exr"), os.path.join(folder, "report.json")
     command = [tracer, "render", file, "-o", picture, "--samples", str(samples), "--seed", str(seed), "--quiet"]
+    command += ["--set", f"render.integrator={integrator}"]
     subprocess.run(command + ["--threads", str(threads), "--report", report], check=True)
     bitmap = mi.Bitmap(picture).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=False)
     with open(report) as f:
@@ -93,27 +94,43 @@ def save(folder, name, a, b):
 
 
 def measure(arguments):
-    """Camera samples a second, the best of three runs each; Mitsuba's kernels are compiled by a run before."""
+    """Camera samples a second, the best of three runs each; Mitsuba's kernels are compiled by a run before. `Path` is the plain path
+    tracer, which does what Mitsuba's does; `Full` has photons and sharing pixels, whose samples cost more and tell more."""
     size, samples = 512, arguments.samples
-    print("| scene | tracer, samples/s | Mitsuba, samples/s | ratio |\n|---|---:|---:|---:|")
-    for description in scenes.timed_scenes():
+    print("| scene | tracer, `Path` | tracer, `Full` | Mitsuba | `Path` over Mitsuba | `Full` over Mitsuba | means, `Path` over Mitsuba |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    apart = []
+    for description in scenes.timed_scenes(arguments.work):
+        if arguments.scene not in description.name:
+            continue
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "scene.ron")
             with open(file, "w") as f:
                 f.write(description.ron(size))
             scene = mi.load_dict(description.mitsuba(mi, size))
             theirs(scene, samples, 0)
-            best = [0.0, 0.0]
+            best, means = {"Path": 0.0, "Full": 0.0, "Mitsuba": 0.0}, {"Path": [], "Mitsuba": []}
             for seed in range(1, 4):
                 # Side by side in time, so that a busy machine is busy for both.
-                _, report = ours(arguments.tracer, file, folder, samples, seed, arguments.threads)
-                best[0] = max(best[0], report["samples"]["per_second"])
+                for integrator in ("Path", "Full"):
+                    picture, report = ours(arguments.tracer, file, folder, samples, seed, arguments.threads, integrator)
+                    best[integrator] = max(best[integrator], report["samples"]["per_second"])
+                    if integrator == "Path":
+                        means["Path"].append(picture.mean())
                 start = time.perf_counter()
-                theirs(scene, samples, seed)
-                best[1] = max(best[1], size * size * samples / (time.perf_counter() - start))
-        print(f"| {description.name} | {best[0]:.3e} | {best[1]:.3e} | {best[0] / best[1]:.2f} |", flush=True)
-    print(f"\n{size}x{size}, {samples} samples per pixel, {arguments.threads} threads, "
-          f"Mitsuba {mi.__version__} {mi.variant()}, rendering only.")
+                picture = theirs(scene, samples, seed)
+                best["Mitsuba"] = max(best["Mitsuba"], size * size * samples / (time.perf_counter() - start))
+                means["Mitsuba"].append(picture.mean())
+        ratio = np.mean(means["Path"]) / np.mean(means["Mitsuba"])
+        if abs(ratio - 1) > 0.005:
+            apart.append(description.name)
+        rates = " | ".join(f"{best[name] / 1e6:.2f} M/s" for name in best)
+        over = " | ".join(f"**{best[name] / best['Mitsuba']:.2f}**" for name in ("Path", "Full"))
+        print(f"| {description.name} | {rates} | {over} | {ratio:.4f} |", flush=True)
+    print(f"\n{size}x{size}, {samples} samples per pixel, {arguments.threads} threads, Mitsuba {mi.__version__} {mi.variant()}, "
+          "rendering only.")
+    if apart:
+        sys.exit("means further apart than 0.5 %: " + ", ".join(apart))
 
 
 def main():
@@ -121,6 +138,7 @@ def main():
     parser.add_argument("--tracer", default=os.path.join(ROOT, "target", "release", "tracer"))
     parser.add_argument("--variant", default="llvm_ad_rgb", help="Mitsuba's variant")
     parser.add_argument("--time", action="store_true", help="time both instead of comparing")
+    parser.add_argument("--work", default=os.path.join(ROOT, "target"), help="a folder for a mesh of a million triangles")
     parser.add_argument("--scene", default="", help="only scenes whose names contain this")
     parser.add_argument("--size", type=int, default=128, help="pixels along a side, a multiple of 8")
     parser.add_argument("--seeds", type=int, default=16)

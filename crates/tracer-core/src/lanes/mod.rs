@@ -161,5 +161,20 @@ pub trait Lanes:
     }
 }
 
+/// Has the memory around an entry fetched into the cache; nothing where the processor has no such instruction.
+#[inline(always)]
+pub fn prefetch(table: &[f32], index: usize) {
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    if let Some(entry) = table.get(index) {
+        // SAFETY: every x86-64 processor has it, and the address is one of the table.
+        unsafe {
+            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+            _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(entry).cast());
+        }
+    }
+    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+    let _ = (table, index);
+}
+
 #[cfg(test)]
 mod tests;

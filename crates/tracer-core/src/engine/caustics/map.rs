@@ -10,6 +10,7 @@
 //! away fails the test of distance.
 
 use super::plan::{LEVELS, PairTable};
+use crate::lanes::prefetch;
 use crate::sampling::sampler::hash3;
 
 /// Cells along an axis: the bits of a word.
@@ -129,6 +130,16 @@ impl Grid {
             near,
             before,
             starts,
+        }
+    }
+
+    /// Has the memory of a photon fetched, which will soon be asked for.
+    #[inline(always)]
+    pub fn prefetch(&self, photon: usize) {
+        for columns in [&self.points, &self.normals, &self.flux] {
+            for column in columns {
+                prefetch(column, photon);
+            }
         }
     }
 

@@ -16,6 +16,9 @@ const COLUMNS: usize = 8;
 /// Queries whose runs are found at once.
 const CHUNK: usize = 64;
 
+/// The memory of so many runs is fetched while others are summed.
+const AHEAD: usize = 4;
+
 /// A query with photons near, and the cell from which on they are.
 #[derive(Clone, Copy, Default)]
 struct Near {
@@ -46,8 +49,11 @@ pub fn gather<F: Lanes>(map: &Map, most_events: u32, batch: &mut Batch) {
                 // What is over waits for the next chunk.
                 for chunk in near[..waiting].chunks(CHUNK) {
                     let count = find_runs(grid, chunk, &mut runs);
-                    for run in &runs[..count] {
-                        let sum = flux_per_area::<F>(grid, *run, queries, most_events);
+                    for (r, run) in runs[..count].iter().enumerate() {
+                        if let Some(ahead) = runs[..count].get(r + AHEAD) {
+                            grid.prefetch(ahead.first as usize);
+                        }
+                        let Some(sum) = flux_per_area::<F>(grid, *run, queries, most_events) else { continue };
                         let k = run.query as usize;
                         let slot = queries.slot[k] as usize;
                         for ((radiance, value), sum) in radiance.iter_mut().zip(&queries.value).zip(sum) {
@@ -99,20 +105,20 @@ fn find_runs(grid: &Grid, near: &[Near], runs: &mut [Run]) -> usize {
     count
 }
 
-/// Flux per area that a run of photons brings to its query.
+/// Flux per area that a run of photons brings to its query; `None` where none is near enough.
 #[inline(always)]
-fn flux_per_area<F: Lanes>(grid: &Grid, run: Run, queries: &Queries, most_events: u32) -> [f32; 3] {
+fn flux_per_area<F: Lanes>(grid: &Grid, run: Run, queries: &Queries, most_events: u32) -> Option<[f32; 3]> {
     let k = run.query as usize;
     let point = V3::<F>::splat([queries.point[0][k], queries.point[1][k], queries.point[2][k]]);
     let normal = V3::<F>::splat([queries.normal[0][k], queries.normal[1][k], queries.normal[2][k]]);
     let c = F::splat;
     let step = F::N.min(COLUMNS);
     let (first, end) = (run.first as usize, run.end as usize);
-    // Wider lanes leave those beyond the columns at zero.
+    // In registers where they hold all columns; wider ones leave what is beyond at zero.
+    let mut wide = V3::<F>::zero();
     let mut sums = [[0.0f32; 32]; 3];
     let mut found = false;
     for i in (first..end).step_by(step) {
-        let column = (i - first) % COLUMNS;
         let to = V3::<F>::load(&grid.points, i).sub(point);
         let weight = c(1.0) - to.dot(to) * c(grid.inverse_radius2);
         let near = F::first(step.min(end - i)) & c(0.0).lt(weight) & normal.dot(to).abs().lt(c(grid.height));
@@ -120,18 +126,33 @@ fn flux_per_area<F: Lanes>(grid: &Grid, run: Run, queries: &Queries, most_events
             let same_side = c(LEAST_COS).lt(normal.dot(V3::load(&grid.normals, i)));
             let short = F::U::load(&grid.events[i..]).lt(F::U::splat(most_events + 1));
             let weight = F::select(near & same_side & short, weight, c(0.0));
-            for (sums, flux) in sums.iter_mut().zip(&grid.flux) {
-                let sums = &mut sums[column..];
-                F::load(&flux[i..]).fma(weight, F::load(sums)).store(sums);
+            let flux = V3::<F>::load(&grid.flux, i);
+            if F::N >= COLUMNS {
+                wide = flux.mad(weight, wide);
+            } else {
+                let column = (i - first) % COLUMNS;
+                let before = V3(F::load(&sums[0][column..]), F::load(&sums[1][column..]), F::load(&sums[2][column..]));
+                let after = flux.mad(weight, before);
+                after.0.store(&mut sums[0][column..]);
+                after.1.store(&mut sums[1][column..]);
+                after.2.store(&mut sums[2][column..]);
             }
             found = true;
         }
     }
-    let mut total = [0.0; 3];
-    if found {
-        for (total, s) in total.iter_mut().zip(&sums) {
-            *total = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-        }
+    if !found {
+        return None;
     }
-    total
+    if F::N >= COLUMNS {
+        wide.0.store(&mut sums[0]);
+        wide.1.store(&mut sums[1]);
+        wide.2.store(&mut sums[2]);
+    }
+    Some([total(&sums[0]), total(&sums[1]), total(&sums[2])])
+}
+
+/// The sum of all columns.
+#[inline(always)]
+fn total(s: &[f32; 32]) -> f32 {
+    ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]))
 }
