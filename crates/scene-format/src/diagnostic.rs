@@ -1,5 +1,6 @@
 //! Diagnostics as data: what is wrong, where, what was expected, and how to mend it.
 
+use crate::codes;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -200,3 +201,20 @@ impl Diagnostic {
 
 /// All that was found in one run, in order of position.
 pub type Diagnostics = Vec<Diagnostic>;
+
+/// More faults than this are not listed: nobody reads them, and they must not fill the memory.
+pub(crate) const MAX_DIAGNOSTICS: usize = 1000;
+
+/// That there are more faults than are listed.
+pub(crate) fn too_many(span: Span) -> Diagnostic {
+    Diagnostic::error(codes::TOO_MANY, span, format!("more than {MAX_DIAGNOSTICS} faults; the rest is not listed"))
+        .hint("mend the first ones and run again")
+}
+
+/// Keeps the first thousand, and says so where there are more errors than that.
+pub fn keep_first(diagnostics: &mut Diagnostics) {
+    let Some(rest) = diagnostics.get(MAX_DIAGNOSTICS..).filter(|rest| !rest.is_empty()) else { return };
+    let error = rest.iter().find(|fault| fault.severity == Severity::Error).map(|fault| too_many(fault.span));
+    diagnostics.truncate(MAX_DIAGNOSTICS);
+    diagnostics.extend(error);
+}

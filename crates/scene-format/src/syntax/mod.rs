@@ -15,7 +15,7 @@ mod toml_literal;
 mod toml_names;
 mod toml_tables;
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS, Span, too_many};
 use crate::tree::Kind;
 use std::path::Path;
 
@@ -74,9 +74,6 @@ pub(crate) struct Sink {
     full: bool,
 }
 
-/// More faults than this are not listed: nobody reads them, and a file of rubbish must not fill the memory.
-const MAX_DIAGNOSTICS: usize = 1000;
-
 impl Sink {
     /// Whether no more is taken: readers stop then.
     pub fn is_full(&self) -> bool {
@@ -97,15 +94,7 @@ impl Sink {
             self.diagnostics.push(diagnostic);
         } else if !self.full {
             self.full = true;
-            let span = diagnostic.span;
-            self.diagnostics.push(
-                Diagnostic::error(
-                    crate::codes::TOO_MANY,
-                    span,
-                    format!("more than {MAX_DIAGNOSTICS} faults; the rest is not listed"),
-                )
-                .hint("mend the first ones and run again"),
-            );
+            self.diagnostics.push(too_many(diagnostic.span));
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::scene::{
 use glam::DVec3;
 use materials::MaterialBuilder;
 use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
-use scene_format::diagnostic::Span;
+use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
 
@@ -69,6 +69,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
+        keep_first(&mut diagnostics);
         nearby::suggest(desc, &mut diagnostics);
         return Err(CompileError { diagnostics });
     }

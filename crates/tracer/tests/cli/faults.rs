@@ -33,6 +33,14 @@ fn a_wrong_command_line_ends_with_2() {
     assert_eq!(sandbox.files(), ["scene.ron"]);
 }
 
+#[test]
+fn a_thousand_faults_are_enough() {
+    let sandbox = Sandbox::new();
+    let meshes: String = (0..1500).map(|k| format!("    Mesh(file: \"m{k}.obj\"),\n")).collect();
+    sandbox.write("many.ron", format!("Scene(background: 1, objects: [\n{meshes}])\n"));
+    sandbox.run(&["check", "many.ron"]).ends(2).says(&["m999.obj", "more than 1000 faults", "1001 errors"]);
+}
+
 /// Two names of one file, whether it is there or not.
 #[cfg(unix)]
 #[test]
