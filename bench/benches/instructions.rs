@@ -2,7 +2,7 @@
 //! folder; needs valgrind and `cargo install gungraun-runner --version 0.20.0`.
 //!
 //! Valgrind knows AVX2 but no AVX-512, so the counts are those of the AVX2 kernels. The limits are the counts of the commit that set
-//! them plus five per cent, for other processors take other ways through the C library; whoever makes something cheaper lowers its limit, whoever must make it dearer says why beside it.
+//! them plus three per cent; whoever makes something cheaper lowers its limit, whoever must make it dearer says why beside it.
 
 use gungraun::prelude::*;
 use gungraun::{Callgrind, EventKind};
@@ -21,32 +21,34 @@ fn at_most(instructions: u64) -> LibraryBenchmarkConfig {
 
 // Pixels that share, and photons where they are worth it: 64x64 pixels, 4 samples.
 #[library_benchmark]
-#[bench::balls(args = (balls(64, 4)), config = at_most(169_400_000))]
-#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(251_800_000))]
-#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_250_900_000))]
-#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(217_900_000))]
+#[bench::balls(args = (balls(64, 4)), config = at_most(166_100_000))]
+#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(243_100_000))]
+#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_221_300_000))]
+#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(213_700_000))]
 fn sharing(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
 
-// Each pixel for itself, photons all the same.
+// The plain path tracer. The balls were 41.5 M when this limit was first set. Since then their samples of pixel and lens are four dimensions of
+// one sequence, and gathers of eight have become permutations and transpositions: more instructions, and fewer cycles. Which of it made them
+// dearer by how much was not counted.
 #[library_benchmark]
-#[bench::balls(args = (alone(balls(64, 4))), config = at_most(106_700_000))]
-#[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(92_400_000))]
+#[bench::balls(args = (alone(balls(64, 4))), config = at_most(53_600_000))]
+#[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(90_600_000))]
 fn plain(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
 
 // Film to picture.
 #[library_benchmark]
-#[bench::balls(args = (rendered(&balls(256, 1), 1)), config = at_most(51_900_000))]
+#[bench::balls(args = (rendered(&balls(256, 1), 1)), config = at_most(50_900_000))]
 fn developed(film: Film) -> Image {
     black_box(develop(black_box(&film), &Default::default()))
 }
 
 // Reading and checking a scene file of 1000 spheres.
 #[library_benchmark]
-#[bench::ron(args = (many_spheres(1_000)), config = at_most(10_500_000))]
+#[bench::ron(args = (many_spheres(1_000)), config = at_most(10_300_000))]
 fn read(text: String) -> Loaded {
     black_box(load_str("many.ron", black_box(&text), Syntax::Ron, Path::new("."), &[]).expect("a scene that is right"))
 }

@@ -138,6 +138,7 @@ pub fn lamps(count: usize, size: u32, samples: u32) -> Scene {
 /// The scene with every pixel for itself.
 pub fn alone(mut scene: Scene) -> Scene {
     scene.reuse = false;
+    scene.caustics = false;
     scene
 }
 

@@ -64,7 +64,7 @@ fn from_text_to_a_picture_at_every_level() {
     let expected = look(&film(&scene, 1, Level::Portable));
     assert_eq!(expected.len(), 8 * 8 * 3);
     assert!(expected.iter().all(|x| (0.0..=1.0).contains(x)) && expected.iter().any(|x| *x != expected[0]));
-    for level in Level::available() {
+    for level in Level::available().into_iter().filter(|level| *level != Level::Portable) {
         let film = film(&scene, 1, level);
         assert_eq!(film.counters.dropped, 0);
         assert!(look(&film) == expected, "{}", level.name());

@@ -17,9 +17,9 @@ pub const BLOCK_PIXELS: usize = 64;
 pub const ITEMS: usize = 16;
 /// Paths in a batch.
 pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
-/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`), and behind every array for one vector
-/// more: a compressing store writes whole registers.
-pub const CAPACITY: usize = (1 + BRANCHING as usize) * PATHS + 64;
+/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`), an aimed ray for each (`stages::aim`), and
+/// behind every array for one vector more: a compressing store writes whole registers.
+pub const CAPACITY: usize = (2 + BRANCHING as usize) * PATHS + 64;
 
 /// Three columns: x, y, z or r, g, b.
 pub type Columns = [Vec<f32>; 3];
@@ -102,6 +102,8 @@ pub mod path {
     pub const CAUSTIC: u32 = 16 * SHARED;
     /// The fainter of both ways at glass: it goes both ways no more, and shares nothing.
     pub const BRANCH: u32 = 32 * SHARED;
+    /// The path's ray was aimed at a caster ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy surface only.
+    pub const AIMED: u32 = 64 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -119,8 +121,8 @@ pub struct Paths {
     pub eta2: Vec<f32>,
     /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
     pub pdf: Vec<f32>,
-    /// Shading normal that the light was sampled with where the ray starts; written and read only where there are several lights and
-    /// `pdf` is not negative.
+    /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and `pdf` is not
+    /// negative.
     pub normal: Columns,
     /// Slot and state, see [`path`].
     pub slot: Vec<u32>,

@@ -1,11 +1,12 @@
 //! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
 
 use super::batch::Batch;
+use super::caustics::aims::Aims;
 use super::caustics::map::Map;
 use super::caustics::plan::Plan;
 use super::caustics::trace::PhotonPass;
 use super::stages::share::Round;
-use super::stages::{camera, gather, photons, reach, shade, share, spheres};
+use super::stages::{aim, camera, gather, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
@@ -23,6 +24,7 @@ pub struct Kernels {
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
+    aim: unsafe fn(&Aims, u32, usize, &mut Batch),
     share_segments: unsafe fn(u32, Round, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
     photons_emit: unsafe fn(&Plan, PhotonPass, &mut Batch),
@@ -60,6 +62,10 @@ macro_rules! kernels {
                 reach::reach_occluded::<$lanes>(boxes, batch)
             }
             $(#[target_feature(enable = $features)])?
+            fn aim_entry(aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
+                aim::aim::<$lanes>(aims, seed, first, batch)
+            }
+            $(#[target_feature(enable = $features)])?
             fn share_segments_entry(seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
                 share::share_segments::<$lanes>(seed, round, next, batch)
             }
@@ -86,6 +92,7 @@ macro_rules! kernels {
                 occluded: occluded_entry,
                 reach_closest: reach_closest_entry,
                 reach_occluded: reach_occluded_entry,
+                aim: aim_entry,
                 share_segments: share_segments_entry,
                 share_gather: share_gather_entry,
                 photons_emit: photons_emit_entry,
@@ -146,6 +153,11 @@ impl Kernels {
     pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.occluded)(scene, batch) }
+    }
+    /// Aimed rays from the members from `first` on.
+    pub fn aim(&self, aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
+        // SAFETY: as above.
+        unsafe { (self.aim)(aims, seed, first, batch) }
     }
     /// Segments from suffix `next` on; gives the suffix to go on with.
     pub fn share_segments(&self, seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {

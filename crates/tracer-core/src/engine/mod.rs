@@ -99,8 +99,10 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         if let Some(caustics) = &mut caustics {
             caustics.prepare(scene, &kernels, pass.clone(), &workers);
         }
-        // Whole tiles per batch: a tile's samples of one pass are added by one thread.
-        let per_batch = (SAMPLES / (pass.end - pass.start).min(SAMPLES)) as usize;
+        // Whole tiles per batch: a tile's samples of one pass are added by one thread. A batch has one map of photons, and each sample
+        // index its own.
+        let at_once = if caustics.is_some() { 1 } else { (pass.end - pass.start).min(SAMPLES) };
+        let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
         let cells: Vec<Mutex<&mut crate::film::Tile>> = film.tiles_mut().map(Mutex::new).collect();
         let work = |worker: &mut Worker| {
@@ -112,7 +114,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                 }
                 let mut sample = pass.start;
                 while sample < pass.end {
-                    let count = (pass.end - sample).min(SAMPLES);
+                    let count = (pass.end - sample).min(at_once);
                     let batch = &mut worker.batch;
                     batch.items.clear();
                     for &(tile_x, tile_y) in mine {

@@ -2,8 +2,10 @@
 
 use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::caustics::PhotonMap;
+use super::caustics::aims::Aims;
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
+use super::stages::shade::ROULETTE_FROM;
 use super::stages::share::Round;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
@@ -21,6 +23,15 @@ pub struct Pass<'a> {
     pub lanes: usize,
     /// The photons of the batch's sample indices, where the scene is worth them.
     pub photons: Option<PhotonMap<'a>>,
+}
+
+impl<'a> Pass<'a> {
+    /// What rays from members are aimed at, if they are ([`super::stages::aim`]).
+    #[inline(always)]
+    pub fn aims(&self) -> Option<&'a Aims> {
+        let aims = &self.photons.as_ref()?.plan.aims;
+        (self.reuse && !aims.is_empty()).then_some(aims)
+    }
 }
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
@@ -47,6 +58,12 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
         }
         group(members, batch, &mut groups_before);
         batch.watch.lap(Stage::Shade);
+        if let Some(aims) = pass.aims()
+            && vertex < ROULETTE_FROM
+        {
+            kernels.aim(aims, pass.seed, members, batch);
+            batch.watch.lap(Stage::Share);
+        }
         occluded(scene, kernels, Coherence::Incoherent, batch);
         deposit(batch);
         batch.watch.lap(Stage::Deposit);

@@ -36,6 +36,10 @@ pub enum Purpose {
     Choice(u32),
     /// Whether the path goes on (first); not used (second).
     Roulette(u32),
+    /// Whether a ray is aimed at a caster, and at which (first); not used (second).
+    Aim,
+    /// Direction of an aimed ray.
+    AimedDirection,
 }
 
 impl Purpose {
@@ -44,6 +48,8 @@ impl Purpose {
         match self {
             Purpose::Pixel => 0,
             Purpose::Lens => 1,
+            Purpose::Aim => 2,
+            Purpose::AimedDirection => 3,
             Purpose::Direction(k) => 4 + 4 * k,
             Purpose::Light(k) => 5 + 4 * k,
             Purpose::Choice(k) => 6 + 4 * k,

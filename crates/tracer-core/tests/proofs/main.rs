@@ -5,6 +5,7 @@
 // What a proof expects reaches no picture: it may be computed by std.
 #![allow(clippy::disallowed_methods)]
 
+mod aimed;
 mod analytic;
 mod caustics;
 mod compiling;

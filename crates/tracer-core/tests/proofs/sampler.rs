@@ -18,7 +18,7 @@ pub(crate) fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
 }
 
 /// The pairs that a path uses, with a deep one of each kind.
-pub(crate) const PURPOSES: [Purpose; 10] = [
+pub(crate) const PURPOSES: [Purpose; 12] = [
     Purpose::Pixel,
     Purpose::Lens,
     Purpose::Direction(0),
@@ -29,6 +29,8 @@ pub(crate) const PURPOSES: [Purpose; 10] = [
     Purpose::Choice(0),
     Purpose::Roulette(0),
     Purpose::Roulette(6),
+    Purpose::Aim,
+    Purpose::AimedDirection,
 ];
 
 /// Pixels along the picture's side.

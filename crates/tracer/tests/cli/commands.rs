@@ -109,6 +109,19 @@ fn convert_goes_both_ways() {
     assert!(!sandbox.files().contains(&"bad.toml".to_owned()));
 }
 
+/// A path starts from the scene's folder: whoever converts into another one is told, but only where the scene names such a path.
+#[test]
+fn convert_warns_of_paths_that_move() {
+    let sandbox = Sandbox::new();
+    std::fs::create_dir(sandbox.path("elsewhere")).expect("a folder");
+    sandbox.run(&["convert", "scene.ron", "-o", "elsewhere/plain.toml"]).ends(0).silent();
+    sandbox.write("mesh.ron", "Scene(objects: [Mesh(file: \"cube.obj\")])");
+    sandbox.run(&["convert", "mesh.ron", "-o", "mesh.toml"]).ends(0).silent();
+    sandbox.run(&["convert", "mesh.ron", "-o", "elsewhere/mesh.toml"]).ends(0).says(&["warning: paths in a scene"]);
+    sandbox.write("absolute.ron", "Scene(objects: [Mesh(file: \"/cube.obj\")])");
+    sandbox.run(&["convert", "absolute.ron", "-o", "elsewhere/absolute.toml"]).ends(0).silent();
+}
+
 #[test]
 fn templates_are_right_and_render() {
     let sandbox = Sandbox::new();

@@ -3,6 +3,7 @@
 use super::{Mutant, proofs, units};
 
 const PHOTONS: &str = "crates/tracer-core/src/engine/stages/photons.rs";
+const AIM: &str = "crates/tracer-core/src/engine/stages/aim.rs";
 const GATHER: &str = "crates/tracer-core/src/engine/stages/gather.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const MAP: &str = "crates/tracer-core/src/engine/caustics/map.rs";
@@ -114,5 +115,34 @@ pub const MUTANTS: &[Mutant] = &[
         find: "1.0 - (light.radius - caster.radius) / distance",
         replace: "1.0 - (light.radius + caster.radius) / distance",
         caught_by: proofs(&["caustics::glass_ball"]),
+    },
+    // Rays aimed at casters.
+    Mutant {
+        name: "aimed-rays-count-in-full",
+        file: AIM,
+        find: "(by_itself + density(aims, p, n, wi))",
+        replace: "density(aims, p, n, wi)",
+        caught_by: units(&["engine::stages::aim"]),
+    },
+    Mutant {
+        name: "aimed-rays-without-their-chance",
+        file: AIM,
+        find: "within * c(CHANCE / TWO_PI) / sum",
+        replace: "within * c(1.0 / TWO_PI) / sum",
+        caught_by: units(&["engine::stages::aim"]),
+    },
+    Mutant {
+        name: "own-rays-count-in-full-beside-aimed-ones",
+        file: SHADE,
+        find: "throughput = V3::select(both_find, throughput.scale(weight), throughput);",
+        replace: "let _ = weight;",
+        caught_by: proofs(&["aimed"]),
+    },
+    Mutant {
+        name: "aimed-rays-that-bring-anything",
+        file: SHADE,
+        find: "surfaces = surfaces & !(aimed & bsdf.diffuse);",
+        replace: "",
+        caught_by: proofs(&["aimed"]),
     },
 ];

@@ -11,10 +11,11 @@
 //! Light Transport Simulation with Vertex Connection and Merging, 2012) would need both densities along the whole way; a bound on the
 //! exponent needs none, and lobes wider than that are lit well by light samples.
 //!
-//! Four sample indices share a map; from map to map the radius shrinks, so the picture is consistent (its bias goes to zero) rather
+//! Each sample index has a map of its own; from map to map the radius shrinks, so the picture is consistent (its bias goes to zero) rather
 //! than unbiased (Hachisuka, Ogaki, Jensen: Progressive Photon Mapping, 2008). Maps depend on scene, seed and number only:
 //! the same for any crop, threads and lanes.
 
+pub mod aims;
 pub mod casters;
 pub mod map;
 pub mod plan;
@@ -31,8 +32,6 @@ use plan::Plan;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Sample indices that share a map.
-pub const SAMPLES_PER_MAP: u32 = 4;
 /// Photons of the trial that tells whether maps are worth it.
 const TRIAL: u32 = 4096;
 
@@ -87,11 +86,10 @@ impl Caustics {
         samples: std::ops::Range<u32>,
         workers: &[Mutex<Worker>],
     ) {
-        let wanted = samples.start / SAMPLES_PER_MAP..samples.end.div_ceil(SAMPLES_PER_MAP);
-        self.maps.retain(|m| wanted.contains(&m.number));
+        self.maps.retain(|m| samples.contains(&m.number));
         let plan = &self.plan;
         let mut photons: Vec<(u32, Vec<Photon>)> = Vec::new();
-        for number in wanted {
+        for number in samples {
             if self.maps.iter().all(|m| m.number != number) {
                 let shares: Vec<plan::Share> = plan.shares(number, plan.photons).collect();
                 photons.push((number, trace::photons(scene, kernels, plan, self.seed, &shares, workers)));
@@ -113,7 +111,7 @@ impl Caustics {
 
     /// The map of a sample index that was prepared.
     pub fn map(&self, sample: u32) -> Option<PhotonMap<'_>> {
-        let map = self.maps.iter().find(|m| m.number == sample / SAMPLES_PER_MAP)?;
+        let map = self.maps.iter().find(|m| m.number == sample)?;
         Some(PhotonMap { plan: &self.plan, map })
     }
 }

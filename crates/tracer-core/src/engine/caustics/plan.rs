@@ -1,5 +1,6 @@
 //! Which photons are sent from which light at which caster, how far they are told apart, and whether it is worth it.
 
+use super::aims::Aims;
 use super::casters::{Caster, Casters};
 use crate::sampling::sampler::hash3;
 use crate::scene::{Light, Scene, Sphere};
@@ -90,6 +91,8 @@ pub struct Plan {
     pub mapped: Vec<u32>,
     /// Radii of the first map.
     pub radii: [f32; LEVELS],
+    /// What rays from diffuse surfaces are aimed at.
+    pub aims: Aims,
 }
 
 impl Plan {
@@ -144,6 +147,7 @@ impl Plan {
             photons,
             casters,
             mapped,
+            aims: Aims::new(scene),
             radii: std::array::from_fn(|l| (LARGEST_RADIUS / f64::from(1u32 << l)) as f32),
         }
     }

@@ -1,11 +1,13 @@
 //! The stages of a bounce, each a function over lanes from arrays to arrays.
 
+pub mod aim;
 pub mod camera;
 pub mod deposit;
 pub mod gather;
 pub mod lights;
 pub mod materials;
 pub mod photons;
+pub mod points;
 pub mod reach;
 pub mod shade;
 pub mod share;

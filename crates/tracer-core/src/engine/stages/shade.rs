@@ -3,20 +3,22 @@
 //! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the material's lobe.
 //! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
 
+use super::aim;
 use super::lights::{self, Receiver};
 use super::materials::{Bsdf, Dielectric, reflect_bent};
+use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
-use crate::engine::batch::{Batch, Columns, Item, path};
+use crate::engine::batch::{Batch, Columns, path};
 use crate::engine::trace::Pass;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
-use crate::sampling::sampler::{Pair, Purpose};
+use crate::sampling::sampler::Purpose;
 use crate::scene::{NONE, Scene};
 
 /// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier, roulette throws
 /// away the stratification that the sampler pays for.
-const ROULETTE_FROM: u32 = 3;
+pub const ROULETTE_FROM: u32 = 3;
 
 /// Share of the diffuse vertices after a path's first at which photons are gathered.
 const GATHER_LATER: f32 = 0.25;
@@ -44,6 +46,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     let several = tables.lights.len > 1;
+    let aims = pass.aims();
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
@@ -67,7 +70,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let primitive = F::U::load(&batch.hits.primitive[i..]);
         let instance = F::U::load(&batch.hits.instance[i..]);
         let hit = valid & !primitive.eq(F::U::splat(NONE));
-        let left = if open { valid & !hit } else { F::M::from_bits(0) };
+        // What an aimed ray finds other than mirrors, glass and glossy surfaces, its path's own ray finds.
+        let aimed = if aims.is_some() { valid & has(slot, path::AIMED) } else { F::M::from_bits(0) };
+        let left = if open { valid & !hit & !aimed } else { F::M::from_bits(0) };
         let mut seen = throughput.scale(eta2).mul(background);
         if !hit.any() {
             add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, left);
@@ -77,7 +82,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
 
         // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass have one slot, and the
         // order of a sum must not depend on the number of lanes.
-        let emits = hit & !s.light.eq(F::U::splat(0));
+        let lamp = hit & !s.light.eq(F::U::splat(0));
+        let emits = lamp & !aimed;
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
@@ -88,17 +94,31 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
                 weight = F::select(by_photons, zero, weight);
             }
-            let lamp = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
-            seen = V3::select(emits, lamp, seen);
+            let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
+            seen = V3::select(emits, shines, seen);
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
-        let surfaces = hit & !emits;
+        let mut surfaces = hit & !lamp;
         if !scatters || !surfaces.any() {
             continue;
         }
 
-        let bsdf = Bsdf::at(tables, &s, surfaces);
+        let mut bsdf = Bsdf::at(tables, &s, surfaces);
         let wo = direction.neg();
+        if let Some(aims) = aims
+            && vertex > 0
+        {
+            surfaces = surfaces & !(aimed & bsdf.diffuse);
+            bsdf.diffuse = bsdf.diffuse & surfaces;
+            slot = F::U::select(aimed, slot & F::U::splat(!path::AIMED), slot);
+            let both_find = surfaces & !bsdf.diffuse & has(slot, path::MAKER) & has(slot, path::MAPPED);
+            if vertex <= ROULETTE_FROM && both_find.any() {
+                let by_itself = F::load(&paths.pdf[i..]);
+                let by_aiming = aim::density(aims, origin, V3::<F>::load(&paths.normal, i), direction);
+                let weight = by_itself / (by_itself + by_aiming);
+                throughput = V3::select(both_find, throughput.scale(weight), throughput);
+            }
+        }
         let rough = bsdf.diffuse | bsdf.glossy;
         if pass.reuse && vertex > 0 {
             let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
@@ -271,7 +291,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         carried.compress(alive, &mut next.throughput, k);
         new_eta2.compress(alive, &mut next.eta2[k..]);
         pdf.compress(alive, &mut next.pdf[k..]);
-        if several {
+        if several || aims.is_some() {
             s.ns.compress(alive, &mut next.normal, k);
         }
         slot.compress(alive, &mut next.slot[k..]);
@@ -327,47 +347,6 @@ fn add_to_slots<F: Lanes>(radiance: &mut Columns, slot: F::U, value: V3<F>, mask
         for channel in 0..3 {
             radiance[channel][to] += values[channel][lane];
         }
-    }
-}
-
-/// The pixels of a vector of slots, as the sampler wants them.
-struct PixelOf<F: Lanes> {
-    reversed_z: F::U,
-    item: F::U,
-}
-
-impl<F: Lanes> PixelOf<F> {
-    #[inline(always)]
-    fn new(slot: F::U, item_z: &[u32], item_scale: &[u32]) -> Self {
-        let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
-        let z = F::U::gather(item_z, item) + (slot & F::U::splat(63)) * F::U::gather(item_scale, item);
-        PixelOf { reversed_z: z.reverse_bits(), item }
-    }
-}
-
-/// A dimension pair with its per-item parts.
-struct PairPoints<F: Lanes> {
-    pair: Pair,
-    x: [u32; 16],
-    y: [u32; 16],
-    lanes: std::marker::PhantomData<F>,
-}
-
-impl<F: Lanes> PairPoints<F> {
-    #[inline(always)]
-    fn new(seed: u32, purpose: Purpose, items: &[Item], item_z: &[u32]) -> Self {
-        let pair = Pair::new(seed, purpose);
-        let (mut x, mut y) = ([0; 16], [0; 16]);
-        for (k, item) in items.iter().enumerate() {
-            let part = pair.sample_part(item_z[k] >> 8, item.sample);
-            x[k] = part.x;
-            y[k] = part.y;
-        }
-        PairPoints { pair, x, y, lanes: std::marker::PhantomData }
-    }
-    #[inline(always)]
-    fn points(&self, pixel: &PixelOf<F>) -> (F, F) {
-        self.pair.points(pixel.reversed_z, F::U::gather(&self.x, pixel.item), F::U::gather(&self.y, pixel.item))
     }
 }
 

@@ -76,9 +76,19 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
 /// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture; enough samples
 /// that both shapes of items occur (see `engine::batch`). `scenes`: how many are compared so in all.
 pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
+    assert_shared_is_alone(name, desc, Caustics::None, scenes);
+}
+
+/// The same with photons on both sides, where pixels that share also aim rays at casters. Both have the same photons on average, so what
+/// these blur drops out.
+pub fn assert_aiming_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
+    assert_shared_is_alone(name, desc, Caustics::Photons, scenes);
+}
+
+fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scenes: usize) {
     let rendered = |reuse: Reuse, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        desc.render.caustics = Caustics::None;
+        desc.render.caustics = caustics;
         let mut scene = super::compiled(&desc);
         // Under a background, too, where by itself the engine does not share.
         scene.reuse = reuse == Reuse::Blocks;
@@ -90,7 +100,7 @@ pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
 }
 
 /// Asserts that a picture with photons is that without, but for a bias: of a tile, [`BLUR`] of what it holds, because the light of a
-/// caustic is spread over the radius of a map and tiles are small; of the whole picture, `bias` of its mean. 64 samples are 16 maps.
+/// caustic is spread over the radius of a map and tiles are small; of the whole picture, `bias` of its mean.
 pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, bias: f64, scenes: usize) {
     let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();

@@ -68,11 +68,11 @@ fn grids_hold_what_lies_around_a_point() {
     }
 }
 
-/// The product telescopes into gamma functions, so r_j^2 falls as j^(alpha - 1): from map 100 to map 800 to a half.
+/// The product telescopes into gamma functions, so r_j^2 falls as j^(alpha - 1): from step 100 to step 800 to a half.
 #[test]
 fn radii_shrink_as_a_power() {
-    assert_eq!(shrinking(0), 1.0);
-    let ratio = (shrinking(800) / shrinking(100)).powi(2);
+    assert_eq!([shrinking(0), shrinking(STEP - 1)], [1.0; 2]);
+    let ratio = (shrinking(800 * STEP) / shrinking(100 * STEP)).powi(2);
     assert!((ratio - 0.5).abs() < 2e-3, "{ratio}");
 }
 

@@ -1,0 +1,65 @@
+//! Rays aimed at mirrors, glass and glossy surfaces (`engine::stages::aim`): the same picture on average as without. They are sent only
+//! where pixels share and photons are; both sides of the comparison have photons.
+
+use crate::support::compare::assert_aiming_is_unbiased;
+use crate::support::describe::*;
+use crate::support::meshes::{icosphere, torus};
+use scene_format::SceneDesc;
+use scene_format::desc::{Albedo, Object, Shading, SphereLight, Transform};
+
+/// All that are compared here, for the strictness of the tests.
+const SCENES: usize = 3;
+
+fn lamp() -> SphereLight {
+    light([6.0, 16.0, 4.0], 4.0, [10.0; 3])
+}
+
+fn on_the_floor(objects: Vec<Object>) -> SceneDesc {
+    let floor = sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.8, 0.6, 0.4]));
+    let wall = sphere([0.0, 0.0, -1008.0], 1000.0, diffuse([0.4, 0.7, 0.8]));
+    scene(32, vec![lamp()], [floor, wall].into_iter().chain(objects).collect())
+        .camera([-2.0, 9.0, 20.0], [0.0, 3.0, 0.0], 45.0)
+        .bounces(5)
+}
+
+/// Balls near to each other and to the floor, whose cones overlap; one that throws no caustic to speak of, but shows what is behind it.
+#[test]
+fn balls() {
+    let balls = vec![
+        sphere([-5.0, 2.5, 0.0], 2.5, mirror([0.9, 0.8, 0.7])),
+        sphere([0.0, 3.0, 1.0], 2.5, glass(1.5)),
+        sphere([4.0, 2.0, 3.0], 1.5, mirror([0.8; 3])),
+        sphere([0.0, 7.5, -2.0], 1.2, glass(1.1)),
+    ];
+    assert_aiming_is_unbiased("balls", &on_the_floor(balls), SCENES);
+}
+
+/// Members with both lobes, and glossy things that aimed rays meet, within spheres that are aimed at and beyond them.
+#[test]
+fn glossy_balls() {
+    let grey = |x: f64| Albedo::Color([x; 3].into());
+    let objects = vec![
+        sphere([-4.0, 3.0, 0.0], 3.0, glossy(grey(0.8), 20.0, 0.2, false)),
+        sphere([3.5, 2.5, 1.0], 2.5, glossy(grey(0.8), 400.0, 0.5, true)),
+        sphere([0.0, 1.5, 4.0], 1.5, mirror([0.9; 3])),
+    ];
+    assert_aiming_is_unbiased("glossy", &on_the_floor(objects), SCENES);
+}
+
+/// Meshes fill little of their spheres; smooth matt ones start their rays above themselves.
+#[test]
+fn meshes() {
+    let ring = vec![
+        scale(3.5),
+        rotate([1.0, 0.0, 0.0], 70.0),
+        Transform::Translate([-3.0, 0.0, 2.0]),
+        Transform::DropTo { y: 0.01 },
+    ];
+    let body = |x: f64| vec![scale(2.5), Transform::Translate([x, 0.0, 0.0]), Transform::DropTo { y: 0.01 }];
+    let objects = vec![
+        mesh(&torus(0.3, 12, 6).obj("torus"), mirror([0.9; 3]), Shading::Flat, ring),
+        mesh(&icosphere(1).obj("icosphere-1"), diffuse([0.7; 3]), Shading::Smooth, body(3.5)),
+        mesh(&icosphere(1).obj("icosphere-1"), glass(1.5), Shading::Flat, body(-1.0)),
+    ];
+    assert_aiming_is_unbiased("meshes", &on_the_floor(objects), SCENES);
+}
