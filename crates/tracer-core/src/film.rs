@@ -6,6 +6,8 @@
 
 use crate::engine::{Counters, Statistics};
 use crate::lanes::level::Level;
+use bytemuck::Zeroable;
+use bytemuck::allocation::zeroed_vec;
 
 /// Pixels along a tile's side; see `engine::batch`.
 const TILE: u32 = 16;
@@ -39,7 +41,7 @@ impl Crop {
 }
 
 /// The sums of a tile of 16x16 pixels; pixels in Z-order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Zeroable)]
 pub(crate) struct Tile {
     coarse: [[f64; PIXELS]; 3],
     fine: [[f64; PIXELS]; 3],
@@ -61,10 +63,6 @@ pub(crate) fn luminance(rgb: [f64; 3]) -> f64 {
 }
 
 impl Tile {
-    fn new() -> Self {
-        Tile { coarse: [[0.0; PIXELS]; 3], fine: [[0.0; PIXELS]; 3], squares: [0.0; PIXELS], samples: 0 }
-    }
-
     /// Adds one sample of each pixel of an item from its slots on, slot k being pixel `pixels[k]`; gives the number of pixels whose
     /// sample was dropped. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
     pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize, pixels: &[u8; 64]) -> u64 {
@@ -130,7 +128,8 @@ impl Film {
             seed,
             first_tile,
             tile_columns,
-            tiles: vec![Tile::new(); count],
+            // Memory that nothing has been written to: the threads that add to it first have it brought in, not this one.
+            tiles: zeroed_vec(count),
             counters: Counters::default(),
             statistics: None,
             caustics: false,
@@ -250,7 +249,7 @@ mod tests {
                 })
             })
             .collect();
-        let (mut forwards, mut backwards) = (Tile::new(), Tile::new());
+        let (mut forwards, mut backwards) = (Tile::zeroed(), Tile::zeroed());
         samples.iter().for_each(|s| assert_eq!(forwards.add(s, 0, &first_pixels()), 0));
         samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0, &first_pixels()), 0));
         assert_eq!(forwards.coarse, backwards.coarse);
@@ -268,7 +267,7 @@ mod tests {
 
     #[test]
     fn wrong_samples_are_dropped_and_counted() {
-        let mut tile = Tile::new();
+        let mut tile = Tile::zeroed();
         let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY][k % 4]);
         assert_eq!(tile.add(&samples, 0, &first_pixels()), 32);
         assert_eq!([0, 1, 2, 3].map(|k: usize| tile.coarse[0][k]), [1.0, 0.0, -1.0, 0.0]);

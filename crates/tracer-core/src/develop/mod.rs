@@ -1,11 +1,18 @@
 //! From film to picture: exposure, tone map, sRGB. The fourth hand.
 
+mod srgb;
 mod tone_map;
 
+pub use srgb::srgb_encode;
 pub use tone_map::{agx, filmic};
 
 use crate::film::{Crop, Film};
+use rayon::prelude::*;
 use scene_format::desc::ToneMap;
+use srgb::ENCODER;
+
+/// Rows of a tile of the film.
+const TILE: usize = 16;
 
 /// How a film is developed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,42 +36,28 @@ pub struct Image {
     pub display: Vec<f32>,
 }
 
-/// Develops the film.
+/// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
 pub fn develop(film: &Film, look: &Look) -> Image {
     let Crop { x, y, width, height } = film.crop();
     let gain = libm::exp2(look.exposure);
-    let mut linear = Vec::with_capacity(3 * width as usize * height as usize);
-    let mut display = Vec::with_capacity(linear.capacity());
-    for py in y..y + height {
-        for px in x..x + width {
+    let encoder = &*ENCODER;
+    let mut linear = vec![0.0; 3 * width as usize * height as usize];
+    let mut display = vec![0.0; linear.len()];
+    let row = (3 * width as usize).max(1);
+    let rows = (linear.par_chunks_exact_mut(row), display.par_chunks_exact_mut(row), y..y + height);
+    // A tile's rows by one thread, which finds them in its cache.
+    rows.into_par_iter().with_min_len(TILE).for_each(|(linear, display, py)| {
+        let pixels = linear.as_chunks_mut().0.iter_mut().zip(display.as_chunks_mut().0);
+        for (px, (linear, display)) in (x..x + width).zip(pixels) {
             let exposed = film.radiance(px, py).map(|c| c * gain);
-            linear.extend(exposed.map(|c| c as f32));
             let mapped = match look.tone_map {
                 ToneMap::None => exposed,
                 ToneMap::Filmic => filmic(exposed),
                 ToneMap::AgX => agx(exposed),
             };
-            display.extend(mapped.map(|c| srgb_encode(c.clamp(0.0, 1.0)) as f32));
+            *linear = exposed.map(|c| c as f32);
+            *display = mapped.map(|c| encoder.encode(c.clamp(0.0, 1.0)));
         }
-    }
+    });
     Image { width, height, linear, display }
-}
-
-/// sRGB (IEC 61966-2-1) code value of linear light, both in 0..=1.
-pub fn srgb_encode(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn srgb_of_known_values() {
-        assert_eq!(srgb_encode(0.0), 0.0);
-        assert!((srgb_encode(1.0) - 1.0).abs() < 1e-12);
-        // 18 % grey is code value 118 of 255.
-        assert_eq!((srgb_encode(0.18) * 255.0).round(), 118.0);
-        assert!((srgb_encode(0.003_130_8) - 0.003_130_8 * 12.92).abs() < 1e-6);
-    }
 }

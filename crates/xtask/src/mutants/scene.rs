@@ -9,6 +9,7 @@ const LIGHT: &str = "crates/tracer-core/src/scene/light.rs";
 const SPHERE: &str = "crates/tracer-core/src/scene/sphere.rs";
 const FILM: &str = "crates/tracer-core/src/film.rs";
 const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
+const SRGB: &str = "crates/tracer-core/src/develop/srgb.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -183,9 +184,16 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "srgb-as-a-pure-power",
-        file: DEVELOP,
-        find: "1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055",
+        file: SRGB,
+        find: "1.055 * libm::pow(linear, EXPONENT) - 0.055",
         replace: "libm::pow(linear, 1.0 / 2.2)",
+        caught_by: units(&["develop"]),
+    },
+    Mutant {
+        name: "srgb-estimate-taken-for-exact",
+        file: SRGB,
+        find: "const MARGIN: f64 = 1e-12;",
+        replace: "const MARGIN: f64 = 0.0;",
         caught_by: units(&["develop"]),
     },
     // Tree.

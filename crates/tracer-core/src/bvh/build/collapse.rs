@@ -15,12 +15,12 @@ const LEAF_COST: f32 = 1.2;
 /// cost more speed (up to 40 % for camera rays in a room) than memory was saved (2 %).
 const MEMORY_COST: f32 = 4.0;
 
-/// What to do with one binary node.
+/// What to do with one binary node, and what it costs.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Choice {
+struct Choice {
     /// The least cost in at most 1 to 7 slots.
     costs: [f32; 7],
-    /// For 2 to 8 slots, 4 bits each: how many of them go to the left child; 0 where one slot less does as well.
+    /// See [`Choices::left_slots`].
     left_slots: u32,
     /// There are only instances below.
     instances: bool,
@@ -29,16 +29,18 @@ pub(crate) struct Choice {
 /// The choices for a whole tree in preorder.
 pub(crate) struct Choices<'a> {
     nodes: &'a [BinaryNode],
-    choices: Vec<Choice>,
+    /// For 2 to 8 slots, 4 bits each: how many of them go to the left child; 0 where one slot less does as well. Costs are kept for
+    /// one task's nodes only: of a large tree they would be a large part of the memory.
+    left_slots: Vec<u32>,
 }
 
 impl<'a> Choices<'a> {
     pub(crate) fn new(nodes: &'a [BinaryNode]) -> Self {
-        let mut choices = vec![Choice::default(); nodes.len()];
+        let mut left_slots = vec![0; nodes.len()];
         if !nodes.is_empty() {
-            choose(nodes, memory_cost(nodes), &mut choices);
+            choose(nodes, memory_cost(nodes), &mut left_slots);
         }
-        Self { nodes, choices }
+        Self { nodes, left_slots }
     }
 
     /// The (at most eight) children of the wide node over the binary subtree `root..end`, each with the end of its subtree.
@@ -53,7 +55,7 @@ impl<'a> Choices<'a> {
         };
         let left_slots = match slots {
             1 => return children.push((node, end)),
-            _ => (self.choices[node as usize].left_slots >> (4 * (slots - 2)) & 15) as usize,
+            _ => (self.left_slots[node as usize] >> (4 * (slots - 2)) & 15) as usize,
         };
         if left_slots == 0 {
             return self.expand(node, end, slots - 1, children);
@@ -63,18 +65,21 @@ impl<'a> Choices<'a> {
     }
 }
 
-/// Fills in the choices of the subtree that `nodes` is, in parallel where it is large.
-fn choose(nodes: &[BinaryNode], memory: f32, choices: &mut [Choice]) {
+/// Fills in the choices of the subtree that `nodes` is, in parallel where it is large; gives that of its root.
+fn choose(nodes: &[BinaryNode], memory: f32, left_slots: &mut [u32]) -> Choice {
     if let Content::Inner { right } = nodes[0].content
         && nodes.len() > CHUNK
     {
-        let (top, below) = choices.split_at_mut(1);
-        let (left, right_choices) = below.split_at_mut(right as usize - 1);
+        let (top, below) = left_slots.split_at_mut(1);
+        let (left, right_slots) = below.split_at_mut(right as usize - 1);
         let (left_nodes, right_nodes) = nodes[1..].split_at(right as usize - 1);
-        rayon::join(|| choose(left_nodes, memory, left), || choose(right_nodes, memory, right_choices));
-        top[0] = choice(&nodes[0], memory, &left[0], &right_choices[0]);
-        return;
+        let (left, right) =
+            rayon::join(|| choose(left_nodes, memory, left), || choose(right_nodes, memory, right_slots));
+        let root = choice(&nodes[0], memory, &left, &right);
+        top[0] = root.left_slots;
+        return root;
     }
+    let mut choices = vec![Choice::default(); nodes.len()];
     for at in (0..nodes.len()).rev() {
         choices[at] = match nodes[at].content {
             Content::Leaf { kind, .. } => {
@@ -82,7 +87,9 @@ fn choose(nodes: &[BinaryNode], memory: f32, choices: &mut [Choice]) {
             }
             Content::Inner { right } => choice(&nodes[at], memory, &choices[at + 1], &choices[at + right as usize]),
         };
+        left_slots[at] = choices[at].left_slots;
     }
+    choices[0]
 }
 
 fn choice(node: &BinaryNode, memory: f32, left: &Choice, right: &Choice) -> Choice {
