@@ -337,6 +337,18 @@ impl Isa16 for Avx2 {
         }
     }
     #[inline(always)]
+    fn high_bits16(self, a: &WordLanes) -> (u32, u32) {
+        // SAFETY: the token proves the instructions, and lanes are aligned.
+        unsafe {
+            let (low, high) = (_mm256_load_si256(a.0.as_ptr().cast()), _mm256_load_si256(a.0.as_ptr().add(8).cast()));
+            let signs = |low, high| {
+                let (low, high) = (_mm256_castsi256_ps(low), _mm256_castsi256_ps(high));
+                _mm256_movemask_ps(low) as u32 | (_mm256_movemask_ps(high) as u32) << 8
+            };
+            (signs(low, high), signs(_mm256_slli_epi32::<1>(low), _mm256_slli_epi32::<1>(high)))
+        }
+    }
+    #[inline(always)]
     fn eq_words16(self, a: &WordLanes, x: u32) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe {

@@ -328,6 +328,15 @@ impl Isa16 for Avx512 {
         unsafe { u32::from(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b)) }
     }
     #[inline(always)]
+    fn high_bits16(self, a: &WordLanes) -> (u32, u32) {
+        // SAFETY: the token proves the instructions, and lanes are aligned.
+        unsafe {
+            let a = _mm512_load_si512(a.0.as_ptr().cast());
+            let signs = |a| u32::from(_mm512_movepi32_mask(a));
+            (signs(a), signs(_mm512_slli_epi32::<1>(a)))
+        }
+    }
+    #[inline(always)]
     fn eq_words16(self, a: &WordLanes, x: u32) -> u32 {
         // SAFETY: the token proves the instructions.
         unsafe {

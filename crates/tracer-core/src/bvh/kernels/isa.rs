@@ -117,6 +117,8 @@ pub(crate) trait Isa16: Isa {
     fn signs16(self, a: Self::F16) -> u32;
     fn le16(self, a: Self::F16, b: Self::F16) -> u32;
     fn lt16(self, a: Self::F16, b: Self::F16) -> u32;
+    /// Lanes whose words have bit 31 set, and those whose words have bit 30 set.
+    fn high_bits16(self, a: &WordLanes) -> (u32, u32);
     /// Lanes whose word equals `x`.
     fn eq_words16(self, a: &WordLanes, x: u32) -> u32;
     /// Writes x into the lanes of `mask`.

@@ -11,6 +11,25 @@ pub(crate) struct LeafHits {
     pub t: [f32; 4],
 }
 
+/// How a ray passes four triangles: the edge functions, their sum, and the corners' depths.
+#[derive(Clone, Copy)]
+pub(crate) struct Passage<I: Isa> {
+    u: I::F4,
+    v: I::F4,
+    w: I::F4,
+    det: I::F4,
+    depths: [I::F4; 3],
+}
+
+impl<I: Isa> Passage<I> {
+    /// A place holder.
+    #[inline(always)]
+    pub(crate) fn none(isa: I) -> Self {
+        let zero = isa.splat4(0.0);
+        Self { u: zero, v: zero, w: zero, det: zero, depths: [zero; 3] }
+    }
+}
+
 /// The triangles of `leaf` that the ray meets at 0 < t <= `limit`, but for those whose bits are set in `skip`.
 #[inline(always)]
 pub(crate) fn triangles4<I: Isa>(
@@ -21,6 +40,17 @@ pub(crate) fn triangles4<I: Isa>(
     limit: f32,
     skip: u32,
 ) -> Option<LeafHits> {
+    let (inside, passage) = passage4(isa, leaf, ray);
+    let mask = inside & !skip;
+    if mask == 0 {
+        return None;
+    }
+    hits4(isa, leaf, ray, &passage, tmin, limit, mask)
+}
+
+/// The triangles of `leaf` that the ray's line passes through.
+#[inline(always)]
+pub(crate) fn passage4<I: Isa>(isa: I, leaf: &Triangles4, ray: &RaySpace) -> (u32, Passage<I>) {
     let [x, y, z] = ray.axes;
     let (sx, sy) = (isa.splat4(ray.shear[0]), isa.splat4(ray.shear[1]));
     let (ox, oy, oz) =
@@ -36,17 +66,28 @@ pub(crate) fn triangles4<I: Isa>(
     let u = isa.sub4(isa.mul4(cx, by), isa.mul4(cy, bx));
     let v = isa.sub4(isa.mul4(ax, cy), isa.mul4(ay, cx));
     let w = isa.sub4(isa.mul4(bx, ay), isa.mul4(by, ax));
-    let zero = isa.splat4(0.0);
     // Vertices and rays are finite and within range, so no product overflows and nothing here is NaN.
     let least = isa.min4(isa.min4(u, v), w);
     let most = isa.max4(isa.max4(u, v), w);
     let det = isa.add4(isa.add4(u, v), w);
     // All three >= 0 or all three <= 0.
     let inside = isa.max4(least, isa.neg4(most));
-    let mask = isa.not_negative_and_not_zero4(inside, det) & !skip;
-    if mask == 0 {
-        return None;
-    }
+    (isa.not_negative_and_not_zero4(inside, det), Passage { u, v, w, det, depths: [az, bz, cz] })
+}
+
+/// Those of the triangles in `mask`, which the ray passes so, that it meets at 0 < t <= `limit`.
+#[inline(always)]
+pub(crate) fn hits4<I: Isa>(
+    isa: I,
+    leaf: &Triangles4,
+    ray: &RaySpace,
+    passage: &Passage<I>,
+    tmin: f32,
+    limit: f32,
+    mask: u32,
+) -> Option<LeafHits> {
+    let Passage { u, v, w, det, depths: [az, bz, cz] } = *passage;
+    let zero = isa.splat4(0.0);
     let distance = isa.fmadd4(u, az, isa.fmadd4(v, bz, isa.mul4(w, cz)));
     let t = isa.mul4(isa.div4(distance, det), isa.splat4(ray.shear[2]));
     let (lower, upper) = padded_planes(isa, leaf);

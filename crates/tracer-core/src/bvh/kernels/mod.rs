@@ -27,8 +27,9 @@ pub(crate) const STACK: usize = 576;
 /// and 8 entries of room for a whole vector to be stored.
 pub(crate) const DEEPEST: usize = (STACK - 10) / 7;
 
-/// Rays under way at a time: enough to hide a miss to memory, few enough for their state to stay in L1.
-const IN_FLIGHT: usize = 8;
+/// Rays under way at a time: enough to hide a miss to memory, few enough for their state to stay in L1; and one for each
+/// lane of [`WordLanes`](isa::WordLanes), which the rounds of `interleaved` rely on.
+const IN_FLIGHT: usize = 16;
 
 /// An instruction set to trace with. All give the same bits; values exist only for those that this processor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,8 +153,8 @@ fn kernel<I: Isa16, G: Goal, const COUNT: bool>(
     counters: &mut Counters,
 ) {
     match coherence {
-        Coherence::Incoherent => interleaved::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters),
-        Coherence::Coherent => packet::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, batch, goal, counters),
+        Coherence::Incoherent => interleaved::trace::<I, G, COUNT>(isa, tree, batch, goal, counters),
+        Coherence::Coherent => packet::trace::<I, G, COUNT>(isa, tree, batch, goal, counters),
     }
 }
 

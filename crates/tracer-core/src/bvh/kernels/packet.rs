@@ -73,7 +73,7 @@ struct Packet<'a, 'b, I> {
 
 /// Traces the batch in packets.
 #[inline(always)]
-pub(crate) fn trace<I: Isa16, G: Goal, const IN_FLIGHT: usize, const COUNT: bool>(
+pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
     isa: I,
     tree: &TreeView,
     batch: Batch,
@@ -123,12 +123,12 @@ pub(crate) fn trace<I: Isa16, G: Goal, const IN_FLIGHT: usize, const COUNT: bool
         put_aside += rays.len();
         if put_aside > ASIDE - 16 {
             let rest = Batch { rays: batch.rays, active: &aside[..put_aside] };
-            interleaved::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, rest, goal, counters);
+            interleaved::trace::<I, G, COUNT>(isa, tree, rest, goal, counters);
             put_aside = 0;
         }
     }
     let rest = Batch { rays: batch.rays, active: &aside[..put_aside] };
-    interleaved::trace::<I, G, IN_FLIGHT, COUNT>(isa, tree, rest, goal, counters);
+    interleaved::trace::<I, G, COUNT>(isa, tree, rest, goal, counters);
 }
 
 impl<'a, I: Isa16> Packet<'a, '_, I> {
@@ -137,14 +137,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
     fn load<G: Goal>(&mut self, rays: &'a [u32], goal: &G) -> bool {
         let world = &mut self.spaces[0];
         let run = run_of(rays);
-        let source = self.batch.rays;
-        let (origin, direction) = ([source.ox, source.oy, source.oz], [source.dx, source.dy, source.dz]);
-        for axis in 0..3 {
-            gather(&mut world.origin[axis].0, origin[axis], rays, &run);
-            gather(&mut world.direction[axis].0, direction[axis], rays, &run);
-        }
-        let lanes = (1u32 << rays.len()) - 1;
-        let valid = world.prepare(self.isa, lanes);
+        let valid = world.load(self.isa, self.batch.rays, rays, &run);
         if valid == 0 || !world.is_coherent(self.isa, self.tree.size) {
             return false;
         }
@@ -490,7 +483,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
 
 /// The range of indices that `rays` are, if they are 16 that follow one another.
 #[inline(always)]
-fn run_of(rays: &[u32]) -> Option<Range<usize>> {
+pub(crate) fn run_of(rays: &[u32]) -> Option<Range<usize>> {
     let rays: &[u32; 16] = rays.try_into().ok()?;
     let first = rays[0];
     let mut apart = 0;

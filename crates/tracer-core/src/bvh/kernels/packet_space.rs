@@ -1,8 +1,11 @@
 //! Sixteen rays in one space, made ready together: [`RaySpace`] in lanes, with the same bits, and the beam around them.
 
+use super::super::Rays;
 use super::super::layout::Node;
 use super::super::ray_space::{PAD, RANGE, RaySpace, SMALLEST_COMPONENT};
 use super::isa::{Isa, Isa16, Lanes};
+use super::packet::gather;
+use std::ops::Range;
 
 /// Rays whose directions (divided by their largest component) spread further than this are no beam.
 const WIDEST_SPREAD: f32 = 0.25;
@@ -66,6 +69,18 @@ impl PacketSpace {
             beam: None,
         }
     };
+
+    /// Loads up to 16 rays of a batch, which are those of `run` where there is one, and makes them ready as they are in
+    /// the world. Returns the lanes that are rays.
+    #[inline(always)]
+    pub(crate) fn load<I: Isa16>(&mut self, isa: I, source: &Rays, rays: &[u32], run: &Option<Range<usize>>) -> u32 {
+        let (origin, direction) = ([source.ox, source.oy, source.oz], [source.dx, source.dy, source.dz]);
+        for axis in 0..3 {
+            gather(&mut self.origin[axis].0, origin[axis], rays, run);
+            gather(&mut self.direction[axis].0, direction[axis], rays, run);
+        }
+        self.prepare(isa, (1u32 << rays.len()) - 1)
+    }
 
     /// Makes the rays of `lanes` ready, whose `origin`, `direction` and `tmin` are set. Returns the lanes that are
     /// rays; the others are made copies of one of them.
@@ -185,11 +200,9 @@ impl PacketSpace {
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> RaySpace {
         let bit = |masks: &[u32; 3], axis: usize| masks[axis] >> lane & 1;
-        let axes = match (bit(&self.largest, 0), bit(&self.largest, 1)) {
-            (1, _) => [1, 2, 0],
-            (_, 1) => [2, 0, 1],
-            _ => [0, 1, 2],
-        };
+        // Looked up, not branched on: which axis it is cannot be predicted.
+        let z = bit(&self.largest, 1) | bit(&self.largest, 2) << 1;
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]][(z & 3) as usize];
         let at = |values: &[Lanes; 3]| [values[0].0[lane], values[1].0[lane], values[2].0[lane]];
         RaySpace {
             rd: at(&self.rd),

@@ -267,6 +267,11 @@ impl Isa16 for Portable {
         (0..16).fold(0, |mask, i| mask | (u32::from(a[i] < b[i]) << i))
     }
     #[inline(always)]
+    fn high_bits16(self, a: &WordLanes) -> (u32, u32) {
+        let bits = |bit: u32| (0..16).fold(0, |mask, i| mask | (a.0[i] >> bit & 1) << i);
+        (bits(31), bits(30))
+    }
+    #[inline(always)]
     fn eq_words16(self, a: &WordLanes, x: u32) -> u32 {
         (0..16).fold(0, |mask, i| mask | (u32::from(a.0[i] == x) << i))
     }
