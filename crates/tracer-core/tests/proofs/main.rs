@@ -7,6 +7,7 @@
 
 mod analytic;
 mod caustics;
+mod clamp;
 mod compiling;
 mod convergence;
 mod figures;
