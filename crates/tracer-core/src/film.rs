@@ -402,10 +402,10 @@ mod tests {
         const LIMIT: f32 = 0.7;
         let sample = |k: u32, channel: u32| {
             filled(|pixel| {
-                let h = ((k * 64 + pixel as u32) * 3 + channel).wrapping_mul(0x9e37_79b9);
-                let sign = if h & 48 == 0 { -1.0 } else { 1.0 };
+                let h = crate::sampling::sampler::hash3(k, pixel as u32, channel);
+                let sign = if h >> 62 == 0 { -1.0 } else { 1.0 };
                 // From 2^-31 to 2^31.
-                f32::from_bits(0x3000_0000 + h % 0x1f00_0000) * sign
+                f32::from_bits(0x3000_0000 + h as u32 % 0x1f00_0000) * sign
             })[0]
                 .clone()
         };
