@@ -183,10 +183,10 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: units(&["film"]),
     },
     Mutant {
-        name: "taken-in-one-piece",
+        name: "rests-of-what-was-taken-lost",
         file: FILM,
-        find: "taken.sums.coarse[c][pixel] += before.0 - left.0;",
-        replace: "taken.sums.coarse[c][pixel] += f64::from(sample[c]) - f64::from(after) - (before.1 - left.1);",
+        find: "taken.sums.fine[c][pixel] += before.1 - left.1;",
+        replace: "taken.sums.fine[c][pixel] += 0.0 * (before.1 - left.1);",
         caught_by: units(&["film"]),
     },
     Mutant {
