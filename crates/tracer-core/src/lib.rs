@@ -47,6 +47,6 @@ pub mod texture;
 
 pub use compile::{CompileError, CompileTimes, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
-pub use engine::{Counters, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render};
-pub use film::{Crop, Film};
+pub use engine::{Costs, Counters, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render};
+pub use film::{Clamped, Crop, Film};
 pub use scene::Scene;

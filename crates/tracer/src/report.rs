@@ -1,7 +1,8 @@
 //! The report of a rendering as JSON; `docs/report.md` is its documentation.
 
+use scene_format::desc::Render;
 use serde::Serialize;
-use tracer_core::{Stage, Statistics, TreeWork};
+use tracer_core::{Clamped, Film, Stage, Statistics, TreeWork};
 
 /// Changes whenever a field changes its meaning or goes; new fields may come at any time.
 pub const VERSION: u32 = 1;
@@ -97,12 +98,131 @@ pub struct Seconds {
 /// How light was carried.
 #[derive(Debug, Serialize)]
 pub struct Transport {
+    /// `render.integrator`.
+    pub integrator: String,
     /// The pixels of a block shared what they found (`render.reuse`).
     pub reuse: bool,
     /// Photons carried light over mirrors and glass (`render.caustics`): asked for, and worth it in this scene.
     pub caustics: bool,
-    /// "unbiased": right on average. "consistent": right in the limit of many samples.
-    pub estimate: &'static str,
+    /// What all switches together make of the picture.
+    pub estimate: Estimate,
+    /// Seconds of rendering, summed over threads: what the shares of the switches are of.
+    pub seconds: f64,
+    /// Each switch.
+    pub switches: [Switch; 3],
+    /// What clamping took; null where samples are not clamped.
+    pub clamped: Option<ClampedReport>,
+}
+
+/// What a picture is an estimate of; the worse come later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Estimate {
+    /// Right on average, with any number of samples.
+    Unbiased,
+    /// Right in the limit of many samples.
+    Consistent,
+    /// Wrong, however many samples there are.
+    Biased,
+}
+
+impl Estimate {
+    /// One word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Estimate::Unbiased => "unbiased",
+            Estimate::Consistent => "consistent",
+            Estimate::Biased => "biased",
+        }
+    }
+}
+
+/// A switch of the scene's `render` group.
+#[derive(Clone, Debug, Serialize)]
+pub struct Switch {
+    /// Its name there.
+    pub name: &'static str,
+    /// What the scene says of it, after all options.
+    pub setting: String,
+    /// Whether it was at work.
+    pub on: bool,
+    /// What it makes of the picture.
+    pub estimate: Estimate,
+    /// What it took, summed over threads.
+    pub seconds: f64,
+    /// That as share of all seconds of rendering.
+    pub share: f64,
+}
+
+/// What clamping took.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ClampedReport {
+    /// The limit.
+    pub limit: f32,
+    /// Samples that were scaled down.
+    pub samples: u64,
+    /// Radiance taken: red, green, blue; mean over the pixels that were rendered.
+    pub radiance: [f64; 3],
+    /// Its luminance as share of the mean luminance without clamping.
+    pub share: f64,
+}
+
+impl From<Clamped> for ClampedReport {
+    fn from(clamped: Clamped) -> Self {
+        let Clamped { limit, samples, radiance, share } = clamped;
+        ClampedReport { limit, samples, radiance, share }
+    }
+}
+
+impl Transport {
+    /// From what the scene asked for and what came of it.
+    pub fn new(asked: &Render, film: &Film) -> Self {
+        let costs = &film.costs;
+        let switch = |name, setting: String, on: bool, when_on: Estimate, seconds: f64| Switch {
+            name,
+            setting,
+            on,
+            estimate: if on { when_on } else { Estimate::Unbiased },
+            seconds,
+            share: if costs.total > 0.0 { seconds / costs.total } else { 0.0 },
+        };
+        let limit = asked.clamp.as_ref().map_or_else(|| "None".to_owned(), |limit| limit.value.to_string());
+        let switches = [
+            switch("reuse", format!("{:?}", asked.reuse), film.reuse, Estimate::Unbiased, costs.reuse),
+            switch("caustics", format!("{:?}", asked.caustics), film.caustics, Estimate::Consistent, costs.caustics),
+            switch("clamp", limit, film.clamp.is_some(), Estimate::Biased, costs.clamp),
+        ];
+        Transport {
+            integrator: format!("{:?}", asked.integrator),
+            reuse: film.reuse,
+            caustics: film.caustics,
+            estimate: switches.iter().map(|switch| switch.estimate).fold(Estimate::Unbiased, Estimate::max),
+            seconds: costs.total,
+            switches,
+            clamped: film.clamped().map(ClampedReport::from),
+        }
+    }
+
+    /// A few lines for people.
+    pub fn to_text(&self) -> String {
+        let mut text = format!("what the switches of `render` cost (the picture is {})", self.estimate.name());
+        for Switch { name, setting, on, estimate, seconds, share } in &self.switches {
+            let setting = if *on || setting == "None" { setting.clone() } else { format!("{setting}, not used") };
+            let estimate = estimate.name();
+            text += &format!("\n  {name:<9} {seconds:8.3}  {:4.1} %  {setting}: {estimate}", 100.0 * share);
+        }
+        if let Some(clamped) = &self.clamped {
+            text += &format!("\n  {}", clamped.to_text());
+        }
+        text
+    }
+}
+
+impl ClampedReport {
+    /// One line for people.
+    pub fn to_text(&self) -> String {
+        format!("clamping took {:.3} % of the light, from {} samples", 100.0 * self.share, self.samples)
+    }
 }
 
 /// Rays.

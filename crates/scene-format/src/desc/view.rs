@@ -47,6 +47,10 @@ scene_struct! {
         reuse: Reuse = Reuse::Blocks;
         /// How light comes over mirrors and glass to diffuse surfaces.
         caustics: Caustics = Caustics::Photons;
+        /// The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more
+        /// than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light
+        /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing.
+        clamp: Option<Spanned<f64>> = None => Rule::length("a radiance").unit("in W/(sr m^2)");
     }
 }
 
@@ -68,7 +72,7 @@ scene_words! {
         /// Path tracing with all that `reuse` and `caustics` say.
         Full,
         /// The plain path tracer, whatever `reuse` and `caustics` say: every pixel for itself, no photons; right on average with any
-        /// number of samples.
+        /// number of samples, unless `clamp` is written.
         Path,
     }
 }
@@ -123,6 +127,7 @@ impl Default for Render {
             integrator: Integrator::Full,
             reuse: Reuse::Blocks,
             caustics: Caustics::Photons,
+            clamp: None,
         }
     }
 }

@@ -46,6 +46,9 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             );
         }
         (Type::List(_), _) => "a list: [a, b, c]".to_owned(),
+        (Type::Optional(Type::Number), what) => {
+            return format!("{}, or None", with_unit(format!("{what} {words}"), at));
+        }
         (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
         (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
         (Type::Struct(def), _) => def.noun.to_owned(),
@@ -62,6 +65,11 @@ pub(crate) fn expected(at: &FieldDef) -> String {
     with_unit(out, at)
 }
 
+/// How nothing is written in the item's syntax.
+fn none(item: Item<'_, '_>) -> &'static str {
+    if item.syntax() == Syntax::Toml { "\"None\"" } else { "None" }
+}
+
 fn with_unit(words: String, at: &FieldDef) -> String {
     if at.rule.unit.is_empty() { words } else { format!("{words}, {}", at.rule.unit) }
 }
@@ -73,10 +81,14 @@ impl Reader<'_> {
             return Some(value);
         }
         let mut edit = None;
-        if item.kind() == Kind::Text {
+        if let Kind::Text | Kind::Word = item.kind() {
             let text = item.text();
             let trimmed = text.trim();
             edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|_| trimmed.to_owned());
+            let off = ["none", "off", "no", "never"].iter().any(|word| trimmed.eq_ignore_ascii_case(word));
+            if off && matches!(at.kind, Type::Optional(Type::Number)) {
+                edit = Some(none(item).to_owned());
+            }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             let mut children = item.children();
             if let (Some(only), None) = (children.next(), children.next()) {
@@ -127,6 +139,11 @@ impl Reader<'_> {
             } else {
                 "a surface cannot reflect more than it gets".to_owned()
             };
+        }
+        // Zero and infinity are what other programs write for "no limit".
+        if matches!(at.kind, Type::Optional(Type::Number)) && (value == 0.0 || value == f64::INFINITY) {
+            fault.hint = format!("{} turns it off", none(item));
+            fault.edit = Some(Edit { span: item.span(), replacement: none(item).to_owned() });
         }
         self.report(fault);
         None
@@ -285,7 +302,7 @@ macro_rules! optional {
     )+};
 }
 
-optional!(crate::desc::Vec3, Spanned<crate::desc::Color>);
+optional!(crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>);
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

@@ -102,6 +102,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         // What a ray sees where it leaves the scene is its own pixel's, and shared or not it never paid (docs/noise.md).
         reuse: full && desc.render.reuse == Reuse::Blocks && desc.background == [0.0; 3],
         caustics: full && desc.render.caustics == Caustics::Photons,
+        clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         background: desc.background.map(|x| x as f32),
         spheres,
         materials,

@@ -12,9 +12,9 @@ mod statistics;
 mod trace;
 
 pub use batch::Counters;
-pub use statistics::{Stage, Statistics, TreeWork};
+pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Crop, Film};
+use crate::film::{Crop, Film, Tile};
 use crate::lanes::level::Level;
 use crate::scene::Scene;
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
@@ -23,6 +23,7 @@ use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// What a caller may decide about a rendering; `None` and zero take what the scene says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,6 +42,10 @@ pub struct RenderOptions {
     pub reuse: Option<bool>,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass.
     pub caustics: Option<bool>,
+    /// The most that the largest channel of a sample counts, in W/(sr m^2): what is above is scaled down to it as a whole. A sample is
+    /// all that a pixel gets at one sample index, its part of what others have found and of photons included. What is not a finite number
+    /// above zero is no limit.
+    pub clamp: Option<f32>,
     /// Whether to keep [`Statistics`].
     pub statistics: bool,
 }
@@ -84,7 +89,8 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
-    let mut film = Film::new(scene.size, crop, pass_options.seed);
+    let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
+    let mut film = Film::new(scene.size, crop, pass_options.seed, clamp);
     let tiles: Vec<(u32, u32)> = film.tile_positions().collect();
     let samples_total = tiles.len() as u64 * u64::from(samples) * u64::from(TILE * TILE);
     let done = AtomicUsize::new(0);
@@ -104,7 +110,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         let at_once = if caustics.is_some() { 1 } else { (pass.end - pass.start).min(SAMPLES) };
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
-        let cells: Vec<Mutex<&mut crate::film::Tile>> = film.tiles_mut().map(Mutex::new).collect();
+        let cells: Vec<Mutex<&mut Tile>> = film.tiles_mut().map(Mutex::new).collect();
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {
                 let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
@@ -124,20 +130,18 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                         }
                     }
                     batch.watch.start(options.statistics);
+                    let start = Instant::now();
                     let photons = caustics.as_ref().and_then(|c| c.map(sample));
                     trace::trace(scene, &kernels, trace::Pass { photons, ..pass_options }, batch);
-                    let items_of_tile = (count * QUARTERS) as usize;
-                    for (k, cell) in cells[first..first + mine.len()].iter().enumerate() {
-                        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-                        for item in k * items_of_tile..(k + 1) * items_of_tile {
-                            let pixels = batch.items[item].pixels();
-                            batch.counters.dropped += tile.add(&batch.radiance, item * batch::BLOCK_PIXELS, pixels);
-                        }
-                        tile.count(count);
+                    let cells = &cells[first..first + mine.len()];
+                    if let Some(limit) = clamp {
+                        clamp_samples(limit, count, cells, batch);
                     }
+                    add_samples(count, cells, batch);
                     batch.watch.lap(Stage::Film);
+                    batch.watch.costs.total += start.elapsed().as_secs_f64();
                     sample += count;
-                    let added = mine.len() * items_of_tile * batch::BLOCK_PIXELS;
+                    let added = batch.items.len() * batch::BLOCK_PIXELS;
                     let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
                     if observer.progress(Progress { samples_done, samples_total }).is_break() {
                         stopped.store(true, Ordering::Relaxed);
@@ -155,14 +159,43 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     }
     let mut statistics = Statistics::default();
     for worker in &workers {
-        film.counters.add(&lock(worker).batch.counters);
-        statistics.add(&lock(worker).batch.watch.statistics);
+        let Batch { counters, watch, .. } = &lock(worker).batch;
+        film.counters.add(counters);
+        statistics.add(&watch.statistics);
+        film.costs.add(&watch.costs);
     }
     film.statistics = options.statistics.then_some(statistics);
+    film.reuse = pass_options.reuse;
     film.caustics = caustics.is_some();
     film.level = level;
     film.threads = threads;
     film
+}
+
+/// Adds the samples of a batch to its tiles: `count` sample indices of each.
+fn add_samples(count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
+    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
+        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        for item in first..first + (count * QUARTERS) as usize {
+            let pixels = batch.items[item].pixels();
+            batch.counters.dropped += tile.add(&batch.radiance, item * batch::BLOCK_PIXELS, pixels);
+        }
+        tile.count(count);
+    }
+}
+
+/// Clamps the samples of a batch before they are added. A pass of its own, so that its time is known and nothing is asked where none is
+/// wanted.
+fn clamp_samples(limit: f32, count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
+    let start = Instant::now();
+    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
+        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        for item in first..first + (count * QUARTERS) as usize {
+            let pixels = batch.items[item].pixels();
+            tile.clamp(limit, &mut batch.radiance, item * batch::BLOCK_PIXELS, pixels);
+        }
+    }
+    batch.watch.costs.clamp += start.elapsed().as_secs_f64();
 }
 
 /// Samples of a tile that fill a batch.

@@ -113,6 +113,37 @@ impl Statistics {
     }
 }
 
+/// What the switches of a rendering cost: seconds summed over threads. Always kept: the clock is looked at twice per batch and step.
+/// What shading does for them (vertices remembered for sharing, lobes left to photons) is not in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Costs {
+    /// All work: paths, their samples onto the film, photons.
+    pub total: f64,
+    /// What pixels share: which segments, what blocks them, and each one's part.
+    pub reuse: f64,
+    /// Photons from the lights into maps, and those around diffuse vertices; a trial that found them not worth it is in it too.
+    pub caustics: f64,
+    /// Samples scaled down.
+    pub clamp: f64,
+}
+
+impl Costs {
+    /// Adds another thread's.
+    pub(crate) fn add(&mut self, other: &Costs) {
+        self.total += other.total;
+        self.reuse += other.reuse;
+        self.caustics += other.caustics;
+        self.clamp += other.clamp;
+    }
+
+    /// All time since then was spent on photons and their maps.
+    pub(crate) fn photons_since(&mut self, start: Instant) {
+        let seconds = start.elapsed().as_secs_f64();
+        self.total += seconds;
+        self.caustics += seconds;
+    }
+}
+
 /// Every so many batches the tree counts what it does, which costs it a few per cent.
 const COUNTED: u32 = 64;
 
@@ -122,6 +153,8 @@ pub(crate) struct Watch {
     last: Option<Instant>,
     batches: u32,
     pub statistics: Statistics,
+    /// Kept whether statistics are or not.
+    pub costs: Costs,
 }
 
 impl Watch {

@@ -11,6 +11,7 @@ use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::sampling::sampler::z_order;
 use crate::scene::Scene;
+use std::time::Instant;
 
 /// What is the same for all batches of a rendering.
 #[derive(Clone, Copy)]
@@ -68,13 +69,24 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
         deposit(batch);
         batch.watch.lap(Stage::Deposit);
         if let Some(photons) = pass.photons {
-            kernels.gather(photons.map, scene.max_bounces.saturating_sub(vertex), batch);
-            batch.watch.lap(Stage::Gather);
+            gather(scene, kernels, photons, vertex, batch);
         }
         vertex += 1;
     }
     if batch.suffixes.len > 0 {
+        let start = Instant::now();
         share(scene, kernels, pass.seed, batch);
+        batch.watch.costs.reuse += start.elapsed().as_secs_f64();
+    }
+}
+
+/// Gives the diffuse vertices of this bounce the photons around them.
+fn gather(scene: &Scene, kernels: &Kernels, photons: PhotonMap<'_>, vertex: u32, batch: &mut Batch) {
+    if batch.queries.len > 0 {
+        let start = Instant::now();
+        kernels.gather(photons.map, scene.max_bounces.saturating_sub(vertex), batch);
+        batch.watch.costs.caustics += start.elapsed().as_secs_f64();
+        batch.watch.lap(Stage::Gather);
     }
 }
 

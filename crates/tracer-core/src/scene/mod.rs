@@ -50,6 +50,8 @@ pub struct Scene {
     pub reuse: bool,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
     pub caustics: bool,
+    /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
+    pub clamp: Option<f32>,
     /// Radiance of everything that no object covers.
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.

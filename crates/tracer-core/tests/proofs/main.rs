@@ -8,6 +8,7 @@
 mod aimed;
 mod analytic;
 mod caustics;
+mod clamp;
 mod compiling;
 mod convergence;
 mod figures;

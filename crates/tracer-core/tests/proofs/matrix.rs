@@ -8,11 +8,12 @@ use crate::support::describe::*;
 use crate::support::meshes::{icosphere, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform};
+use scene_format::diagnostic::Spanned;
 use tracer_core::lanes::level::Level;
 use tracer_core::{Crop, RenderOptions, Unobserved, develop};
 
-/// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map.
-fn plain(filter: PixelFilter, tone_map: ToneMap) -> SceneDesc {
+/// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map, clamping.
+fn plain(filter: PixelFilter, tone_map: ToneMap, clamp: Option<f64>) -> SceneDesc {
     let tinted = Material::Transparent { ior: 1.4.into(), transmittance: Box::new([0.9, 0.6, 0.4].into()) };
     let objects = vec![
         sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.6; 3])),
@@ -31,6 +32,7 @@ fn plain(filter: PixelFilter, tone_map: ToneMap) -> SceneDesc {
         .bounces(4)
         .filter(filter);
     desc.render.reuse = Reuse::None;
+    desc.render.clamp = clamp.map(Spanned::from);
     desc.effects.exposure = 0.7.into();
     desc.effects.tone_map = tone_map;
     desc
@@ -88,6 +90,6 @@ fn many_balls_in_every_combination() {
 
 #[test]
 fn pixels_for_themselves_in_every_combination() {
-    every_combination("box filter, AgX", plain(PixelFilter::Box, ToneMap::AgX));
-    every_combination("no filter, filmic", plain(PixelFilter::None, ToneMap::Filmic));
+    every_combination("box filter, AgX", plain(PixelFilter::Box, ToneMap::AgX, None));
+    every_combination("no filter, filmic, clamped", plain(PixelFilter::None, ToneMap::Filmic, Some(1.0)));
 }

@@ -112,18 +112,19 @@ pub(crate) fn options() -> RenderOptions {
 }
 
 /// All that a film says of its pixels, as bits.
-pub(crate) fn bits(film: &Film) -> Vec<[u64; 4]> {
+pub(crate) fn bits(film: &Film) -> Vec<[u64; 7]> {
     let Crop { x, y, width, height } = film.crop();
     let pixels = (y..y + height).flat_map(|py| (x..x + width).map(move |px| (px, py)));
     pixels
         .map(|(px, py)| {
             let [r, g, b] = film.radiance(px, py).map(f64::to_bits);
-            [r, g, b, film.variance(px, py).to_bits()]
+            let taken = film.taken(px, py).map(f64::to_bits);
+            [r, g, b, film.variance(px, py).to_bits(), taken[0], taken[1], taken[2]]
         })
         .collect()
 }
 
-fn rendered(scene: &Scene, options: &RenderOptions) -> Vec<[u64; 4]> {
+fn rendered(scene: &Scene, options: &RenderOptions) -> Vec<[u64; 7]> {
     let film = tracer_core::render(scene, options, &Unobserved);
     assert_eq!(film.counters.dropped, 0);
     bits(&film)
@@ -247,7 +248,7 @@ fn an_early_end_is_the_picture_of_fewer_samples() {
         let film = tracer_core::render(&scene, &RenderOptions { samples: Some(64), ..options() }, &Impatient);
         let (fewest, most) = film.samples().into_inner();
         assert!(fewest >= 1 && most < 64, "{name}: {fewest} to {most} samples");
-        struct Looks(std::sync::Mutex<Vec<(u32, Vec<[u64; 4]>)>>);
+        struct Looks(std::sync::Mutex<Vec<(u32, Vec<[u64; 7]>)>>);
         impl Observer for Looks {
             fn progress(&self, _: Progress) -> ControlFlow<()> {
                 ControlFlow::Continue(())

@@ -22,7 +22,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         let scene = compile(&desc, args.scene.diagnostics, shell)?;
         let facts = Facts {
             name: name(&desc),
-            film: Film::bytes_of(Crop::whole(scene.size)),
+            film: Film::bytes_of(Crop::whole(scene.size), scene.clamp.is_some()),
             statistics: scene.statistics(),
             scene,
             desc,

@@ -37,7 +37,7 @@ fn fields_are_the_documented_ones() {
     assert!(found.contains("tree") && found.contains("stats"), "they are null");
     let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));
-    fields(&report(&sandbox, &["--size", "8x8", "--stats"]), "", &mut found);
+    fields(&report(&sandbox, &["--size", "8x8", "--stats", "--set", "render.clamp=0.5"]), "", &mut found);
     let documentation = std::fs::read_to_string(repository().join("docs/report.md")).expect("documentation");
     let documented: BTreeSet<String> = documentation
         .lines()
@@ -85,6 +85,102 @@ fn numbers_fit_together() {
         assert_eq!(file["sha256"], tracer::write::sha256(&sandbox.read(name)));
         assert_eq!(file["bytes"].as_u64(), Some(sandbox.read(name).len() as u64));
     }
+}
+
+/// Matt things, glass and a small lamp in the dark: sharing and photons are worth it.
+const ROOM: &str = "Scene(
+    camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 40),
+    image: Image(width: 40, height: 24),
+    render: Render(samples: 4),
+    lights: [SphereLight(center: (2, 5, 3), radius: 0.3, radiance: 200)],
+    objects: [
+        Sphere(center: (0, -100, 0), radius: 100),
+        Sphere(center: (0, 1, -104), radius: 100),
+        Sphere(center: (0, 1, 0), radius: 1, material: Transparent(ior: 1.5)),
+    ],
+)";
+
+#[test]
+fn every_switch_says_what_it_costs() {
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.ron", ROOM);
+    let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &[], &["--set", "render.clamp=0.25"]];
+    // Of reuse, caustics, clamp: the setting, whether it is at work, and what the picture is an estimate of.
+    let expected = [
+        ([("Blocks", false), ("Photons", false), ("None", false)], "unbiased"),
+        ([("Blocks", true), ("Photons", true), ("None", false)], "consistent"),
+        ([("Blocks", true), ("Photons", true), ("0.25", true)], "biased"),
+    ];
+    for (more, (switches, estimate)) in off.into_iter().zip(expected) {
+        let report = report(&sandbox, more);
+        let transport = &report["transport"];
+        assert_eq!(transport["estimate"], estimate, "{more:?}");
+        let total = transport["seconds"].as_f64().expect("seconds");
+        let threads = report["machine"]["threads"].as_f64().expect("a number");
+        assert!(
+            total > 0.0 && total <= threads * report["seconds"]["render"].as_f64().expect("seconds"),
+            "{transport}"
+        );
+        let mut sum = 0.0;
+        let names = ["reuse", "caustics", "clamp"];
+        let when_on = ["unbiased", "consistent", "biased"];
+        for (k, (setting, on)) in switches.into_iter().enumerate() {
+            let switch = &transport["switches"][k];
+            assert_eq!((&switch["name"], &switch["setting"]), (&names[k].into(), &setting.into()), "{more:?}");
+            assert_eq!(switch["on"], on, "{more:?} {switch}");
+            assert_eq!(switch["estimate"], if on { when_on[k] } else { "unbiased" }, "{more:?} {switch}");
+            let [seconds, share] = ["seconds", "share"].map(|field| switch[field].as_f64().expect("a number"));
+            assert_eq!(seconds > 0.0, on, "{more:?} {switch}");
+            assert!((share * total - seconds).abs() <= 1e-9 * total, "{more:?} {switch}");
+            sum += share;
+        }
+        assert!(sum < 1.0, "{transport}");
+        let clamped = &transport["clamped"];
+        assert_eq!(clamped.is_null(), estimate != "biased");
+        if !clamped.is_null() {
+            assert_eq!(clamped["limit"], 0.25);
+            assert!((1..=40 * 24 * 4).contains(&clamped["samples"].as_u64().expect("a number")), "{clamped}");
+            assert!((0.0..1.0).contains(&clamped["share"].as_f64().expect("a number")), "{clamped}");
+            assert_eq!(clamped["radiance"].as_array().map(Vec::len), Some(3));
+        }
+    }
+    // For people, in the same words.
+    let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "render.clamp=0.25"]).ends(0);
+    said.says(&["what the switches of `render` cost", "reuse", "Photons: consistent", "0.25: biased", "clamping took"]);
+    let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "background=1"]).ends(0);
+    said.says(&["Blocks, not used: unbiased"]);
+}
+
+/// The examples of the report's page, few samples of a small picture: each is what its comment says.
+#[test]
+fn examples_are_what_they_say() {
+    let sandbox = Sandbox::new();
+    let page = std::fs::read_to_string(repository().join("docs/report.md")).expect("documentation");
+    let block = page.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a block");
+    let scenes = format!(" {}/scenes/", repository().display());
+    for line in block.lines() {
+        let (command, said) = line.split_once('#').expect("a comment");
+        let command = command.strip_prefix("tracer").expect("the program").replace(" scenes/", &scenes);
+        sandbox.shell(&format!("\"$T\" {command} --size 24x24 --samples 2 --report r.json")).ends(0);
+        let report: Value = serde_json::from_str(&sandbox.text("r.json")).expect("JSON");
+        let estimate = report["transport"]["estimate"].as_str().expect("a word");
+        assert_eq!(said.trim().split(':').next(), Some(estimate), "{line}");
+    }
+    assert_eq!(block.lines().count(), 5);
+}
+
+/// Everything that the report says of what was taken is the same for any number of threads.
+#[test]
+fn what_clamping_took_does_not_depend_on_threads() {
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.ron", ROOM);
+    let taken = |threads: &str| {
+        let report = report(&sandbox, &["--threads", threads, "--set", "render.clamp=0.25", "--crop", "3,3,30,20"]);
+        report["transport"]["clamped"].clone()
+    };
+    let one = taken("1");
+    assert!(one["share"].as_f64() > Some(0.0), "{one}");
+    assert_eq!(taken("3"), one);
 }
 
 /// The command, given to a shell, makes the same files.

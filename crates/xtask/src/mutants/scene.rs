@@ -8,6 +8,7 @@ const PLACING: &str = "crates/tracer-core/src/compile/placing.rs";
 const LIGHT: &str = "crates/tracer-core/src/scene/light.rs";
 const SPHERE: &str = "crates/tracer-core/src/scene/sphere.rs";
 const FILM: &str = "crates/tracer-core/src/film.rs";
+const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
 const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
 const SRGB: &str = "crates/tracer-core/src/develop/srgb.rs";
 
@@ -158,7 +159,7 @@ pub const MUTANTS: &[Mutant] = &[
         name: "film-sums-as-they-come",
         file: FILM,
         find: "coarse_sums[pixel] += coarse;",
-        replace: "coarse_sums[pixel] += x - fine;",
+        replace: "coarse_sums[pixel] += f64::from(*x) - fine;",
         caught_by: units(&["film"]),
     },
     Mutant {
@@ -167,6 +168,34 @@ pub const MUTANTS: &[Mutant] = &[
         find: "x.abs() <= LARGEST",
         replace: "(0.0..=LARGEST).contains(&x)",
         caught_by: units(&["film"]),
+    },
+    Mutant {
+        name: "clamped-channel-by-channel",
+        file: FILM,
+        find: "(f64::from(sample[c]) * f64::from(limit) / f64::from(largest)) as f32",
+        replace: "sample[c].min(limit)",
+        caught_by: proofs(&["clamp::a_lamp_in_view"]),
+    },
+    Mutant {
+        name: "negative-samples-clamped",
+        file: FILM,
+        find: "if largest <= limit ||",
+        replace: "if largest.abs() <= limit ||",
+        caught_by: units(&["film"]),
+    },
+    Mutant {
+        name: "rests-of-what-was-taken-lost",
+        file: FILM,
+        find: "taken.sums.fine[c][pixel] += before.1 - left.1;",
+        replace: "taken.sums.fine[c][pixel] += 0.0 * (before.1 - left.1);",
+        caught_by: units(&["film"]),
+    },
+    Mutant {
+        name: "clamp-of-the-scene-not-heard",
+        file: ENGINE,
+        find: "options.clamp.or(scene.clamp)",
+        replace: "options.clamp",
+        caught_by: proofs(&["clamp::"]),
     },
     Mutant {
         name: "variance-of-a-sample-not-of-the-mean",

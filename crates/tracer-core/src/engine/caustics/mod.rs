@@ -31,6 +31,7 @@ use map::{Map, Photon};
 use plan::Plan;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// Photons of the trial that tells whether maps are worth it.
 const TRIAL: u32 = 4096;
@@ -100,9 +101,11 @@ impl Caustics {
         let work = |worker: &mut Worker| {
             while let Some((number, photons)) = photons.get(next.fetch_add(1, Ordering::Relaxed)) {
                 worker.batch.watch.resume();
+                let start = Instant::now();
                 let map = Map::new(*number, photons, &plan.pairs, &plan.radii);
                 made.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(map);
                 worker.batch.watch.lap(Stage::Photons);
+                worker.batch.watch.costs.photons_since(start);
             }
         };
         on_all(workers, &work);

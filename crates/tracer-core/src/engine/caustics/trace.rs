@@ -10,6 +10,7 @@ use crate::engine::trace::closest;
 use crate::scene::Scene;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// What the photons of a batch have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +79,7 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
         }
     }
     batch.watch.resume();
+    let start = Instant::now();
     kernels.photons_emit(plan, PhotonPass { seed, count }, batch);
     let mut stored = Vec::new();
     let mut event = 0;
@@ -89,6 +91,7 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
         event += 1;
     }
     batch.watch.lap(Stage::Photons);
+    batch.watch.costs.photons_since(start);
     stored
 }
 

@@ -8,8 +8,8 @@ use crate::failure::{Failure, exit};
 use crate::loading::{compile, is_dash, load, use_threads};
 use crate::progress::{Watch, rate};
 use crate::report::{
-    FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport, Seconds, Stats,
-    Transport, Tree, VERSION,
+    ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
+    Seconds, Stats, Transport, Tree, VERSION,
 };
 use crate::shell::Shell;
 use crate::write::{Place, Provenance, Setting, save, write};
@@ -32,7 +32,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
     let desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
-    check_memory(crop)?;
+    check_memory(crop, desc.render.clamp.is_some())?;
     let read = clock.lap();
 
     let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?.with_level(level));
@@ -86,6 +86,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
 
     if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
         shell.say(&Stats::new(statistics).to_text());
+        shell.say(&Transport::new(&desc.render, &film).to_text());
+    } else if let Some(clamped) = film.clamped().filter(|_| shell.is_watched()) {
+        shell.say(&ClampedReport::from(clamped).to_text());
     }
     if film.counters.dropped > 0 {
         shell.say(&format!(
@@ -158,11 +161,11 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop) -> Result<(), Failure> {
+fn check_memory(crop: Crop, clamped: bool) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let needed = Film::bytes_of(crop) + pixels * BYTES_PER_PIXEL;
+    let needed = Film::bytes_of(crop, clamped) + pixels * BYTES_PER_PIXEL;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
@@ -243,11 +246,7 @@ fn report(
             samples_min,
             samples_max,
         },
-        transport: Transport {
-            reuse: scene.reuse,
-            caustics: film.caustics,
-            estimate: if film.caustics { "consistent" } else { "unbiased" },
-        },
+        transport: Transport::new(&desc.render, film),
         rays: Rays {
             camera: counters.camera_rays,
             scattered: counters.scattered_rays,
