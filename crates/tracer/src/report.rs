@@ -238,6 +238,8 @@ pub struct Rays {
     pub segments: u64,
     /// Photons from the lights, and from mirrors and glass on (`render.caustics`).
     pub photons: u64,
+    /// Rays of glint chains and of the pilot that tells where they are followed.
+    pub chains: u64,
     /// All.
     pub total: u64,
     /// All, per second of `seconds.render`.

@@ -92,7 +92,7 @@ scene_words! {
 scene_words! {
     /// How light comes over mirrors, glass and shiny lobes to matt surfaces: the bright curves under a glass ball, say.
     pub enum Caustics, "caustics" {
-        /// Photons are sent from the lights and gathered where they lie: hardly any noise, and a blur that vanishes as samples are added.
+        /// Photons are sent from the lights and gathered where they lie: hardly any noise, and a blur that vanishes as samples are added. What mirrors and glass show of lamps is sampled four times as often.
         /// Wide lights, and scenes without mirrors, glass and Blinn-Phong of exponent 50 and more, do without.
         Photons,
         /// By the rays that happen to meet a light: right on average, and slow to become smooth.

@@ -22,6 +22,7 @@ mod kernels;
 mod layout;
 mod ray_space;
 mod sphere;
+mod top;
 mod triangle;
 mod validate;
 
@@ -32,8 +33,8 @@ pub use sphere::sphere_hit;
 pub use triangle::triangle_hit;
 pub use validate::Invalid;
 
-pub(crate) use layout::TopBoxes;
 pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
+pub(crate) use top::TopBoxes;
 
 use arena::Arena;
 use kernels::{Batch, MeshRecord, TreeView};
@@ -222,7 +223,7 @@ impl Accel {
         counters
     }
 
-    /// The boxes under the root: a ray that passes none of them hits nothing here.
+    /// A ray that passes none of these boxes hits nothing here.
     pub(crate) fn top_boxes(&self) -> &TopBoxes {
         &self.top
     }

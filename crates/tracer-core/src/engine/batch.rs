@@ -3,8 +3,10 @@
 //! A batch is up to [`ITEMS`] items; an item is a quarter of a tile of 16x16 pixels, 64 of them, at one sample index. Slot s is
 //! pixel s % 64 of item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
+use super::glints::WEIGHT;
 use super::stages::shade::BRANCHING;
 use super::statistics::Watch;
+use crate::sampling::sampler::z_order;
 use crate::scene::NONE;
 
 /// Pixels along a tile's side.
@@ -42,8 +44,10 @@ pub struct Item {
     pub tile_y: u32,
     /// Which quarter of the tile.
     pub quarter: u32,
-    /// Sample index.
+    /// Sample index; while glint chains are traced, their index ([`super::glints`]).
     pub sample: u32,
+    /// Its pixels lie two apart.
+    pub spread: bool,
 }
 
 /// From this sample index on a quarter is a square of 8x8 pixels; before, it is every other pixel of every other row. What the pixels
@@ -51,16 +55,15 @@ pub struct Item {
 const SQUARE_FROM: u32 = 16;
 
 impl Item {
+    /// A quarter of a tile at a sample index.
+    pub fn new(tile_x: u32, tile_y: u32, quarter: u32, sample: u32) -> Self {
+        Item { tile_x, tile_y, quarter, sample, spread: sample < SQUARE_FROM }
+    }
+
     /// The Z-order number in the tile of its pixel k is (k << `shift`) | `offset`.
     #[inline(always)]
     pub fn z_of_pixels(&self) -> (u32, u32) {
-        if self.is_spread() { (2, self.quarter) } else { (0, self.quarter << 6) }
-    }
-
-    /// Its pixels lie two apart.
-    #[inline(always)]
-    pub fn is_spread(&self) -> bool {
-        self.sample < SQUARE_FROM
+        if self.spread { (2, self.quarter) } else { (0, self.quarter << 6) }
     }
 
     /// Its pixels by their Z-order numbers in the tile.
@@ -76,7 +79,7 @@ impl Item {
         }
         static SPREAD: [[u8; BLOCK_PIXELS]; 4] = [table(2, 0), table(2, 1), table(2, 2), table(2, 3)];
         static SQUARE: [[u8; BLOCK_PIXELS]; 4] = [table(0, 0), table(0, 64), table(0, 128), table(0, 192)];
-        let tables = if self.is_spread() { &SPREAD } else { &SQUARE };
+        let tables = if self.spread { &SPREAD } else { &SQUARE };
         &tables[(self.quarter % QUARTERS) as usize]
     }
 }
@@ -350,6 +353,8 @@ pub struct Counters {
     pub segments: u64,
     /// Photons sent, and those that went on from mirrors and glass.
     pub photon_rays: u64,
+    /// Rays of glint chains and of their pilot.
+    pub chain_rays: u64,
     /// Samples that were not finite.
     pub dropped: u64,
 }
@@ -362,6 +367,7 @@ impl Counters {
         self.shadow_rays += other.shadow_rays;
         self.segments += other.segments;
         self.photon_rays += other.photon_rays;
+        self.chain_rays += other.chain_rays;
         self.dropped += other.dropped;
     }
 }
@@ -374,6 +380,10 @@ pub struct Batch {
     pub item_z: Vec<u32>,
     /// The shift of [`Item::z_of_pixels`] as a factor.
     pub item_scale: Vec<u32>,
+    /// Items with glint chains ([`super::glints`]), a bit each.
+    pub glints: u32,
+    /// Per item: the weight of what a path sees that has met mirrors and glass only: one, or what glint chains leave to it.
+    pub glint_weight: Vec<f32>,
     /// The living paths.
     pub paths: Paths,
     /// The paths after the next scattering.
@@ -415,6 +425,8 @@ impl Batch {
             items: Vec::with_capacity(ITEMS),
             item_z: vec![0; ITEMS],
             item_scale: vec![0; ITEMS],
+            glints: 0,
+            glint_weight: vec![1.0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
             branches: Paths::new(),
@@ -469,5 +481,23 @@ impl Batch {
             counters: Counters::default(),
             watch: Watch::default(),
         }
+    }
+    /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is [`WEIGHT`].
+    pub fn start(&mut self, glints: u32) {
+        self.glints = glints;
+        for (k, item) in self.items.iter().enumerate() {
+            let (shift, offset) = item.z_of_pixels();
+            self.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
+            self.item_scale[k] = 1 << shift;
+            self.glint_weight[k] = if glints >> k & 1 == 1 { WEIGHT } else { 1.0 };
+        }
+        let slots = self.items.len() * BLOCK_PIXELS;
+        for channel in &mut self.radiance {
+            channel[..slots].fill(0.0);
+            channel[PATHS..PATHS + slots].fill(0.0);
+        }
+        self.members.len = 0;
+        self.suffixes.len = 0;
+        self.groups.list.clear();
     }
 }

@@ -18,7 +18,7 @@ use crate::scene::Scene;
 /// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
 #[derive(Clone, Copy)]
 pub struct Kernels {
-    camera: unsafe fn(&Scene, u32, &mut Batch),
+    camera: unsafe fn(&Scene, u32, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
@@ -38,8 +38,8 @@ macro_rules! kernels {
         mod $name {
             use super::*;
             $(#[target_feature(enable = $features)])?
-            fn camera_entry(scene: &Scene, seed: u32, batch: &mut Batch) {
-                camera::camera::<$lanes>(scene, seed, batch)
+            fn camera_entry(scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
+                camera::camera::<$lanes>(scene, seed, items, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn closest_entry(scene: &Scene, batch: &mut Batch) {
@@ -134,10 +134,10 @@ impl Kernels {
         }
     }
 
-    /// Camera rays for the items of the batch.
-    pub fn camera(&self, scene: &Scene, seed: u32, batch: &mut Batch) {
+    /// Camera rays for those items of the batch that have a bit set in `items`.
+    pub fn camera(&self, scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
         // SAFETY: a `Level` is only made for features that this CPU was seen to have.
-        unsafe { (self.camera)(scene, seed, batch) }
+        unsafe { (self.camera)(scene, seed, items, batch) }
     }
     /// The nearest of the spheres that every ray tests.
     pub fn closest(&self, scene: &Scene, batch: &mut Batch) {

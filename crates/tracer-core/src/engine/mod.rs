@@ -5,6 +5,7 @@
 
 mod batch;
 mod caustics;
+mod glints;
 mod kernels;
 mod lane_io;
 mod stages;
@@ -86,6 +87,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         reuse: options.reuse.unwrap_or(scene.reuse),
         lanes: level.lanes(),
         photons: None,
+        glints: false,
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
@@ -101,6 +103,10 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     }
     let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
     let mut caustics = if wants_photons { Caustics::new(scene, &kernels, pass_options.seed, &workers) } else { None };
+    let glints = match &caustics {
+        Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
+        None => vec![false; tiles.len()],
+    };
     for pass in passes(samples, if caustics.is_some() { 4 * SAMPLES } else { 16 * SAMPLES }) {
         if let Some(caustics) = &mut caustics {
             caustics.prepare(scene, &kernels, pass.clone(), &workers);
@@ -123,10 +129,14 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                     let count = (pass.end - sample).min(at_once);
                     let batch = &mut worker.batch;
                     batch.items.clear();
-                    for &(tile_x, tile_y) in mine {
+                    batch.glints = 0;
+                    for (&(tile_x, tile_y), &glints) in mine.iter().zip(&glints[first..]) {
+                        if glints {
+                            batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
+                        }
                         for sample in sample..sample + count {
                             let quarters = 0..QUARTERS;
-                            batch.items.extend(quarters.map(|quarter| Item { tile_x, tile_y, quarter, sample }));
+                            batch.items.extend(quarters.map(|quarter| Item::new(tile_x, tile_y, quarter, sample)));
                         }
                     }
                     batch.watch.start(options.statistics);

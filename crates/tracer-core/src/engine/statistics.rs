@@ -119,9 +119,9 @@ impl Statistics {
 pub struct Costs {
     /// All work: paths, their samples onto the film, photons.
     pub total: f64,
-    /// What pixels share: which segments, what blocks them, and each one's part.
+    /// What pixels share: which segments, what blocks them, and each one's part; which rays are aimed, but not their tracing.
     pub reuse: f64,
-    /// Photons from the lights into maps, and those around diffuse vertices; a trial that found them not worth it is in it too.
+    /// Photons from the lights into maps, and those around diffuse vertices; a trial that found them not worth it is in it too. Glint chains.
     pub caustics: f64,
     /// Samples scaled down.
     pub clamp: f64,

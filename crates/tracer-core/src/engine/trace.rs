@@ -3,13 +3,13 @@
 use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::caustics::PhotonMap;
 use super::caustics::aims::Aims;
+use super::glints::chains;
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
 use super::stages::shade::ROULETTE_FROM;
 use super::stages::share::Round;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
-use crate::sampling::sampler::z_order;
 use crate::scene::Scene;
 use std::time::Instant;
 
@@ -24,6 +24,8 @@ pub struct Pass<'a> {
     pub lanes: usize,
     /// The photons of the batch's sample indices, where the scene is worth them.
     pub photons: Option<PhotonMap<'a>>,
+    /// These are glint chains: they end at all but mirrors and glass ([`super::glints`]).
+    pub glints: bool,
 }
 
 impl<'a> Pass<'a> {
@@ -37,15 +39,8 @@ impl<'a> Pass<'a> {
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
 pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch) {
-    for (k, item) in batch.items.iter().enumerate() {
-        let (shift, offset) = item.z_of_pixels();
-        batch.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
-        batch.item_scale[k] = 1 << shift;
-    }
-    batch.members.len = 0;
-    batch.suffixes.len = 0;
-    batch.groups.list.clear();
-    kernels.camera(scene, pass.seed, batch);
+    batch.start(batch.glints);
+    kernels.camera(scene, pass.seed, u32::MAX, batch);
     batch.watch.lap(Stage::Camera);
     let mut groups_before = [0; ITEMS];
     let mut vertex = 0;
@@ -62,7 +57,9 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
         if let Some(aims) = pass.aims()
             && vertex < ROULETTE_FROM
         {
+            let start = Instant::now();
             kernels.aim(aims, pass.seed, members, batch);
+            batch.watch.costs.reuse += start.elapsed().as_secs_f64();
             batch.watch.lap(Stage::Share);
         }
         occluded(scene, kernels, Coherence::Incoherent, batch);
@@ -77,6 +74,9 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
         let start = Instant::now();
         share(scene, kernels, pass.seed, batch);
         batch.watch.costs.reuse += start.elapsed().as_secs_f64();
+    }
+    if batch.glints != 0 {
+        chains(scene, kernels, pass, batch);
     }
 }
 

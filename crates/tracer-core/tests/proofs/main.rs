@@ -12,6 +12,7 @@ mod clamp;
 mod compiling;
 mod convergence;
 mod figures;
+mod glints;
 mod matrix;
 mod random_scenes;
 mod reuse;

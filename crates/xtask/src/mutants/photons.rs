@@ -6,6 +6,8 @@ const PHOTONS: &str = "crates/tracer-core/src/engine/stages/photons.rs";
 const AIM: &str = "crates/tracer-core/src/engine/stages/aim.rs";
 const GATHER: &str = "crates/tracer-core/src/engine/stages/gather.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
+const GLINTS: &str = "crates/tracer-core/src/engine/glints.rs";
+const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
 const MAP: &str = "crates/tracer-core/src/engine/caustics/map.rs";
 const PLAN: &str = "crates/tracer-core/src/engine/caustics/plan.rs";
 
@@ -115,6 +117,28 @@ pub const MUTANTS: &[Mutant] = &[
         find: "1.0 - (light.radius - caster.radius) / distance",
         replace: "1.0 - (light.radius + caster.radius) / distance",
         caught_by: proofs(&["caustics::glass_ball"]),
+    },
+    // Glint chains.
+    Mutant {
+        name: "chains-beside-paths-in-full",
+        file: BATCH,
+        find: "if glints >> k & 1 == 1 { WEIGHT } else { 1.0 }",
+        replace: "1.0",
+        caught_by: proofs(&["glints"]),
+    },
+    Mutant {
+        name: "chains-that-are-alike",
+        file: GLINTS,
+        find: "sample * CHAINS + chain",
+        replace: "sample * CHAINS",
+        caught_by: proofs(&["glints"]),
+    },
+    Mutant {
+        name: "chains-through-matt-surfaces",
+        file: SHADE,
+        find: "surfaces = surfaces & (bsdf.mirror | bsdf.transparent);",
+        replace: "",
+        caught_by: proofs(&["glints"]),
     },
     // Rays aimed at casters.
     Mutant {

@@ -103,7 +103,7 @@ impl Plan {
         }
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
-        let photons = (pixels / 4).next_power_of_two().clamp(4096, 65536) as u32;
+        let photons = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
         let mut pairs = Vec::new();
         let mut mapped = vec![0; scene.lights.len().max(1)];
         for (k, Light::Sphere { sphere, radiance }) in scene.lights.iter().enumerate() {

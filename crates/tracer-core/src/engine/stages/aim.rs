@@ -207,7 +207,7 @@ mod tests {
         let mut batch = Batch::new();
         let (mut area, mut squares, mut members) = (0.0, 0.0, 0.0);
         for sample in 0..256 {
-            let item = Item { tile_x: 1, tile_y: 2, quarter: 1, sample };
+            let item = Item::new(1, 2, 1, sample);
             let (shift, offset) = item.z_of_pixels();
             batch.items = vec![item];
             batch.item_z[0] = z_order(item.tile_x, item.tile_y) << 8 | offset;

@@ -1,6 +1,6 @@
 //! Camera rays: a point in the pixel by its filter, a point on the lens.
 
-use crate::engine::batch::{BLOCK_PIXELS, Batch, PATHS, TILE};
+use crate::engine::batch::{BLOCK_PIXELS, Batch, TILE};
 use crate::lanes::{Bits, Lanes};
 use crate::math::{V3, ln, sincos_turns};
 use crate::sampling::sampler::{Pair, Purpose};
@@ -22,9 +22,9 @@ const fn z_order_coordinates(which: u32) -> [f32; BLOCK_PIXELS] {
     table
 }
 
-/// Fills `batch.paths` with the camera rays of its items and clears the slots.
+/// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`.
 #[inline(always)]
-pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
+pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
     let c = F::splat;
     let camera: &Camera = &scene.camera;
     let pixel = Pair::new(seed, Purpose::Pixel);
@@ -36,7 +36,11 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
     let [width, height] = scene.size;
     let (scale_x, scale_y) = (c(2.0 / width as f32), c(-2.0 / height as f32));
     let paths = &mut batch.paths;
+    paths.len = 0;
     for (k, item) in batch.items.iter().enumerate() {
+        if items >> k & 1 == 0 {
+            continue;
+        }
         let item_z = batch.item_z[k];
         let pixel_part = pixel.sample_part(item_z >> 8, item.sample);
         let lens_part = lens.sample_part(item_z >> 8, item.sample);
@@ -47,7 +51,7 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
         let left = c((item.tile_x * TILE + offset_x) as f32 + 0.5 - width as f32 / 2.0);
         let top = c((item.tile_y * TILE + offset_y) as f32 + 0.5 - height as f32 / 2.0);
         for j in (0..BLOCK_PIXELS).step_by(F::N) {
-            let i = k * BLOCK_PIXELS + j;
+            let i = paths.len + j;
             let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
             let z = (F::U::splat(item_z) + F::U::load(&SLOTS[j..]) * F::U::splat(1 << shift)).reverse_bits();
             let (u, v) = pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y));
@@ -68,16 +72,14 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
             origin.store(&mut paths.origin, i);
             direction.normalise().store(&mut paths.direction, i);
             V3::grey(c(1.0)).store(&mut paths.throughput, i);
-            V3::<F>::zero().store(&mut batch.radiance, i);
-            V3::<F>::zero().store(&mut batch.radiance, PATHS + i);
             c(1.0).store(&mut paths.eta2[i..]);
             c(-1.0).store(&mut paths.pdf[i..]);
             slot.store(&mut paths.slot[i..]);
             F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
             F::U::splat(NONE).store(&mut paths.from_instance[i..]);
         }
+        paths.len += BLOCK_PIXELS;
     }
-    paths.len = batch.items.len() * BLOCK_PIXELS;
     batch.counters.camera_rays += paths.len as u64;
 }
 

@@ -103,3 +103,105 @@ impl<F: Lanes> Slabs<F> {
         any
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bvh::{Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, Rays};
+    use crate::lanes::ArrayF;
+    use crate::scene::NONE;
+
+    /// Numbers between -1 and 1.
+    struct Random(u32);
+
+    impl Random {
+        fn next(&mut self) -> f32 {
+            self.0 += 1;
+            (crate::sampling::sampler::hash3(7, self.0, 0) >> 40) as f32 / (1u32 << 23) as f32 - 1.0
+        }
+        fn vector(&mut self) -> [f32; 3] {
+            [self.next(), self.next(), self.next()]
+        }
+    }
+
+    /// A ball whose vertices lie every so many degrees.
+    fn ball() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+        let (around, down) = (24u32, 12u32);
+        let vertex = |k: u32, row: u32| {
+            let (sin, cos) = (row as f32 / down as f32 * std::f32::consts::PI).sin_cos();
+            let (y, x) = (k as f32 / around as f32 * std::f32::consts::TAU).sin_cos();
+            [sin * x, cos, sin * y]
+        };
+        let positions = (0..=down).flat_map(|row| (0..around).map(move |k| vertex(k, row))).collect();
+        let at = |k: u32, row: u32| row * around + k % around;
+        let square = |k: u32, row: u32| {
+            [[at(k, row), at(k + 1, row), at(k, row + 1)], [at(k + 1, row), at(k + 1, row + 1), at(k, row + 1)]]
+        };
+        let triangles = (0..down).flat_map(|row| (0..around).flat_map(move |k| square(k, row))).collect();
+        (positions, triangles)
+    }
+
+    /// Whatever a ray hits, it passes a box: with a few placed meshes, into the largest of which the boxes look, and with so many that
+    /// they do not.
+    #[test]
+    fn rays_that_hit_pass_a_box() {
+        let (positions, triangles) = ball();
+        let mesh = MeshGeometry { positions: &positions, triangles: &triangles, first_primitive: 0 };
+        let mut random = Random(0);
+        for (placed, looked_into) in [(1, true), (2, true), (5, true), (40, false)] {
+            let mut place = || {
+                let (o, mut rows) = (random.vector(), [random.vector(), random.vector(), random.vector()]);
+                (0..3).for_each(|k| rows[k][k] += 1.5);
+                std::array::from_fn(|k| [0.3 * rows[k][0], 0.3 * rows[k][1], 0.3 * rows[k][2], 3.0 * o[k]])
+            };
+            let instances: Vec<_> =
+                (0..placed).map(|_| InstanceGeometry { mesh: 0, placement: Some(place()) }).collect();
+            let geometry = Geometry { spheres: &[], meshes: &[mesh], instances: &instances };
+            let accel = Accel::build(&geometry, Acceleration::Bvh).expect("a tree");
+            assert_eq!(accel.top_boxes().len > placed.min(8), looked_into, "{placed}");
+            let mut batch = Batch::new();
+            let (mut hit, mut sorted_out) = (0, 0);
+            for _ in 0..100 {
+                let len = 1000;
+                for ray in 0..len {
+                    let (o, d) = (random.vector(), random.vector());
+                    for axis in 0..3 {
+                        batch.paths.origin[axis][ray] = 5.0 * o[axis];
+                        batch.paths.direction[axis][ray] = d[axis];
+                    }
+                    batch.hits.t[ray] = f32::INFINITY;
+                }
+                batch.paths.len = len;
+                reach_closest::<ArrayF<1>>(accel.top_boxes(), &mut batch);
+                let reaching = batch.active[..batch.active_len].to_vec();
+                let (origin, direction) = (&batch.paths.origin, &batch.paths.direction);
+                let from = vec![NONE; len];
+                let rays = Rays {
+                    ox: &origin[0][..len],
+                    oy: &origin[1][..len],
+                    oz: &origin[2][..len],
+                    dx: &direction[0][..len],
+                    dy: &direction[1][..len],
+                    dz: &direction[2][..len],
+                    from_primitive: &from,
+                    from_instance: &from,
+                };
+                let mut hits = Hits {
+                    t: &mut batch.hits.t[..len],
+                    primitive: &mut batch.hits.primitive[..len],
+                    instance: &mut batch.hits.instance[..len],
+                };
+                hits.primitive.fill(NONE);
+                let all: Vec<u32> = (0..len as u32).collect();
+                accel.closest(&rays, &all, &mut hits, Coherence::Incoherent);
+                for ray in all.iter().filter(|&&ray| hits.primitive[ray as usize] != NONE) {
+                    hit += 1;
+                    assert!(reaching.binary_search(ray).is_ok(), "{placed} placed: ray {ray} hits and passes no box");
+                }
+                sorted_out += len - reaching.len();
+            }
+            println!("{placed} placed: {hit} of 100000 hit, {sorted_out} pass no box");
+            assert!(hit > 200 && sorted_out > 200, "{placed}: {hit} {sorted_out}");
+        }
+    }
+}

@@ -73,7 +73,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         // What an aimed ray finds other than mirrors, glass and glossy surfaces, its path's own ray finds.
         let aimed = if aims.is_some() { valid & has(slot, path::AIMED) } else { F::M::from_bits(0) };
         let left = if open { valid & !hit & !aimed } else { F::M::from_bits(0) };
-        let mut seen = throughput.scale(eta2).mul(background);
+        let mut shown = eta2;
+        if batch.glints != 0 {
+            let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
+            let mirrors_and_glass = (slot & F::U::splat(!(path::SLOT | path::BRANCH))).eq(F::U::splat(0));
+            shown = F::select(mirrors_and_glass, eta2 * F::gather(&batch.glint_weight, item), eta2);
+        }
+        let mut seen = throughput.scale(shown).mul(background);
         if !hit.any() {
             add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, left);
             continue;
@@ -94,7 +100,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
                 weight = F::select(by_photons, zero, weight);
             }
-            let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(eta2 * weight);
+            let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(shown * weight);
             seen = V3::select(emits, shines, seen);
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
@@ -104,6 +110,15 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         let mut bsdf = Bsdf::at(tables, &s, surfaces);
+        if pass.glints {
+            // Chains end at all other surfaces.
+            surfaces = surfaces & (bsdf.mirror | bsdf.transparent);
+            bsdf.diffuse = F::M::from_bits(0);
+            bsdf.glossy = F::M::from_bits(0);
+            if !surfaces.any() {
+                continue;
+            }
+        }
         let wo = direction.neg();
         if let Some(aims) = aims
             && vertex > 0

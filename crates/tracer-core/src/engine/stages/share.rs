@@ -42,7 +42,7 @@ const fn classes<const COUNT: usize>() -> [u64; COUNT] {
 fn classes_of(item: &Item) -> &'static [u64] {
     static EARLY: [u64; 16] = classes();
     static LATE: [u64; 32] = classes();
-    if item.is_spread() { &EARLY } else { &LATE }
+    if item.spread { &EARLY } else { &LATE }
 }
 
 /// Adds the lanes of the mask to the members.

@@ -99,6 +99,36 @@ fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scen
     assert_agree(name, size, scenes, &|r, c| shared.estimate(r, c), &|r, c| alone.estimate(r, c));
 }
 
+/// Asserts that glint chains beside photons change no picture in which photons bring next to nothing: to what surfaces that reflect a
+/// thousandth show of lamps, which is 3e-5 at most, photons may do what they may do elsewhere.
+pub fn assert_chains_are_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
+    let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
+        let mut desc = desc.clone();
+        desc.render.caustics = caustics;
+        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
+    };
+    let size = [desc.image.width.value, desc.image.height.value];
+    let (chains, paths) = (rendered(Caustics::Photons, 24, 6000), rendered(Caustics::None, 96, 7000));
+    assert!(chains.0.iter().all(|film| film.caustics && film.counters.chain_rays > 0), "{name}: no chains");
+    let allow = |rectangle: Rectangle, channel: usize| {
+        let (ours, theirs) = (chains.estimate(rectangle, channel), paths.estimate(rectangle, channel));
+        let excess = ((ours.mean - theirs.mean).abs() - BLUR * 3e-5).max(0.0);
+        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
+    };
+    assert_agree(name, size, scenes, &allow, &|r, c| paths.estimate(r, c));
+}
+
+/// Variance of a picture with so many samples, summed over its pixels and channels.
+pub fn noise(desc: &SceneDesc, samples: u32) -> f64 {
+    let renderings = Renderings::new(&super::compiled(desc), samples, 8000);
+    let [width, height] = [desc.image.width.value, desc.image.height.value];
+    let of_pixel = |(x, y): (u32, u32)| -> f64 {
+        // The estimate's variance is that of the mean over the renderings.
+        (0..3).map(|channel| renderings.estimate([x, y, x + 1, y + 1], channel).variance * f64::from(SEEDS)).sum()
+    };
+    pixels([0, 0, width, height]).map(of_pixel).sum()
+}
+
 /// Asserts that a picture with photons is that without, but for a bias: of a tile, [`BLUR`] of what it holds, because the light of a
 /// caustic is spread over the radius of a map and tiles are small; of the whole picture, `bias` of its mean.
 pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, bias: f64, scenes: usize) {

@@ -224,7 +224,8 @@ fn report(
         + counters.scattered_rays
         + counters.shadow_rays
         + counters.segments
-        + counters.photon_rays;
+        + counters.photon_rays
+        + counters.chain_rays;
     let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
@@ -253,6 +254,7 @@ fn report(
             shadow: counters.shadow_rays,
             segments: counters.segments,
             photons: counters.photon_rays,
+            chains: counters.chain_rays,
             total: rays,
             per_second: per_second(rays),
         },

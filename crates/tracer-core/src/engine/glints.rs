@@ -1,0 +1,100 @@
+//! Glint chains: what mirrors and glass show of the lamps, sampled more often than all else.
+//!
+//! A lamp in a bent mirror or behind glass is smaller than a pixel and as bright as the lamp: few of the pixel's paths find it. To follow a
+//! path over mirrors and glass only is cheap beside the rest of a sample. So in tiles where a mirror or glass is seen every pixel follows
+//! [`CHAINS`] more at each sample index, which end at all other surfaces, and what a path sees that has met mirrors and glass only is the
+//! mean over its own and theirs. Where, a pilot tells, whose random choices are its own, so that weights do not depend on what they weigh:
+//! unbiased. It depends on scene, seed and tile: the same for any crop and any number of samples.
+
+use super::batch::{BLOCK_PIXELS, Batch, Counters, ITEMS, Item, path};
+use super::kernels::Kernels;
+use super::statistics::Stage;
+use super::trace::{Pass, closest};
+use super::{Worker, on_all};
+use crate::sampling::sampler::hash3;
+use crate::scene::{Material, Scene};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Chains of a pixel at each sample index, beside its own path. Three and a path's own four are one sequence of samples each.
+pub const CHAINS: u32 = 3;
+/// What is left to the path's own share.
+pub const WEIGHT: f32 = 1.0 / (CHAINS as f32 + 1.0);
+
+/// Which of these tiles have chains: those where the camera ray of a pixel, of one in four, meets a mirror or glass.
+pub fn pilot(
+    scene: &Scene,
+    kernels: &Kernels,
+    pass: Pass<'_>,
+    tiles: &[(u32, u32)],
+    workers: &[Mutex<Worker>],
+) -> Vec<bool> {
+    let specular = |material: &Material| matches!(material, Material::Mirror { .. } | Material::Transparent { .. });
+    if !scene.materials.iter().any(specular) {
+        return vec![false; tiles.len()];
+    }
+    let pass = of_chains(pass, 0x0091_1075);
+    let next = AtomicUsize::new(0);
+    let seen: Vec<Mutex<u32>> = tiles.chunks(ITEMS).map(|_| Mutex::default()).collect();
+    let work = |worker: &mut Worker| {
+        let batch = &mut worker.batch;
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            let (Some(tiles), Some(seen)) = (tiles.chunks(ITEMS).nth(k), seen.get(k)) else { break };
+            batch.watch.resume();
+            let start = Instant::now();
+            batch.items.clear();
+            batch.items.extend(tiles.iter().map(|&(x, y)| Item::new(x, y, 0, 0)));
+            batch.start(0);
+            follow(scene, kernels, pass, u32::MAX, 1, batch);
+            let goes_on = &batch.paths.slot[..batch.paths.len];
+            let items = goes_on.iter().fold(0, |items, &slot| items | 1 << ((slot & path::SLOT) / BLOCK_PIXELS as u32));
+            *seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = items;
+            batch.watch.costs.photons_since(start);
+        }
+    };
+    on_all(workers, &work);
+    let of_chunk = |seen: Mutex<u32>| seen.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let bits: Vec<u32> = seen.into_iter().map(of_chunk).collect();
+    (0..tiles.len()).map(|k| bits[k / ITEMS] >> (k % ITEMS) & 1 == 1).collect()
+}
+
+/// The pass of chains with random choices of their own.
+fn of_chains(pass: Pass<'_>, choices: u32) -> Pass<'_> {
+    Pass { seed: hash3(pass.seed, 0, choices) as u32, reuse: false, photons: None, glints: true, ..pass }
+}
+
+/// Adds the chains of the items `batch.glints` to their slots.
+pub fn chains(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch) {
+    let start = Instant::now();
+    let pass = of_chains(pass, 0x0091_1076);
+    let samples: [u32; ITEMS] = std::array::from_fn(|k| batch.items.get(k).map_or(0, |item| item.sample));
+    for chain in 0..CHAINS {
+        for (item, sample) in batch.items.iter_mut().zip(samples) {
+            item.sample = sample * CHAINS + chain;
+        }
+        follow(scene, kernels, pass, batch.glints, u32::MAX, batch);
+    }
+    for (item, sample) in batch.items.iter_mut().zip(samples) {
+        item.sample = sample;
+    }
+    batch.watch.costs.caustics += start.elapsed().as_secs_f64();
+}
+
+/// Follows a chain from every pixel of these items, a bit each, to so many hits at most.
+fn follow(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, items: u32, hits: u32, batch: &mut Batch) {
+    let Counters { camera_rays, scattered_rays, .. } = batch.counters;
+    kernels.camera(scene, pass.seed, items, batch);
+    batch.watch.lap(Stage::Camera);
+    let mut vertex = 0;
+    while batch.paths.len > 0 && vertex < hits {
+        closest(scene, kernels, vertex == 0, batch);
+        kernels.shade(scene, pass, vertex, batch);
+        batch.watch.lap(Stage::Shade);
+        vertex += 1;
+    }
+    let counters = &mut batch.counters;
+    counters.chain_rays += counters.camera_rays - camera_rays + counters.scattered_rays - scattered_rays;
+    (counters.camera_rays, counters.scattered_rays) = (camera_rays, scattered_rays);
+}
