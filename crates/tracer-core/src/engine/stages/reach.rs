@@ -141,14 +141,13 @@ mod tests {
         (positions, triangles)
     }
 
-    /// Whatever a ray hits, it passes a box: with a few placed meshes, into the largest of which the boxes look, and with so many that
-    /// they do not.
+    /// Whatever a ray hits, it passes a box: with a few placed meshes and with many, into the largest of which the boxes look.
     #[test]
     fn rays_that_hit_pass_a_box() {
         let (positions, triangles) = ball();
         let mesh = MeshGeometry { positions: &positions, triangles: &triangles, first_primitive: 0 };
         let mut random = Random(0);
-        for (placed, looked_into) in [(1, true), (2, true), (5, true), (40, false)] {
+        for placed in [1, 2, 5, 40] {
             let mut place = || {
                 let (o, mut rows) = (random.vector(), [random.vector(), random.vector(), random.vector()]);
                 (0..3).for_each(|k| rows[k][k] += 1.5);
@@ -158,7 +157,7 @@ mod tests {
                 (0..placed).map(|_| InstanceGeometry { mesh: 0, placement: Some(place()) }).collect();
             let geometry = Geometry { spheres: &[], meshes: &[mesh], instances: &instances };
             let accel = Accel::build(&geometry, Acceleration::Bvh).expect("a tree");
-            assert_eq!(accel.top_boxes().len > placed.min(8), looked_into, "{placed}");
+            assert!(accel.top_boxes().len > placed.min(8), "{placed}: the boxes look into no mesh");
             let mut batch = Batch::new();
             let (mut hit, mut sorted_out) = (0, 0);
             for _ in 0..100 {
