@@ -22,10 +22,10 @@ fn at_most(instructions: u64) -> LibraryBenchmarkConfig {
 // Pixels that share, and photons where they are worth it: 64x64 pixels, 4 samples. The balls were 161 M before each sample index had photons
 // of its own, 4096 of them in a picture as small as this, and rays were aimed.
 #[library_benchmark]
-#[bench::balls(args = (balls(64, 4)), config = at_most(216_300_000))]
-#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(243_100_000))]
-#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_221_300_000))]
-#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(213_700_000))]
+#[bench::balls(args = (balls(64, 4)), config = at_most(192_100_000))]
+#[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(243_300_000))]
+#[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(1_205_800_000))]
+#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(210_800_000))]
 fn sharing(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
@@ -34,8 +34,8 @@ fn sharing(scene: Scene) -> Film {
 // one sequence, and gathers of eight have become permutations and transpositions: more instructions, and fewer cycles. Which of it made them
 // dearer by how much was not counted.
 #[library_benchmark]
-#[bench::balls(args = (alone(balls(64, 4))), config = at_most(53_600_000))]
-#[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(90_600_000))]
+#[bench::balls(args = (alone(balls(64, 4))), config = at_most(54_600_000))]
+#[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(90_300_000))]
 fn plain(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
@@ -50,7 +50,7 @@ fn film_of_this_thread(scene: &Scene) -> Film {
 
 // Film to picture.
 #[library_benchmark]
-#[bench::balls(args = (film_of_this_thread(&balls(256, 1))), config = at_most(50_900_000))]
+#[bench::balls(args = (film_of_this_thread(&balls(256, 1))), config = at_most(17_400_000))]
 fn developed(film: Film) -> Image {
     black_box(develop(black_box(&film), &Default::default()))
 }

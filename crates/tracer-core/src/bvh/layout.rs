@@ -3,6 +3,7 @@
 //! Everything lies in one arena of 32-byte units (see [`arena`](super::arena)) and is referred to by [`Ref`], a word
 //! that says what it points to and where. Kernels read the arena through raw pointers, so the layout is `repr(C)`.
 
+use super::bounds::Bounds;
 use bytemuck::{Pod, Zeroable};
 
 /// The arena's grain: every item starts at a unit.
@@ -116,6 +117,42 @@ impl Ref {
             Self(word) if word < Self::INSTANCE => Kind::Spheres((word & 0x1FFF_FFFF) as usize),
             Self(word) => Kind::Instance(word & 0x1FFF_FFFF),
         }
+    }
+}
+
+/// The boxes under the root of a tree, without those that hold nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TopBoxes {
+    /// Lower and upper planes: x lower, x upper, y lower and so on.
+    pub planes: [[f32; 8]; 6],
+    /// How many there are.
+    pub len: usize,
+}
+
+impl TopBoxes {
+    /// The boxes of the root's children; of a tree that is no node, the box of everything.
+    pub(crate) fn of(root: Ref, units: &[Unit], everything: &Bounds) -> Self {
+        let mut top = Self { planes: [[0.0; 8]; 6], len: 0 };
+        match root.kind() {
+            Kind::Node(unit) => {
+                let node: &Node = bytemuck::from_bytes(bytemuck::cast_slice(&units[unit..unit + NODE_UNITS as usize]));
+                for child in (0..8).filter(|&child| node.children[child] != Ref::END) {
+                    for (planes, of_node) in top.planes.iter_mut().zip(&node.planes) {
+                        planes[top.len] = of_node[child];
+                    }
+                    top.len += 1;
+                }
+            }
+            Kind::Nothing => {}
+            Kind::Triangles(_) | Kind::Spheres(_) | Kind::Instance(_) => {
+                for axis in 0..3 {
+                    top.planes[2 * axis][0] = everything.lower[axis];
+                    top.planes[2 * axis + 1][0] = everything.upper[axis];
+                }
+                top.len = 1;
+            }
+        }
+        top
     }
 }
 

@@ -22,7 +22,6 @@ mod kernels;
 mod layout;
 mod ray_space;
 mod sphere;
-mod top;
 mod triangle;
 mod validate;
 
@@ -33,8 +32,8 @@ pub use sphere::sphere_hit;
 pub use triangle::triangle_hit;
 pub use validate::Invalid;
 
+pub(crate) use layout::TopBoxes;
 pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
-pub(crate) use top::TopBoxes;
 
 use arena::Arena;
 use kernels::{Batch, MeshRecord, TreeView};
@@ -223,7 +222,7 @@ impl Accel {
         counters
     }
 
-    /// A ray that passes none of these boxes hits nothing here.
+    /// The boxes under the root: a ray that passes none of them hits nothing here.
     pub(crate) fn top_boxes(&self) -> &TopBoxes {
         &self.top
     }

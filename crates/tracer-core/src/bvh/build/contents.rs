@@ -168,35 +168,29 @@ pub(crate) fn object_from_world(rows: &[[f32; 4]; 3]) -> Affine3A {
     Affine3A { matrix3: Mat3A::from_cols(column(0), column(1), column(2)), translation: column(3) }.inverse()
 }
 
-/// The world box of a part of a placed mesh, wide enough for the rounding of everything that happens in its object space; `None`
+/// The world box of a placed mesh, wide enough for the rounding of everything that happens in its object space; `None`
 /// where the placement is of no use.
 ///
 /// The corners go through the inverse, in f64, of the very matrix that rays go through, so that the two do not
 /// disagree. A ray's point there is off by 2^-21 of the terms of its transformation and by 2^-18 of the mesh's reach
 /// in its box and triangle tests (see [`RaySpace`](super::super::ray_space)); taken to the world, that is the padding.
-pub(crate) fn instance_bounds(object_from_world: &Affine3A, mesh: &Bounds, part: &Bounds) -> Option<Bounds> {
+pub(crate) fn instance_bounds(object_from_world: &Affine3A, mesh: &Bounds) -> Option<Bounds> {
     let rows = object_from_world.matrix3.to_cols_array().map(f64::from);
     let inverse = DMat3::from_cols_array(&rows);
     let translation = object_from_world.translation.as_dvec3();
     let matrix = inverse.inverse();
-    let in_world = |of: &Bounds| {
-        let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corner in 0..8 {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { of.lower[axis] } else { of.upper[axis] };
-            let point = DVec3::new(f64::from(pick(0)), f64::from(pick(1)), f64::from(pick(2)));
-            let point = matrix * (point - translation);
-            lower = lower.min(point);
-            upper = upper.max(point);
-        }
-        (lower, upper)
-    };
-    let (lower, upper) = in_world(mesh);
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { mesh.lower[axis] } else { mesh.upper[axis] };
+        let point = matrix * (DVec3::new(f64::from(pick(0)), f64::from(pick(1)), f64::from(pick(2))) - translation);
+        lower = lower.min(point);
+        upper = upper.max(point);
+    }
     let farthest = lower.abs().max(upper.abs()) + (upper - lower);
     let reach = mesh.lower.abs().max(mesh.upper.abs()).truncate().max_element();
     let terms = abs(&inverse) * farthest + translation.abs();
     let error = terms / 2_097_152.0 + DVec3::splat(f64::from(reach) / 262_144.0);
     let pad = abs(&matrix) * error + farthest / 2_097_152.0;
-    let (lower, upper) = in_world(part);
     let (lower, upper) = ((lower - pad).as_vec3(), (upper + pad).as_vec3());
     let useful = lower.abs().max(upper.abs()).cmple(glam::Vec3::splat(RANGE)).all();
     useful.then(|| Bounds::new(lower.to_array(), upper.to_array()))

@@ -12,12 +12,10 @@ use super::arena::Arena;
 use super::bounds::Bounds;
 use super::geometry::{Geometry, NONE};
 use super::kernels::{DEEPEST, Level, MeshRecord};
-use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref};
-use super::top::TopBoxes;
+use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, TopBoxes};
 use super::{Accel, AccelStats, Acceleration};
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
-pub(crate) use contents::instance_bounds;
-use contents::{Contents, TriangleList, object_from_world};
+use contents::{Contents, TriangleList, instance_bounds, object_from_world};
 use rayon::prelude::*;
 use std::time::Instant;
 use wide::Plan;
@@ -167,7 +165,7 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         bytes: (arena.bytes() + table_bytes) as u64,
         seconds: start.elapsed().as_secs_f64(),
     };
-    let top = TopBoxes::of(root, arena.units(), &meshes, &world.contents.bounds);
+    let top = TopBoxes::of(root, arena.units(), &world.contents.bounds);
     Ok(Accel {
         arena,
         root,
@@ -235,7 +233,7 @@ fn instance_boxes(
         let Some(rows) = rows_of(geometry, direct, index) else { return Ok(None) };
         let tree = trees[geometry.instances[index].mesh as usize].as_ref();
         let Some(tree) = tree.filter(|tree| !tree.nodes.is_empty()) else { return Ok(None) };
-        let bounds = instance_bounds(&object_from_world(&rows), &tree.contents.bounds, &tree.contents.bounds);
+        let bounds = instance_bounds(&object_from_world(&rows), &tree.contents.bounds);
         bounds.map(Some).ok_or(BuildError::Placement { instance: index as u32 })
     };
     (0..geometry.instances.len()).into_par_iter().map(one).collect()
@@ -252,7 +250,7 @@ fn write_records(geometry: &Geometry, direct: &[u32], trees: &[Option<Tree>], re
         };
         let Some(tree) = trees[mesh as usize].as_ref().filter(|tree| !tree.nodes.is_empty()) else { return };
         let map = object_from_world(&rows);
-        let Some(bounds) = instance_bounds(&map, &tree.contents.bounds, &tree.contents.bounds) else { return };
+        let Some(bounds) = instance_bounds(&map, &tree.contents.bounds) else { return };
         let (columns, t) = (map.matrix3, map.translation);
         record.object_from_world =
             std::array::from_fn(|row| [columns.x_axis[row], columns.y_axis[row], columns.z_axis[row], t[row]]);

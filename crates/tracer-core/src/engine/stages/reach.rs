@@ -141,7 +141,7 @@ mod tests {
         (positions, triangles)
     }
 
-    /// Whatever a ray hits, it passes a box: with a few placed meshes and with many, into the largest of which the boxes look.
+    /// Whatever a ray hits, it passes a box: with a few placed meshes and with many.
     #[test]
     fn rays_that_hit_pass_a_box() {
         let (positions, triangles) = ball();
@@ -157,7 +157,6 @@ mod tests {
                 (0..placed).map(|_| InstanceGeometry { mesh: 0, placement: Some(place()) }).collect();
             let geometry = Geometry { spheres: &[], meshes: &[mesh], instances: &instances };
             let accel = Accel::build(&geometry, Acceleration::Bvh).expect("a tree");
-            assert!(accel.top_boxes().len > placed.min(8), "{placed}: the boxes look into no mesh");
             let mut batch = Batch::new();
             let (mut hit, mut sorted_out) = (0, 0);
             for _ in 0..100 {
