@@ -4,7 +4,7 @@
 
 use crate::support::compare::{assert_chains_are_unbiased, noise};
 use crate::support::describe::*;
-use crate::support::meshes::icosphere;
+use crate::support::meshes::{icosphere, square};
 use scene_format::SceneDesc;
 use scene_format::desc::{Caustics, Object, Reuse, Shading, Transform};
 
@@ -13,18 +13,21 @@ const SCENES: usize = 2;
 
 fn nearly_black(objects: Vec<Object>) -> SceneDesc {
     let floor = sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.001; 3]));
-    let lamps = vec![light([6.0, 14.0, 6.0], 2.0, [40.0, 30.0, 20.0]), light([-2.0, 6.0, -4.0], 0.5, [90.0; 3])];
+    let lamps = vec![light([6.0, 14.0, 6.0], 2.0, [40.0, 30.0, 20.0]), light([-2.0, 6.0, -4.0], 1.0, [40.0; 3])];
     scene(32, lamps, [floor].into_iter().chain(objects).collect())
         .camera([0.0, 5.0, 18.0], [0.0, 3.0, 0.0], 40.0)
         .bounces(5)
 }
 
-/// Balls that show the lamps and each other, a lamp in view and one behind glass.
+/// Balls that show the lamps and each other; a matt square stands before one of the lamps, where chains must end as paths do.
 fn balls() -> SceneDesc {
+    let before_the_lamp = vec![rotate([1.0, 0.0, 0.0], 90.0), Transform::Translate([-1.636, 5.818, 0.0])];
+    let screen = mesh(&square(1.0).obj("square-1"), diffuse([0.001; 3]), Shading::Flat, before_the_lamp);
     nearly_black(vec![
         sphere([-3.5, 2.5, 0.0], 2.5, mirror([0.9, 0.8, 0.7])),
         sphere([0.5, 6.0, 0.0], 2.0, glass(1.5)),
         sphere([3.5, 2.0, 3.0], 2.0, glass(1.3)),
+        screen,
     ])
 }
 
