@@ -1,7 +1,7 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter,
+    Acceleration, Caustics, Indirect, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter,
     TextureWrap, ToneMap,
 };
 use crate::desc::{DepthOfField, Pattern, TransformWords};
@@ -37,7 +37,7 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 15] = [
+pub(crate) const CHOICES: [&EnumDef; 16] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -45,6 +45,7 @@ pub(crate) const CHOICES: [&EnumDef; 15] = [
     &Integrator::DEF,
     &Reuse::DEF,
     &Caustics::DEF,
+    &Indirect::DEF,
     &Light::DEF,
     &Material::DEF,
     &Pattern::DEF,
@@ -56,7 +57,7 @@ pub(crate) const CHOICES: [&EnumDef; 15] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 39] = [
+const SNIPPETS: [(&str, &str, &str); 41] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -75,6 +76,8 @@ const SNIPPETS: [(&str, &str, &str); 39] = [
     ("Reuse", "None", "reuse: None"),
     ("Caustics", "Photons", "caustics: Photons"),
     ("Caustics", "None", "caustics: None"),
+    ("Indirect", "Paths", "indirect: Paths"),
+    ("Indirect", "Map", "indirect: Map"),
     ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
     ("Material", "Diffuse", "Diffuse(albedo: (0.8, 0.3, 0.1))"),
     ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
@@ -120,7 +123,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
         "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
-        "Acceleration" | "Integrator" | "Reuse" | "Caustics" => render = format!("{render}, {words}"),
+        "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "Pattern" | "TextureFilter" | "TextureWrap" => {

@@ -197,6 +197,8 @@ pub struct Film {
     pub reuse: bool,
     /// Photons carried light over mirrors and glass: the picture is right in the limit of many samples rather than on average.
     pub caustics: bool,
+    /// A map brought the indirect light of second vertices.
+    pub indirect: bool,
     /// The most that the largest channel of a sample counts, where samples are clamped: the picture is then too dark where they were.
     pub clamp: Option<f32>,
     /// Lane type that was used.
@@ -228,6 +230,7 @@ impl Film {
             costs: Costs::default(),
             reuse: false,
             caustics: false,
+            indirect: false,
             clamp,
             level: Level::best(),
             threads: 1,

@@ -104,12 +104,14 @@ pub struct Transport {
     pub reuse: bool,
     /// Photons carried light over mirrors and glass (`render.caustics`): asked for, and worth it in this scene.
     pub caustics: bool,
+    /// A map brought the indirect light of second vertices (`render.indirect`).
+    pub indirect: bool,
     /// What all switches together make of the picture.
     pub estimate: Estimate,
     /// Seconds of rendering, summed over threads: what the shares of the switches are of.
     pub seconds: f64,
     /// Each switch.
-    pub switches: [Switch; 3],
+    pub switches: [Switch; 4],
     /// What clamping took; null where samples are not clamped.
     pub clamped: Option<ClampedReport>,
 }
@@ -190,12 +192,14 @@ impl Transport {
         let switches = [
             switch("reuse", format!("{:?}", asked.reuse), film.reuse, Estimate::Unbiased, costs.reuse),
             switch("caustics", format!("{:?}", asked.caustics), film.caustics, Estimate::Consistent, costs.caustics),
+            switch("indirect", format!("{:?}", asked.indirect), film.indirect, Estimate::Consistent, costs.indirect),
             switch("clamp", limit, film.clamp.is_some(), Estimate::Biased, costs.clamp),
         ];
         Transport {
             integrator: format!("{:?}", asked.integrator),
             reuse: film.reuse,
             caustics: film.caustics,
+            indirect: film.indirect,
             estimate: switches.iter().map(|switch| switch.estimate).fold(Estimate::Unbiased, Estimate::max),
             seconds: costs.total,
             switches,
@@ -207,7 +211,8 @@ impl Transport {
     pub fn to_text(&self) -> String {
         let mut text = format!("what the switches of `render` cost (the picture is {})", self.estimate.name());
         for Switch { name, setting, on, estimate, seconds, share } in &self.switches {
-            let setting = if *on || setting == "None" { setting.clone() } else { format!("{setting}, not used") };
+            let asks_for_it = !matches!(setting.as_str(), "None" | "Paths");
+            let setting = if *on || !asks_for_it { setting.clone() } else { format!("{setting}, not used") };
             let estimate = estimate.name();
             text += &format!("\n  {name:<9} {seconds:8.3}  {:4.1} %  {setting}: {estimate}", 100.0 * share);
         }
@@ -240,6 +245,8 @@ pub struct Rays {
     pub photons: u64,
     /// Rays of glint chains and of the pilot that tells where they are followed.
     pub chains: u64,
+    /// Rays of the records of the indirect map.
+    pub records: u64,
     /// All.
     pub total: u64,
     /// All, per second of `seconds.render`.

@@ -21,7 +21,7 @@ pub use material::{Albedo, Material, MaterialRef, NamedMaterial, Texture, Textur
 pub use object::{Mesh, Object, Placements, Shading, Sphere};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
-pub use view::{Acceleration, Camera, Caustics, Image, Integrator, Render, Reuse};
+pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
 use crate::schema::Rule;

@@ -12,7 +12,9 @@ use crate::scene::{
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
-use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
+use scene_format::desc::{
+    Acceleration, Caustics, Emission, Indirect, Integrator, Object, PixelFilter, Reuse, SphereLight,
+};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
@@ -102,6 +104,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         // What a ray sees where it leaves the scene is its own pixel's, and shared or not it never paid (docs/noise.md).
         reuse: full && desc.render.reuse == Reuse::Blocks && desc.background == [0.0; 3],
         caustics: full && desc.render.caustics == Caustics::Photons,
+        indirect: full && desc.render.indirect == Indirect::Map,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         background: desc.background.map(|x| x as f32),
         spheres,

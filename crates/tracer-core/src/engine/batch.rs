@@ -107,6 +107,8 @@ pub mod path {
     pub const BRANCH: u32 = 32 * SHARED;
     /// The path's ray was aimed at a caster ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy surface only.
     pub const AIMED: u32 = 64 * SHARED;
+    /// The path's ray has left the second vertex of a record ([`super::super::indirect`]): the lamp that it meets is not indirect light.
+    pub const INDIRECT: u32 = 128 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -307,6 +309,8 @@ pub struct Suffixes {
     pub point: Columns,
     /// Geometric normal, on the side that light leaves.
     pub normal: Columns,
+    /// The way from the member that found it.
+    pub distance: Vec<f32>,
     /// Slot of the path that found it; its radiance is in the upper half of [`Batch::radiance`] there.
     pub slot: Vec<u32>,
     /// The surface.
@@ -355,6 +359,8 @@ pub struct Counters {
     pub photon_rays: u64,
     /// Rays of glint chains and of their pilot.
     pub chain_rays: u64,
+    /// Rays of the records of the indirect map: from the camera, from surfaces onward and to lights.
+    pub record_rays: u64,
     /// Samples that were not finite.
     pub dropped: u64,
 }
@@ -368,6 +374,7 @@ impl Counters {
         self.segments += other.segments;
         self.photon_rays += other.photon_rays;
         self.chain_rays += other.chain_rays;
+        self.record_rays += other.record_rays;
         self.dropped += other.dropped;
     }
 }
@@ -464,6 +471,7 @@ impl Batch {
                 len: 0,
                 point: columns(),
                 normal: columns(),
+                distance: floats(),
                 slot: words(),
                 primitive: words(),
                 instance: words(),
@@ -482,14 +490,14 @@ impl Batch {
             watch: Watch::default(),
         }
     }
+
     /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is [`WEIGHT`].
-    pub fn start(&mut self, glints: u32) {
-        self.glints = glints;
+    pub fn start(&mut self) {
         for (k, item) in self.items.iter().enumerate() {
             let (shift, offset) = item.z_of_pixels();
             self.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
             self.item_scale[k] = 1 << shift;
-            self.glint_weight[k] = if glints >> k & 1 == 1 { WEIGHT } else { 1.0 };
+            self.glint_weight[k] = if self.glints >> k & 1 == 1 { WEIGHT } else { 1.0 };
         }
         let slots = self.items.len() * BLOCK_PIXELS;
         for channel in &mut self.radiance {

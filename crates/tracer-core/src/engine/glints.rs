@@ -9,12 +9,11 @@
 use super::batch::{BLOCK_PIXELS, Batch, Counters, ITEMS, Item, path};
 use super::kernels::Kernels;
 use super::statistics::Stage;
-use super::trace::{Pass, closest};
-use super::{Worker, on_all};
+use super::trace::{Pass, Task, closest};
+use super::{Worker, each};
 use crate::sampling::sampler::hash3;
 use crate::scene::{Material, Scene};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Chains of a pixel at each sample index, beside its own path. Three and a path's own four are one sequence of samples each.
@@ -35,34 +34,33 @@ pub fn pilot(
         return vec![false; tiles.len()];
     }
     let pass = of_chains(pass, 0x0091_1075);
-    let next = AtomicUsize::new(0);
-    let seen: Vec<Mutex<u32>> = tiles.chunks(ITEMS).map(|_| Mutex::default()).collect();
-    let work = |worker: &mut Worker| {
+    let of_batch = each(workers, tiles.len().div_ceil(ITEMS), |k, worker| {
         let batch = &mut worker.batch;
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(tiles), Some(seen)) = (tiles.chunks(ITEMS).nth(k), seen.get(k)) else { break };
-            batch.watch.resume();
-            let start = Instant::now();
-            batch.items.clear();
-            batch.items.extend(tiles.iter().map(|&(x, y)| Item::new(x, y, 0, 0)));
-            batch.start(0);
-            follow(scene, kernels, pass, u32::MAX, 1, batch);
-            let goes_on = &batch.paths.slot[..batch.paths.len];
-            let items = goes_on.iter().fold(0, |items, &slot| items | 1 << ((slot & path::SLOT) / BLOCK_PIXELS as u32));
-            *seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = items;
-            batch.watch.costs.photons_since(start);
-        }
-    };
-    on_all(workers, &work);
-    let of_chunk = |seen: Mutex<u32>| seen.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    let bits: Vec<u32> = seen.into_iter().map(of_chunk).collect();
-    (0..tiles.len()).map(|k| bits[k / ITEMS] >> (k % ITEMS) & 1 == 1).collect()
+        batch.watch.resume();
+        let start = Instant::now();
+        batch.items.clear();
+        batch.items.extend(tiles.iter().skip(k * ITEMS).take(ITEMS).map(|&(x, y)| Item::new(x, y, 0, 0)));
+        batch.glints = 0;
+        batch.start();
+        follow(scene, kernels, pass, u32::MAX, 1, batch);
+        let goes_on = &batch.paths.slot[..batch.paths.len];
+        let items = goes_on.iter().fold(0, |items, &slot| items | 1u32 << ((slot & path::SLOT) / BLOCK_PIXELS as u32));
+        batch.watch.costs.photons_since(start);
+        items
+    });
+    (0..tiles.len()).map(|k| of_batch[k / ITEMS] >> (k % ITEMS) & 1 == 1).collect()
 }
 
 /// The pass of chains with random choices of their own.
 fn of_chains(pass: Pass<'_>, choices: u32) -> Pass<'_> {
-    Pass { seed: hash3(pass.seed, 0, choices) as u32, reuse: false, photons: None, glints: true, ..pass }
+    Pass {
+        seed: hash3(pass.seed, 0, choices) as u32,
+        reuse: false,
+        photons: None,
+        indirect: None,
+        task: Task::Chains,
+        ..pass
+    }
 }
 
 /// Adds the chains of the items `batch.glints` to their slots.

@@ -6,6 +6,7 @@
 mod batch;
 mod caustics;
 mod glints;
+mod indirect;
 mod kernels;
 mod lane_io;
 mod stages;
@@ -43,6 +44,8 @@ pub struct RenderOptions {
     pub reuse: Option<bool>,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass.
     pub caustics: Option<bool>,
+    /// Whether a map brings the indirect light of second vertices; only where pixels share.
+    pub indirect: Option<bool>,
     /// The most that the largest channel of a sample counts, in W/(sr m^2): what is above is scaled down to it as a whole. A sample is
     /// all that a pixel gets at one sample index, its part of what others have found and of photons included. What is not a finite number
     /// above zero is no limit.
@@ -87,7 +90,8 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         reuse: options.reuse.unwrap_or(scene.reuse),
         lanes: level.lanes(),
         photons: None,
-        glints: false,
+        indirect: None,
+        task: trace::Task::Picture,
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
@@ -107,13 +111,21 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
         None => vec![false; tiles.len()],
     };
-    for pass in passes(samples, if caustics.is_some() { 4 * SAMPLES } else { 16 * SAMPLES }) {
+    // A second vertex scatters once more.
+    let wants_indirect = pass_options.reuse && scene.max_bounces > 1 && options.indirect.unwrap_or(scene.indirect);
+    let has_maps = caustics.is_some() || wants_indirect;
+    for pass in passes(samples, if has_maps { 4 * SAMPLES } else { 16 * SAMPLES }) {
         if let Some(caustics) = &mut caustics {
             caustics.prepare(scene, &kernels, pass.clone(), &workers);
         }
-        // Whole tiles per batch: a tile's samples of one pass are added by one thread. A batch has one map of photons, and each sample
-        // index its own.
-        let at_once = if caustics.is_some() { 1 } else { (pass.end - pass.start).min(SAMPLES) };
+        let indirect = if wants_indirect && !tiles.is_empty() {
+            indirect::maps(scene, &kernels, pass_options, caustics.as_ref(), pass.clone(), &workers)
+        } else {
+            Vec::new()
+        };
+        // Whole tiles per batch: a tile's samples of one pass are added by one thread. A batch has one map of photons and one of indirect
+        // light, and each sample index its own.
+        let at_once = if has_maps { 1 } else { (pass.end - pass.start).min(SAMPLES) };
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
         let cells: Vec<Mutex<&mut Tile>> = film.tiles_mut().map(Mutex::new).collect();
@@ -142,7 +154,8 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                     batch.watch.start(options.statistics);
                     let start = Instant::now();
                     let photons = caustics.as_ref().and_then(|c| c.map(sample));
-                    trace::trace(scene, &kernels, trace::Pass { photons, ..pass_options }, batch);
+                    let indirect = indirect.get((sample - pass.start) as usize);
+                    trace::trace(scene, &kernels, trace::Pass { photons, indirect, ..pass_options }, batch);
                     let cells = &cells[first..first + mine.len()];
                     if let Some(limit) = clamp {
                         clamp_samples(limit, count, cells, batch);
@@ -177,6 +190,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     film.statistics = options.statistics.then_some(statistics);
     film.reuse = pass_options.reuse;
     film.caustics = caustics.is_some();
+    film.indirect = wants_indirect;
     film.level = level;
     film.threads = threads;
     film
@@ -233,6 +247,26 @@ fn on_all(workers: &[Mutex<Worker>], work: &(impl Fn(&mut Worker) + Sync)) {
             }
         });
     }
+}
+
+/// Has the workers do pieces 0 .. `count` of a work, whoever is free the next one; the results in the order of the pieces.
+fn each<T: Send>(workers: &[Mutex<Worker>], count: usize, work: impl Fn(usize, &mut Worker) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::with_capacity(count));
+    on_all(workers, &|worker: &mut Worker| {
+        let mut mine = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            if k >= count {
+                break;
+            }
+            mine.push((k, work(k, worker)));
+        }
+        results.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).append(&mut mine);
+    });
+    let mut results = results.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    results.sort_by_key(|&(k, _)| k);
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 fn lock(worker: &Mutex<Worker>) -> std::sync::MutexGuard<'_, Worker> {

@@ -23,6 +23,8 @@ pub enum Stage {
     Photons,
     /// Photons around diffuse vertices.
     Gather,
+    /// Records into indirect maps. What makes them is in the stages before.
+    Records,
     /// What pixels share: which segments, and each one's part.
     Share,
     /// Samples onto the film.
@@ -31,7 +33,7 @@ pub enum Stage {
 
 impl Stage {
     /// All of them.
-    pub const ALL: [Stage; 11] = [
+    pub const ALL: [Stage; 12] = [
         Stage::Camera,
         Stage::Spheres,
         Stage::Reach,
@@ -41,6 +43,7 @@ impl Stage {
         Stage::Deposit,
         Stage::Photons,
         Stage::Gather,
+        Stage::Records,
         Stage::Share,
         Stage::Film,
     ];
@@ -57,6 +60,7 @@ impl Stage {
             Stage::Deposit => "deposit",
             Stage::Photons => "photons",
             Stage::Gather => "gather",
+            Stage::Records => "records",
             Stage::Share => "share",
             Stage::Film => "film",
         }
@@ -123,6 +127,8 @@ pub struct Costs {
     pub reuse: f64,
     /// Photons from the lights into maps, and those around diffuse vertices; a trial that found them not worth it is in it too. Glint chains.
     pub caustics: f64,
+    /// Indirect maps: the paths of their records, and sorting them. To ask a map is part of shading.
+    pub indirect: f64,
     /// Samples scaled down.
     pub clamp: f64,
 }
@@ -133,6 +139,7 @@ impl Costs {
         self.total += other.total;
         self.reuse += other.reuse;
         self.caustics += other.caustics;
+        self.indirect += other.indirect;
         self.clamp += other.clamp;
     }
 
@@ -141,6 +148,13 @@ impl Costs {
         let seconds = start.elapsed().as_secs_f64();
         self.total += seconds;
         self.caustics += seconds;
+    }
+
+    /// All time since then was spent on the indirect map.
+    pub(crate) fn indirect_since(&mut self, start: Instant) {
+        let seconds = start.elapsed().as_secs_f64();
+        self.total += seconds;
+        self.indirect += seconds;
     }
 }
 

@@ -4,6 +4,7 @@ use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::caustics::PhotonMap;
 use super::caustics::aims::Aims;
 use super::glints::chains;
+use super::indirect::IndirectMap;
 use super::kernels::Kernels;
 use super::stages::deposit::deposit;
 use super::stages::shade::ROULETTE_FROM;
@@ -12,6 +13,17 @@ use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::scene::Scene;
 use std::time::Instant;
+
+/// What paths are traced for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Task {
+    /// The picture.
+    Picture,
+    /// Glint chains: they end at all but mirrors and glass ([`super::glints`]).
+    Chains,
+    /// Records of the indirect map ([`super::indirect`]): they count what arrives behind second vertices only.
+    Records,
+}
 
 /// What is the same for all batches of a rendering.
 #[derive(Clone, Copy)]
@@ -24,8 +36,10 @@ pub struct Pass<'a> {
     pub lanes: usize,
     /// The photons of the batch's sample indices, where the scene is worth them.
     pub photons: Option<PhotonMap<'a>>,
-    /// These are glint chains: they end at all but mirrors and glass ([`super::glints`]).
-    pub glints: bool,
+    /// The indirect light of second vertices, where their paths need not go on for it.
+    pub indirect: Option<&'a IndirectMap>,
+    /// What for.
+    pub task: Task,
 }
 
 impl<'a> Pass<'a> {
@@ -39,21 +53,18 @@ impl<'a> Pass<'a> {
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
 pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch) {
-    batch.start(batch.glints);
+    batch.start();
     kernels.camera(scene, pass.seed, u32::MAX, batch);
     batch.watch.lap(Stage::Camera);
     let mut groups_before = [0; ITEMS];
     let mut vertex = 0;
     while batch.paths.len > 0 {
-        closest(scene, kernels, vertex == 0, batch);
-        batch.watch.shaded(batch.paths.len, pass.lanes);
         let (members, suffixes) = (batch.members.len, batch.suffixes.len);
-        kernels.shade(scene, pass, vertex, batch);
+        bounce(scene, kernels, pass, vertex, batch);
         for j in suffixes..batch.suffixes.len {
             batch.groups.of_suffix[j] = groups_before[(batch.suffixes.slot[j] >> 6) as usize];
         }
         group(members, batch, &mut groups_before);
-        batch.watch.lap(Stage::Shade);
         if let Some(aims) = pass.aims()
             && vertex < ROULETTE_FROM
         {
@@ -61,12 +72,6 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
             kernels.aim(aims, pass.seed, members, batch);
             batch.watch.costs.reuse += start.elapsed().as_secs_f64();
             batch.watch.lap(Stage::Share);
-        }
-        occluded(scene, kernels, Coherence::Incoherent, batch);
-        deposit(batch);
-        batch.watch.lap(Stage::Deposit);
-        if let Some(photons) = pass.photons {
-            gather(scene, kernels, photons, vertex, batch);
         }
         vertex += 1;
     }
@@ -77,6 +82,20 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
     }
     if batch.glints != 0 {
         chains(scene, kernels, pass, batch);
+    }
+}
+
+/// One vertex of all paths: what their rays hit, the light that is seen and sampled from there, and the next rays.
+pub fn bounce(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
+    closest(scene, kernels, vertex == 0, batch);
+    batch.watch.shaded(batch.paths.len, pass.lanes);
+    kernels.shade(scene, pass, vertex, batch);
+    batch.watch.lap(Stage::Shade);
+    occluded(scene, kernels, Coherence::Incoherent, batch);
+    deposit(batch);
+    batch.watch.lap(Stage::Deposit);
+    if let Some(photons) = pass.photons {
+        gather(scene, kernels, photons, vertex, batch);
     }
 }
 
@@ -135,7 +154,7 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
 }
 
 /// The first `len` rays of columns, for the tree.
-fn rays<'a>(
+pub fn rays<'a>(
     origin: &'a Columns,
     direction: &'a Columns,
     from_primitive: &'a [u32],

@@ -13,6 +13,7 @@ mod compiling;
 mod convergence;
 mod figures;
 mod glints;
+mod indirect;
 mod matrix;
 mod random_scenes;
 mod reuse;

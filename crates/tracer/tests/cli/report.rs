@@ -104,12 +104,13 @@ const ROOM: &str = "Scene(
 fn every_switch_says_what_it_costs() {
     let sandbox = Sandbox::new();
     sandbox.write("scene.ron", ROOM);
-    let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &[], &["--set", "render.clamp=0.25"]];
-    // Of reuse, caustics, clamp: the setting, whether it is at work, and what the picture is an estimate of.
+    let map = "render.indirect=Map";
+    let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &["--set", map], &["--set", "render.clamp=0.25"]];
+    // Of reuse, caustics, indirect, clamp: the setting, whether it is at work, and what the picture is an estimate of.
     let expected = [
-        ([("Blocks", false), ("Photons", false), ("None", false)], "unbiased"),
-        ([("Blocks", true), ("Photons", true), ("None", false)], "consistent"),
-        ([("Blocks", true), ("Photons", true), ("0.25", true)], "biased"),
+        ([("Blocks", false), ("Photons", false), ("Paths", false), ("None", false)], "unbiased"),
+        ([("Blocks", true), ("Photons", true), ("Map", true), ("None", false)], "consistent"),
+        ([("Blocks", true), ("Photons", true), ("Paths", false), ("0.25", true)], "biased"),
     ];
     for (more, (switches, estimate)) in off.into_iter().zip(expected) {
         let report = report(&sandbox, more);
@@ -122,8 +123,8 @@ fn every_switch_says_what_it_costs() {
             "{transport}"
         );
         let mut sum = 0.0;
-        let names = ["reuse", "caustics", "clamp"];
-        let when_on = ["unbiased", "consistent", "biased"];
+        let names = ["reuse", "caustics", "indirect", "clamp"];
+        let when_on = ["unbiased", "consistent", "consistent", "biased"];
         for (k, (setting, on)) in switches.into_iter().enumerate() {
             let switch = &transport["switches"][k];
             assert_eq!((&switch["name"], &switch["setting"]), (&names[k].into(), &setting.into()), "{more:?}");
@@ -148,7 +149,7 @@ fn every_switch_says_what_it_costs() {
     let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "render.clamp=0.25"]).ends(0);
     said.says(&["what the switches of `render` cost", "reuse", "Photons: consistent", "0.25: biased", "clamping took"]);
     let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "background=1"]).ends(0);
-    said.says(&["Blocks, not used: unbiased"]);
+    said.says(&["Blocks, not used: unbiased", "  Paths: unbiased"]);
 }
 
 /// The examples of the report's page, few samples of a small picture: each is what its comment says.
@@ -166,7 +167,7 @@ fn examples_are_what_they_say() {
         let estimate = report["transport"]["estimate"].as_str().expect("a word");
         assert_eq!(said.trim().split(':').next(), Some(estimate), "{line}");
     }
-    assert_eq!(block.lines().count(), 5);
+    assert_eq!(block.lines().count(), 6);
 }
 
 /// Everything that the report says of what was taken is the same for any number of threads.

@@ -8,6 +8,7 @@ const GATHER: &str = "crates/tracer-core/src/engine/stages/gather.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const GLINTS: &str = "crates/tracer-core/src/engine/glints.rs";
 const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
+const INDIRECT: &str = "crates/tracer-core/src/engine/indirect.rs";
 const MAP: &str = "crates/tracer-core/src/engine/caustics/map.rs";
 const PLAN: &str = "crates/tracer-core/src/engine/caustics/plan.rs";
 
@@ -122,7 +123,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "chains-beside-paths-in-full",
         file: BATCH,
-        find: "if glints >> k & 1 == 1 { WEIGHT } else { 1.0 }",
+        find: "if self.glints >> k & 1 == 1 { WEIGHT } else { 1.0 }",
         replace: "1.0",
         caught_by: proofs(&["glints"]),
     },
@@ -139,6 +140,49 @@ pub const MUTANTS: &[Mutant] = &[
         find: "surfaces = surfaces & (bsdf.mirror | bsdf.transparent);",
         replace: "",
         caught_by: proofs(&["glints"]),
+    },
+    // The indirect map.
+    Mutant {
+        name: "records-of-lamps-that-light-samples-bring",
+        file: SHADE,
+        find: "emits = emits & !has(slot, path::INDIRECT);",
+        replace: "",
+        caught_by: proofs(&["indirect"]),
+    },
+    Mutant {
+        name: "records-with-the-light-sample-at-their-own-vertex",
+        file: SHADE,
+        find: "has(slot, path::SHARED) & !second }",
+        replace: "has(slot, path::SHARED) }",
+        caught_by: proofs(&["indirect"]),
+    },
+    Mutant {
+        name: "records-with-the-albedo-of-their-own-vertex",
+        file: SHADE,
+        find: "carried = V3::select(second, V3::grey(one), carried);",
+        replace: "",
+        caught_by: proofs(&["indirect"]),
+    },
+    Mutant {
+        name: "paths-go-on-where-the-map-answers",
+        file: SHADE,
+        find: "{ valid & !known }",
+        replace: "{ valid }",
+        caught_by: proofs(&["indirect"]),
+    },
+    Mutant {
+        name: "second-vertices-of-any-number-are-alike",
+        file: INDIRECT,
+        find: "key.wrapping_add(u64::from(vertex).wrapping_mul(0xd6e8_feb8_6659_fd93)).max(1)",
+        replace: "key",
+        caught_by: units(&["engine::indirect"]),
+    },
+    Mutant {
+        name: "from-near-told-as-from-far",
+        file: INDIRECT,
+        find: "if farther_than < record.distance {",
+        replace: "if 0.0 < record.distance {",
+        caught_by: units(&["engine::indirect"]),
     },
     // Rays aimed at casters.
     Mutant {

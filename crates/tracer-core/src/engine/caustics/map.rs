@@ -236,7 +236,7 @@ fn levels(number: u32, photons: &[Photon], smallest: f32) -> Vec<u32> {
 }
 
 /// The lower 21 bits, two places between any two.
-fn spread(x: u64) -> u64 {
+pub fn spread(x: u64) -> u64 {
     let x = x & 0x1f_ffff;
     let x = (x | x << 32) & 0x001f_0000_0000_ffff;
     let x = (x | x << 16) & 0x001f_0000_ff00_00ff;

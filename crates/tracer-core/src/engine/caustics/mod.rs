@@ -23,14 +23,13 @@ pub mod trace;
 
 use crate::engine::kernels::Kernels;
 use crate::engine::statistics::Stage;
-use crate::engine::{Worker, on_all};
+use crate::engine::{Worker, each};
 use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
 use crate::scene::Scene;
 use map::{Map, Photon};
 use plan::Plan;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Photons of the trial that tells whether maps are worth it.
@@ -96,20 +95,16 @@ impl Caustics {
                 photons.push((number, trace::photons(scene, kernels, plan, self.seed, &shares, workers)));
             }
         }
-        let next = AtomicUsize::new(0);
-        let made = Mutex::new(Vec::new());
-        let work = |worker: &mut Worker| {
-            while let Some((number, photons)) = photons.get(next.fetch_add(1, Ordering::Relaxed)) {
-                worker.batch.watch.resume();
-                let start = Instant::now();
-                let map = Map::new(*number, photons, &plan.pairs, &plan.radii);
-                made.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(map);
-                worker.batch.watch.lap(Stage::Photons);
-                worker.batch.watch.costs.photons_since(start);
-            }
-        };
-        on_all(workers, &work);
-        self.maps.append(&mut made.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()));
+        let made = each(workers, photons.len(), |k, worker| {
+            worker.batch.watch.resume();
+            let start = Instant::now();
+            let (number, photons) = &photons[k];
+            let map = Map::new(*number, photons, &plan.pairs, &plan.radii);
+            worker.batch.watch.lap(Stage::Photons);
+            worker.batch.watch.costs.photons_since(start);
+            map
+        });
+        self.maps.extend(made);
     }
 
     /// The map of a sample index that was prepared.

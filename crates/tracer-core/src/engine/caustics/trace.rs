@@ -2,14 +2,13 @@
 
 use super::map::Photon;
 use super::plan::{Plan, Share};
-use crate::engine::Worker;
 use crate::engine::batch::{Batch, PATHS, Photons};
 use crate::engine::kernels::Kernels;
 use crate::engine::statistics::Stage;
 use crate::engine::trace::closest;
+use crate::engine::{Worker, each};
 use crate::scene::Scene;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// What the photons of a batch have in common.
@@ -31,19 +30,8 @@ pub fn photons(
     workers: &[Mutex<Worker>],
 ) -> Vec<Photon> {
     let batches = batches(shares);
-    let next = AtomicUsize::new(0);
-    let stored: Vec<Mutex<Vec<Photon>>> = batches.iter().map(|_| Mutex::default()).collect();
-    let work = |worker: &mut Worker| {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(shares), Some(stored)) = (batches.get(k), stored.get(k)) else { break };
-            let photons = trace(scene, kernels, plan, seed, shares, &mut worker.batch);
-            *stored.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = photons;
-        }
-    };
-    crate::engine::on_all(workers, &work);
-    let of_batch = |photons: Mutex<Vec<Photon>>| photons.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    stored.into_iter().flat_map(of_batch).collect()
+    let trace = |k: usize, worker: &mut Worker| trace(scene, kernels, plan, seed, &batches[k], &mut worker.batch);
+    each(workers, batches.len(), trace).into_iter().flatten().collect()
 }
 
 /// Cuts the shares into batches of at most [`PATHS`] photons.

@@ -107,7 +107,8 @@ impl<F: Lanes> Slabs<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, Rays};
+    use crate::bvh::{Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry};
+    use crate::engine::trace::rays;
     use crate::lanes::ArrayF;
     use crate::scene::NONE;
 
@@ -172,18 +173,8 @@ mod tests {
                 batch.paths.len = len;
                 reach_closest::<ArrayF<1>>(accel.top_boxes(), &mut batch);
                 let reaching = batch.active[..batch.active_len].to_vec();
-                let (origin, direction) = (&batch.paths.origin, &batch.paths.direction);
                 let from = vec![NONE; len];
-                let rays = Rays {
-                    ox: &origin[0][..len],
-                    oy: &origin[1][..len],
-                    oz: &origin[2][..len],
-                    dx: &direction[0][..len],
-                    dy: &direction[1][..len],
-                    dz: &direction[2][..len],
-                    from_primitive: &from,
-                    from_instance: &from,
-                };
+                let rays = rays(&batch.paths.origin, &batch.paths.direction, &from, &from, len);
                 let mut hits = Hits {
                     t: &mut batch.hits.t[..len],
                     primitive: &mut batch.hits.primitive[..len],

@@ -10,7 +10,8 @@ use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
 use crate::engine::batch::{Batch, Columns, path};
-use crate::engine::trace::Pass;
+use crate::engine::indirect::IndirectMap;
+use crate::engine::trace::{Pass, Task};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::Purpose;
@@ -47,6 +48,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let open = scene.background.iter().any(|&x| x > 0.0);
     let several = tables.lights.len > 1;
     let aims = pass.aims();
+    let records = pass.task == Task::Records;
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
@@ -89,7 +91,12 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass have one slot, and the
         // order of a sum must not depend on the number of lanes.
         let lamp = hit & !s.light.eq(F::U::splat(0));
-        let emits = lamp & !aimed;
+        let mut emits = lamp & !aimed;
+        if records {
+            // The light sample at the second vertex stands for the lamp that the ray from there meets.
+            emits = emits & !has(slot, path::INDIRECT);
+            slot = slot & F::U::splat(!path::INDIRECT);
+        }
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
@@ -110,7 +117,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         let mut bsdf = Bsdf::at(tables, &s, surfaces);
-        if pass.glints {
+        if pass.task == Task::Chains {
             // Chains end at all other surfaces.
             surfaces = surfaces & (bsdf.mirror | bsdf.transparent);
             bsdf.diffuse = F::M::from_bits(0);
@@ -135,31 +142,46 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             }
         }
         let rough = bsdf.diffuse | bsdf.glossy;
+        // Second vertices, and those whose indirect light the map knows.
+        let (mut second, mut known) = (F::M::from_bits(0), F::M::from_bits(0));
         if pass.reuse && vertex > 0 {
             let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
             // Light leaves a diffuse vertex alike in all directions: what comes from here on is any member's.
             let shared = found & bsdf.diffuse;
             if shared.any() {
-                add_suffixes(suffixes, &s, slot, primitive, instance, shared);
+                let distance = F::load(&batch.hits.t[i..]);
+                add_suffixes(suffixes, &s, distance, slot, primitive, instance, shared);
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
+                second = shared;
+                if let Some(map) = pass.indirect
+                    && !last
+                {
+                    known = add_known(map, vertex, &s, bsdf.color, distance, slot, shared, &mut batch.radiance);
+                }
             }
             let bare = slot & F::U::splat(path::SLOT | path::MAPPED | path::CAUSTIC);
             let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
             slot = F::U::select(found, own, slot);
         }
+        // What records are of comes from behind a second vertex.
+        let of_use = if records { has(slot, path::SHARED) & !second } else { valid };
+        if records {
+            surfaces = surfaces & !has(slot, path::OWN);
+        }
+        let lit_here = rough & of_use;
         // Diffuse surfaces go on at the last vertex only to see a background.
-        let goes_on = if last && !open { !bsdf.diffuse } else { valid };
+        let goes_on = if last && !open { !bsdf.diffuse } else { valid & !known };
         let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
 
         // Light that photons have brought here; to look for it costs as much as all else at a vertex, so after the first diffuse vertex
         // of a path only one in so many does.
-        if pass.photons.is_some() && !last && rough.any() {
+        if pass.photons.is_some() && !last && lit_here.any() {
             let (_, choice) = roulettes.points(&pixel);
             let chance = F::select(has(slot, path::MAPPED), c(GATHER_LATER), one);
             let lambert = one - bsdf.specular;
             let value = bsdf.color.mul(throughput).scale(lambert * eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
-            let asks = rough & choice.lt(chance) & zero.lt(value.max_component());
+            let asks = lit_here & choice.lt(chance) & zero.lt(value.max_component());
             let k = queries.len;
             s.p.compress(asks, &mut queries.point, k);
             s.ng.compress(asks, &mut queries.normal, k);
@@ -169,13 +191,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         // Light sampled from here.
-        if rough.any() && tables.lights.len > 0 {
+        if lit_here.any() && tables.lights.len > 0 {
             let (u, v) = if several { choices.points(&pixel) } else { (zero, zero) };
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = light_points.points(&pixel);
             let l = lights::sample(&tables.lights, &choice, s.start, u, v);
             let cos_i = s.ns.dot(l.wi);
-            let lit = rough & zero.lt(cos_i) & zero.lt(l.distance);
+            let lit = lit_here & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {
                 let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
                 let (mut f, pdf) = bsdf.both(&lobes);
@@ -238,7 +260,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let d = Dielectric::new(&s, wo, bsdf.parameter);
             let mut refracted = d.reflectance.le(lobe);
             let mut share = one;
-            if vertex < BRANCHING {
+            if vertex < BRANCHING && !records {
                 // The path goes on where more of the light goes; the rest is a path of its own, and shares nothing. Roulette must not
                 // see their shares: they make a whole.
                 let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
@@ -271,6 +293,11 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2 * share, eta2);
         }
         let mut carried = throughput.mul(weight);
+        if records {
+            // The albedo is that of the vertex that asks.
+            carried = V3::select(second, V3::grey(one), carried);
+            slot = F::U::select(second, slot | F::U::splat(path::INDIRECT), slot);
+        }
         let mut survival = one;
         let mut member = F::M::from_bits(0);
         let colored = throughput.mul(bsdf.color);
@@ -340,6 +367,44 @@ fn has<U: Bits>(slot: U, bit: u32) -> U::M {
 fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
     let ratio = b / a;
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
+}
+
+/// Adds the indirect light that leaves these second vertices to their sums, where the map knows it; gives the lanes where it does.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn add_known<F: Lanes>(
+    map: &IndirectMap,
+    vertex: u32,
+    s: &Surface<F>,
+    color: V3<F>,
+    distance: F,
+    slot: F::U,
+    mask: F::M,
+    radiance: &mut Columns,
+) -> F::M {
+    let (mut points, mut normals, mut colors) = ([[0.0; 32]; 3], [[0.0; 32]; 3], [[0.0; 32]; 3]);
+    for (columns, V3(x, y, z)) in [(&mut points, s.p), (&mut normals, s.ng), (&mut colors, color)] {
+        x.store(&mut columns[0]);
+        y.store(&mut columns[1]);
+        z.store(&mut columns[2]);
+    }
+    let (mut slots, mut distances) = ([0; 32], [0.0; 32]);
+    slot.store(&mut slots);
+    distance.store(&mut distances);
+    let (mut bits, mut known) = (mask.bits(), 0);
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let at = |columns: &[[f32; 32]; 3]| [columns[0][lane], columns[1][lane], columns[2][lane]];
+        if let Some(light) = map.find(at(&points), at(&normals), vertex, distances[lane]) {
+            known |= 1 << lane;
+            let to = (slots[lane] & path::SLOT | path::SHARED) as usize;
+            for channel in 0..3 {
+                radiance[channel][to] += colors[channel][lane] * light[channel];
+            }
+        }
+    }
+    F::M::from_bits(known)
 }
 
 /// Adds the lanes of the mask to their slots' radiance, one after the other.

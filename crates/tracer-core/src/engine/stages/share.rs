@@ -85,6 +85,7 @@ pub fn add_members<F: Lanes>(
 pub fn add_suffixes<F: Lanes>(
     suffixes: &mut Suffixes,
     s: &Surface<F>,
+    distance: F,
     slot: F::U,
     primitive: F::U,
     instance: F::U,
@@ -93,6 +94,7 @@ pub fn add_suffixes<F: Lanes>(
     let k = suffixes.len;
     s.ng.mad(s.offset, s.p).compress(mask, &mut suffixes.point, k);
     s.ng.compress(mask, &mut suffixes.normal, k);
+    distance.compress(mask, &mut suffixes.distance[k..]);
     (slot & F::U::splat(path::SLOT)).compress(mask, &mut suffixes.slot[k..]);
     primitive.compress(mask, &mut suffixes.primitive[k..]);
     instance.compress(mask, &mut suffixes.instance[k..]);

@@ -2,7 +2,7 @@
 
 use super::{effort, film};
 use scene_format::SceneDesc;
-use scene_format::desc::{Caustics, Reuse};
+use scene_format::desc::{Caustics, Indirect, Reuse};
 use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
 use tracer_reference::{Smoothing, render};
@@ -147,6 +147,29 @@ pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, b
     };
     assert_agree(name, size, scenes, &allow, &|r, c| plain.estimate(r, c));
 }
+
+/// Asserts that a picture with the indirect map is that without, but for a bias: of a tile, [`CELLS`] of what it holds, for a cell knows the
+/// mean of its light only; of the whole picture, a thousandth of its mean.
+pub fn assert_map_is_consistent(name: &str, desc: &SceneDesc, scenes: usize) {
+    let rendered = |indirect: Indirect, samples: u32, first_seed: u32| {
+        let mut desc = desc.clone();
+        (desc.render.reuse, desc.render.indirect) = (Reuse::Blocks, indirect);
+        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
+    };
+    let size = [desc.image.width.value, desc.image.height.value];
+    let (map, paths) = (rendered(Indirect::Map, 64, 9000), rendered(Indirect::Paths, 64, 10000));
+    assert!(map.0.iter().all(|film| film.indirect && film.counters.record_rays > 0), "{name}: no map");
+    let allow = |rectangle: Rectangle, channel: usize| {
+        let (ours, theirs) = (map.estimate(rectangle, channel), paths.estimate(rectangle, channel));
+        let whole = area(rectangle) == area([0, 0, size[0], size[1]]);
+        let excess = ((ours.mean - theirs.mean).abs() - theirs.mean * if whole { 0.001 } else { CELLS }).max(0.0);
+        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
+    };
+    assert_agree(name, size, scenes, &allow, &|r, c| paths.estimate(r, c));
+}
+
+/// See [`assert_map_is_consistent`].
+const CELLS: f64 = 0.005;
 
 /// See [`assert_photons_are_consistent`].
 const BLUR: f64 = 0.03;

@@ -1,0 +1,126 @@
+//! The map knows the mean of what it was told, where it may know it.
+
+use super::*;
+
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+/// A number in 0 .. 1.
+fn unit(k: u32, what: u32) -> f32 {
+    (hash3(k, what, 0x7e57) >> 40) as f32 / (1u32 << 24) as f32
+}
+
+/// So many records on a square of 0.4 around the origin, from far away; their light is their number.
+fn records(count: u32) -> Vec<Record> {
+    let place = |k, axis| 0.4 * (unit(k, axis) - 0.5);
+    let record = |k| Record {
+        point: [place(k, 0), 0.0, place(k, 1)],
+        normal: UP,
+        light: [k as f32, 1.0, 0.0],
+        vertex: 1,
+        distance: 100.0,
+    };
+    (0..count).map(record).collect()
+}
+
+/// Where the records lie, every one of them is answered by a mean of [`ENOUGH`] or more around it; together the answers keep the sum, as each
+/// finest cell gives to all of its own what they have brought.
+#[test]
+fn the_sum_is_kept() {
+    let records = records(4096);
+    let map = IndirectMap::new(3, &records);
+    let (mut asked, mut known, mut brought) = (0, 0.0, 0.0);
+    for record in &records {
+        let Some(light) = map.find(record.point, UP, 1, 100.0) else { continue };
+        assert_eq!(light[1..], [1.0, 0.0]);
+        asked += 1;
+        known += f64::from(light[0]);
+        brought += f64::from(record.light[0]);
+    }
+    assert!(asked > 4000, "{asked}");
+    // Records whose finest cell holds too few fall back on the coarser one, together with all in it: the answers' sum is not exactly kept,
+    // but no cell is asked by more than a part of its records. Light is spread evenly over 0 .. 4096, its standard deviation is 1182; the mean of
+    // 16 or more differs from its part's by 1182 / 4 at most, one in 16 of those asked at random: 4 * 1182 / 4 / sqrt(4096 / 16) / 2048 = 0.036.
+    assert!((known / brought - 1.0).abs() < 0.036, "{}", known / brought);
+}
+
+/// Nothing is known of other sides, other vertices, places without records or beyond the grid; nor for those that come from near.
+#[test]
+fn what_it_does_not_know() {
+    let map = IndirectMap::new(0, &records(4096));
+    let find = |point, normal, vertex, distance| map.find(point, normal, vertex, distance).is_some();
+    assert!(find([0.0; 3], UP, 1, 1.0));
+    assert!(find([0.0; 3], [0.6, 0.7, 0.3], 1, 1.0), "the same side of six");
+    assert!(!find([0.0; 3], [0.0, -1.0, 0.0], 1, 1.0));
+    assert!(!find([0.0; 3], [0.8, 0.5, 0.3], 1, 1.0));
+    assert!(!find([0.0; 3], UP, 2, 1.0));
+    assert!(!find([5.0, 0.0, 0.0], UP, 1, 1.0));
+    for far in [1e4, -1e4, 1e30, f32::INFINITY, f32::NAN] {
+        assert!(!find([far, 0.0, 0.0], UP, 1, 1.0), "{far}");
+    }
+    assert!(!find([0.0; 3], UP, 1, 0.001));
+    let few = IndirectMap::new(0, &records(ENOUGH as u32 - 1));
+    assert!(few.find([0.0; 3], UP, 1, 1.0).is_none());
+    assert!(IndirectMap::new(0, &[]).find([0.0; 3], UP, 1, 1.0).is_none());
+}
+
+/// Those that come from far ask for the light of those that come from far: here they have 1, the others 0.
+#[test]
+fn from_far_and_from_near() {
+    let mut records = records(4096);
+    for (k, record) in records.iter_mut().enumerate() {
+        let far = k % 2 == 0;
+        record.distance = if far { 10.0 } else { 1e-3 };
+        record.light = [if far { 1.0 } else { 0.0 }; 3];
+    }
+    let map = IndirectMap::new(0, &records);
+    assert_eq!(map.find([0.0; 3], UP, 1, 10.0), Some([1.0; 3]));
+    assert_eq!(map.find([0.0; 3], UP, 1, 1e-3), None);
+}
+
+/// Cells are asked from ever farther: the bias goes.
+#[test]
+fn the_reach_grows_without_end() {
+    assert_eq!(reach(0), 1.0);
+    assert!((reach(63) - 2.0).abs() < 1e-6);
+    assert!((0..10_000).all(|number| reach(number) < reach(number + 1)));
+}
+
+/// All cells of a vertex have keys of their own, none of them 0.
+#[test]
+fn keys_are_unique() {
+    let mut keys = Vec::new();
+    let end = (1 << BITS) - 1;
+    for level in 0..LEVELS {
+        let step = 1 << (LEVELS - 1 - level);
+        for side in 0..6 {
+            for [x, y, z] in [[0, 0, 0], [step, 0, 0], [0, step, 0], [0, 0, step], [end, end, end], [end, 0, end]] {
+                keys.push(key_of([x, y, z], side, 0, level));
+            }
+        }
+    }
+    let count = keys.len();
+    keys.sort_unstable();
+    keys.dedup();
+    assert_eq!(keys.len(), count);
+    assert!(keys[0] > 0);
+}
+
+/// Items of all sizes of pictures lie within them, each once.
+#[test]
+fn items_lie_in_the_picture() {
+    for [width, height] in [[1, 1], [16, 16], [37, 21], [300, 200], [4000, 3000]] {
+        let tiles = [width, height].map(|x: u32| x.div_ceil(TILE));
+        for number in 0..5 {
+            let items = items([width, height], 7, number);
+            let all = u64::from(tiles[0] * tiles[1] * QUARTERS);
+            let least = (1024 / BLOCK_PIXELS as u64).min(all);
+            assert!((least..=32768 / BLOCK_PIXELS as u64).contains(&(items.len() as u64)), "{}", items.len());
+            let mut seen = std::collections::BTreeSet::new();
+            for item in items {
+                assert!(item.tile_x < tiles[0] && item.tile_y < tiles[1] && item.quarter < QUARTERS);
+                assert!(item.spread && item.sample == number);
+                assert!(seen.insert((item.tile_x, item.tile_y, item.quarter)));
+            }
+        }
+    }
+}
