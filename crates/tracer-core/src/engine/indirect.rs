@@ -4,13 +4,14 @@
 //! its mean is right: edges, textures and shadows that are seen come from the first vertex, and light samples at the second are taken as
 //! ever. So for each sample index some thousand paths from the camera, over the whole picture, note at their second diffuse vertex the
 //! indirect light that arrives there: a [`Record`]. Records are sorted into the cells of an octree, told apart by the vertex's number and
-//! the side that the surface faces. A second vertex takes the mean of the finest cell around it that holds [`ENOUGH`], and its path ends.
+//! the side that the surface faces. A second vertex takes the mean of the finest cell around it that is known, and its path ends.
 //!
-//! Records lie as the vertices that ask do, so a cell's mean keeps the sum of its light: what is lost in a corner is gained beside it. To
-//! filter paths over cells is old (Keller, Dahm, Binder: Path Space Filtering, 2014; Binder, Fricke, Keller: Massively Parallel Path Space
-//! Filtering, 2021); there the picture's own paths are filtered, so that a part would differ from the whole. A cell is asked only from
-//! farther than its width, and than ever more of that from map to map ([`reach`]): contact shadows stay, and the picture is
-//! consistent. Where no cell answers, the path goes on. The place of the cells changes from map to map, so that they do not show.
+//! Records lie and come as the vertices that ask do, and each counts in the one cell that it would ask, so the means keep the sum of the light:
+//! what is lost in a corner is gained beside it. To filter paths over cells is old (Keller, Dahm, Binder: Path Space Filtering, 2014;
+//! Binder, Fricke, Keller: Massively Parallel Path Space Filtering, 2021); there the picture's own paths are filtered, so that a part would
+//! differ from the whole. A cell is asked only from farther than its width, and than ever more of that from map to map ([`reach`]):
+//! contact shadows stay, and the picture is consistent. Where no cell answers, the path goes on. The place of the cells changes from map to
+//! map, so that they do not show.
 
 use super::batch::{BLOCK_PIXELS, Batch, Columns, Counters, ITEMS, Item, PATHS, QUARTERS, TILE};
 use super::caustics::Caustics;
@@ -25,8 +26,10 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// A cell is known by so many records at least.
+/// Cells hold so many records at least.
 const ENOUGH: usize = 16;
+/// And so many that no finer cell has answered, to be known.
+const LEAST: u32 = 8;
 /// Levels of the octree.
 const LEVELS: u32 = 12;
 /// Cells of the finest level in a unit of render space; those of the coarsest are four units wide.
@@ -52,7 +55,7 @@ struct Record {
 #[derive(Clone, Copy, Debug, Default)]
 struct Cell {
     key: u64,
-    /// The mean over those that come from as far as those that ask, if they are enough.
+    /// The mean over those of its records that would ask here, if they are enough.
     light: Option<[f32; 3]>,
 }
 
@@ -84,8 +87,10 @@ impl IndirectMap {
             }
         }
         order.sort_unstable();
+        // From the finest level on: a record counts where a vertex that lies and comes as it does would ask, and nowhere else.
+        let mut counted = vec![false; records.len()];
         let mut found = Vec::new();
-        for level in 0..LEVELS {
+        for level in (0..LEVELS).rev() {
             let finer = 3 * (LEVELS - 1 - level);
             let farther_than = map.farther_than(level);
             for of_cell in order.chunk_by(|a, b| a.0 == b.0 && a.1 >> finer == b.1 >> finer) {
@@ -93,15 +98,19 @@ impl IndirectMap {
                     continue;
                 }
                 let (mut sum, mut count) = ([0.0; 3], 0);
-                for record in of_cell.iter().map(|&(_, _, k)| &records[k as usize]) {
-                    if farther_than < record.distance {
-                        for (sum, light) in sum.iter_mut().zip(record.light) {
-                            *sum += f64::from(light);
-                        }
-                        count += 1;
+                let asks = |k: usize| !counted[k] && farther_than < records[k].distance;
+                for record in of_cell.iter().map(|&(_, _, k)| k as usize).filter(|&k| asks(k)).map(|k| &records[k]) {
+                    for (sum, light) in sum.iter_mut().zip(record.light) {
+                        *sum += f64::from(light);
+                    }
+                    count += 1;
+                }
+                let light = (count >= LEAST).then(|| sum.map(|sum| (sum / f64::from(count)) as f32));
+                if light.is_some() {
+                    for &(_, _, k) in of_cell {
+                        counted[k as usize] |= farther_than < records[k as usize].distance;
                     }
                 }
-                let light = (count >= ENOUGH).then(|| sum.map(|sum| (sum / count as f64) as f32));
                 let first = &records[of_cell[0].2 as usize];
                 if let Some(place) = map.place(first.point) {
                     found.push(Cell { key: key_of(place, side(first.normal), first.vertex, level), light });

@@ -180,8 +180,15 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "from-near-told-as-from-far",
         file: INDIRECT,
-        find: "if farther_than < record.distance {",
-        replace: "if 0.0 < record.distance {",
+        find: "!counted[k] && farther_than < records[k].distance",
+        replace: "!counted[k]",
+        caught_by: units(&["engine::indirect"]),
+    },
+    Mutant {
+        name: "records-that-count-in-cells-of-every-level",
+        file: INDIRECT,
+        find: "!counted[k] && farther_than < records[k].distance",
+        replace: "farther_than < records[k].distance",
         caught_by: units(&["engine::indirect"]),
     },
     // Rays aimed at casters.
