@@ -109,7 +109,7 @@ scene_words! {
         Paths,
         /// By means over small cells: some thousand more paths for each sample find out what arrives there, and the picture's own end. In
         /// matt rooms half the noise in the light from wall to wall, for the same time. What is smoothed lies two surfaces away from
-        /// the eye; the picture's mean is off by less than a thousandth, and ever less as samples are added.
+        /// the eye; its sum is kept, and it is ever less smooth as samples are added.
         Map,
     }
 }
