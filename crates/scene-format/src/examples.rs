@@ -1,8 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading, TextureFilter,
-    TextureWrap, ToneMap,
+    Acceleration, Caustics, Indirect, Instances, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading,
+    TextureFilter, TextureWrap, ToneMap,
 };
 use crate::desc::{DepthOfField, Pattern, TransformWords};
 use crate::schema::EnumDef;
@@ -37,7 +37,7 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 16] = [
+pub(crate) const CHOICES: [&EnumDef; 17] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -52,12 +52,13 @@ pub(crate) const CHOICES: [&EnumDef; 16] = [
     &TextureFilter::DEF,
     &TextureWrap::DEF,
     &Object::DEF,
+    &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 41] = [
+const SNIPPETS: [(&str, &str, &str); 44] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -95,6 +96,9 @@ const SNIPPETS: [(&str, &str, &str); 41] = [
         "Mesh",
         "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])",
     ),
+    ("Instances", "Auto", "instances: Auto"),
+    ("Instances", "Always", "instances: Always"),
+    ("Instances", "Never", "instances: Never"),
     ("Shading", "Auto", "shading: Auto"),
     ("Shading", "Smooth", "shading: Smooth"),
     ("Shading", "Flat", "shading: Flat"),
@@ -132,6 +136,10 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
         }
         "Object" => {
             object = words.to_owned();
+            files = &[TETRAHEDRON];
+        }
+        "Instances" => {
+            object = mesh(&format!("placements: [[], [Translate((1, 0, 0))]], {words}"));
             files = &[TETRAHEDRON];
         }
         "Shading" => {

@@ -109,6 +109,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                     material,
                     transform: transforms(random),
                     placements,
+                    instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
                     shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
                 })
             }

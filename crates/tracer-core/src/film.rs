@@ -49,9 +49,12 @@ struct Sums {
 
 impl Sums {
     /// Mean of a pixel over so many samples.
+    #[inline]
     fn mean(&self, pixel: usize, samples: u32) -> [f64; 3] {
         let n = f64::from(samples.max(1));
-        [0, 1, 2].map(|c| (self.coarse[c][pixel] + self.fine[c][pixel]) / n)
+        // Written out: `map` is not always inlined.
+        let mean = |c: usize| (self.coarse[c][pixel] + self.fine[c][pixel]) / n;
+        [mean(0), mean(1), mean(2)]
     }
 }
 
@@ -288,6 +291,7 @@ impl Film {
     }
 
     /// Mean radiance of a pixel, linear RGB; (x, y) in the whole picture, within the crop. Black where there is no sample yet.
+    #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         tile.sums.mean(pixel, tile.samples)

@@ -18,7 +18,7 @@ pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
 pub use light::{Emission, Light, SphereLight};
 pub(crate) use material::Pattern;
 pub use material::{Albedo, Material, MaterialRef, NamedMaterial, Texture, TextureFilter, TextureWrap};
-pub use object::{Mesh, Object, Placements, Shading, Sphere};
+pub use object::{Instances, Mesh, Object, Placements, Shading, Sphere};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};

@@ -48,7 +48,7 @@ scene_struct! {
         /// How light comes over mirrors and glass to diffuse surfaces.
         caustics: Caustics = Caustics::Photons;
         /// How light comes to second vertices over further surfaces.
-        indirect: Indirect = Indirect::Paths;
+        indirect: Indirect = Indirect::Map;
         /// The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more
         /// than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light
         /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing.
@@ -105,12 +105,12 @@ scene_words! {
 scene_words! {
     /// How light comes to the second vertices of paths over three surfaces and more, where pixels share them (`reuse: Blocks`).
     pub enum Indirect, "indirect" {
-        /// By the paths themselves: right on average.
-        Paths,
         /// By means over small cells: some thousand more paths for each sample find out what arrives there, and the picture's own end. In
         /// matt rooms half the noise in the light from wall to wall, for the same time. What is smoothed lies two surfaces away from
         /// the eye; its sum is kept, and it is ever less smooth as samples are added.
         Map,
+        /// By the paths themselves: right on average.
+        Paths,
     }
 }
 
@@ -141,7 +141,7 @@ impl Default for Render {
             integrator: Integrator::Full,
             reuse: Reuse::Blocks,
             caustics: Caustics::Photons,
-            indirect: Indirect::Paths,
+            indirect: Indirect::Map,
             clamp: None,
         }
     }

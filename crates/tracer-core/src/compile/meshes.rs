@@ -1,7 +1,8 @@
 //! Meshes: files loaded once each, placed as often as the scene says, brought into render space.
 //!
-//! A mesh that is placed once is moved vertex by vertex, in f64. One that is placed several times stays in a frame of its own,
-//! recentred and scaled by a power of two to a size of about one, and its instances carry matrices.
+//! A mesh that is placed once is moved vertex by vertex, in f64, and so is each copy of one whose copies are few triangles together
+//! ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to a size of about one, and its instances
+//! carry matrices.
 
 use super::materials::MaterialBuilder;
 use super::placing::place as place_matrix;
@@ -10,7 +11,7 @@ use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements:
 use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-use scene_format::desc::{self, MaterialRef, Object, Placements, Shading};
+use scene_format::desc::{self, Instances, MaterialRef, Object, Placements, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
@@ -191,67 +192,81 @@ pub struct Built {
 }
 
 /// A mesh as it enters the scene: a file, smooth or flat.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Variant {
     file: usize,
     smooth: bool,
 }
 
+/// Copies that have so many triangles together at most, and are at most so many, are flattened. Rays that enter an instance are up to a
+/// third slower than others (docs/performance.md); so many triangles are built in a tenth of a second and take 35 MB.
+const FLATTENED_TRIANGLES: usize = 1 << 18;
+const FLATTENED_COPIES: usize = 1024;
+
+/// Whether each copy of this object has its own triangles; `copies`: those of all objects with this mesh.
+fn flattened(instances: Instances, copies: usize, triangles: usize) -> bool {
+    copies == 1
+        || match instances {
+            Instances::Auto => copies <= FLATTENED_COPIES && copies.saturating_mul(triangles) <= FLATTENED_TRIANGLES,
+            Instances::Always => false,
+            Instances::Never => true,
+        }
+}
+
 /// Brings the meshes into render space.
 pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Built {
-    let variant_of_object: Vec<Option<Variant>> = mesh_objects(desc)
+    let variant = |mesh: &desc::Mesh, file: usize| Variant {
+        file,
+        smooth: match mesh.shading {
+            Shading::Smooth => true,
+            Shading::Flat => false,
+            Shading::Auto => !loaded.files[file].normals.is_empty(),
+        },
+    };
+    let objects: Vec<(&desc::Mesh, Option<Variant>)> = mesh_objects(desc)
         .zip(&loaded.file_of_object)
-        .map(|((mesh, _), file)| {
-            file.map(|file| Variant {
-                file,
-                smooth: match mesh.shading {
-                    Shading::Smooth => true,
-                    Shading::Flat => false,
-                    Shading::Auto => !loaded.files[file].normals.is_empty(),
-                },
-            })
-        })
+        .map(|((mesh, _), file)| (mesh, file.map(|file| variant(mesh, file))))
         .collect();
+    let mut copies: BTreeMap<Variant, usize> = BTreeMap::new();
+    for ((_, variant), maps) in objects.iter().zip(&placed.maps) {
+        if let Some(variant) = variant {
+            *copies.entry(*variant).or_default() += maps.len();
+        }
+    }
     let mut built = Built::default();
-    let mut done: Vec<(Variant, u32, DAffine3)> = Vec::new();
+    // Meshes that are shared: where each is, and how it is put back into the frame of its file.
+    let mut shared: BTreeMap<Variant, (u32, DAffine3)> = BTreeMap::new();
     let scaled = DAffine3::from_scale(DVec3::splat(frame.scale));
-    for (object, variant) in variant_of_object.iter().enumerate() {
+    for (object, (mesh, variant)) in objects.iter().enumerate() {
         let Some(variant) = *variant else { continue };
-        let maps = &placed.maps[object];
-        let whole = assigned.of_object[object];
         let data = &loaded.files[variant.file];
-        let copies: usize = variant_of_object
+        let whole = assigned.of_object[object];
+        let own_materials = &assigned.of_file[variant.file];
+        // Subtract the centre before scaling: nothing is lost far away from the world's origin.
+        let worlds = placed.maps[object]
             .iter()
-            .zip(&placed.maps)
-            .filter(|(v, _)| **v == Some(variant))
-            .map(|(_, m)| m.len())
-            .sum();
-        if copies == 1 {
-            for map in maps {
-                // Subtract the centre before scaling: nothing is lost far away from the world's origin.
-                let world = DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre };
-                let mesh =
-                    built.add_mesh(data, variant.smooth, &world, frame.scale, whole, &assigned.of_file[variant.file]);
+            .map(|map| DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre });
+        if flattened(mesh.instances, copies[&variant], data.triangles.len()) {
+            for world in worlds {
+                let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
                 built.instances.push(Instance { mesh, material: whole, placement: None });
             }
             continue;
         }
-        let known = done.iter().find(|(v, ..)| *v == variant).copied();
-        let (_, mesh, file_from_object) = known.unwrap_or_else(|| {
+        let (mesh, file_from_object) = *shared.entry(variant).or_insert_with(|| {
             let [low, high] = placed.boxes[object];
             let centre = (low + high) * 0.5;
             let size = (high - low).max_element();
             let exponent = if size > 0.0 { libm::ilogb(size) } else { 0 };
             let scale = libm::scalbn(1.0, -exponent);
             let to_object = DAffine3::from_translation(-centre);
-            let mesh = built.add_mesh(data, variant.smooth, &to_object, scale, NONE, &assigned.of_file[variant.file]);
-            let back = DAffine3 { translation: centre, ..DAffine3::from_scale(DVec3::splat(1.0 / scale)) };
-            done.push((variant, mesh, back));
-            (variant, mesh, back)
+            let mesh = built.add_mesh(data, variant.smooth, &to_object, scale, NONE, own_materials);
+            (mesh, DAffine3 { translation: centre, ..DAffine3::from_scale(DVec3::splat(1.0 / scale)) })
         });
-        built.instances.extend(maps.iter().map(|map| {
-            let world = DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre };
-            Instance { mesh, material: whole, placement: Some(rows(&(scaled * world * file_from_object))) }
+        built.instances.extend(worlds.map(|world| Instance {
+            mesh,
+            material: whole,
+            placement: Some(rows(&(scaled * world * file_from_object))),
         }));
     }
     built

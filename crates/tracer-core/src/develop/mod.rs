@@ -47,16 +47,21 @@ pub fn develop(film: &Film, look: &Look) -> Image {
     let rows = (linear.par_chunks_exact_mut(row), display.par_chunks_exact_mut(row), y..y + height);
     // A tile's rows by one thread, which finds them in its cache.
     rows.into_par_iter().with_min_len(TILE).for_each(|(linear, display, py)| {
-        let pixels = linear.as_chunks_mut().0.iter_mut().zip(display.as_chunks_mut().0);
+        let pixels = linear.as_chunks_mut::<3>().0.iter_mut().zip(display.as_chunks_mut::<3>().0);
         for (px, (linear, display)) in (x..x + width).zip(pixels) {
-            let exposed = film.radiance(px, py).map(|c| c * gain);
+            let [r, g, b] = film.radiance(px, py);
+            let exposed = [r * gain, g * gain, b * gain];
             let mapped = match look.tone_map {
                 ToneMap::None => exposed,
                 ToneMap::Filmic => filmic(exposed),
                 ToneMap::AgX => agx(exposed),
             };
-            *linear = exposed.map(|c| c as f32);
-            *display = mapped.map(|c| encoder.encode(c.clamp(0.0, 1.0)));
+            for (to, from) in linear.iter_mut().zip(exposed) {
+                *to = from as f32;
+            }
+            for (to, from) in display.iter_mut().zip(mapped) {
+                *to = encoder.encode(from.clamp(0.0, 1.0));
+            }
         }
     });
     Image { width, height, linear, display }

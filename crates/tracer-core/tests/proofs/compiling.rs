@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Object, Shading, SphereLight, Transform};
+use scene_format::desc::{Emission, Instances, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -150,7 +150,54 @@ fn shading_is_as_the_scene_and_the_file_say() {
     }
 }
 
-/// Each object has its own material: the last of them, and a mesh placed twice.
+/// Copies of a ball, flattened and as instances: where the one has a triangle, the other's matrix puts it.
+#[test]
+fn copies_are_flattened_as_the_scene_says() {
+    let file = icosphere(1).off("icosphere-1");
+    let copies = |count: u32, instances: Instances| {
+        let copy = |k: u32| {
+            let (k, mirrored) = (f64::from(k), [1.0, -1.0][k as usize % 2]);
+            let factor = [mirrored * (1.0 + 0.1 * k), 1.0, 0.7];
+            vec![Transform::Scale { factor, about: None }.into(), Transform::Translate([3.0 * k, 0.5, -k]).into()]
+        };
+        let placements = Placements::List(Box::new((0..count).map(copy).collect()));
+        let mut object = placed(&file, diffuse([0.5; 3]), Shading::Smooth, vec![scale(0.5)], placements);
+        if let Object::Mesh(mesh) = &mut object {
+            mesh.instances = instances;
+        }
+        compiled(&scene(8, vec![light([0.0, 9.0, 0.0], 1.0, [1.0; 3])], vec![object]))
+    };
+    let is_flattened = |scene: &Scene| scene.instances.iter().all(|i| i.placement.is_none());
+    let (never, always) = (copies(4, Instances::Never), copies(4, Instances::Always));
+    assert!(
+        is_flattened(&never)
+            && is_flattened(&copies(4, Instances::Auto))
+            && is_flattened(&copies(1, Instances::Always))
+    );
+    assert!(!is_flattened(&always) && !is_flattened(&copies(1025, Instances::Auto)));
+    // 80 triangles each.
+    assert_eq!(always.triangles.vertices.len(), 80);
+    assert_eq!(never.triangles.vertices.len(), 4 * 80);
+    for (ours, theirs) in always.instances.iter().zip(&never.instances) {
+        let rows = ours.placement.expect("an instance").map(|row| row.map(f64::from));
+        let moved = |p: DVec3| DVec3::from(rows.map(|[x, y, z, w]| DVec3::new(x, y, z).dot(p) + w));
+        let [x, y, z] = rows.map(|[x, y, z, _]| DVec3::new(x, y, z));
+        let inside_out = x.dot(y.cross(z)) < 0.0;
+        for k in 0..80 {
+            let first = always.meshes[ours.mesh as usize].first_triangle;
+            let [a, b, c] = always.triangles.corners(first + k).expect("a triangle").map(moved);
+            let [a, b, c] = if inside_out { [a, c, b] } else { [a, b, c] };
+            let first = never.meshes[theirs.mesh as usize].first_triangle;
+            let corners = never.triangles.corners(first + k).expect("a triangle");
+            for (p, q) in [a, b, c].into_iter().zip(corners) {
+                // A few roundings to f32 of numbers of about one.
+                assert!(p.distance(q) < 1e-6, "triangle {k}: {p} and {q}");
+            }
+        }
+    }
+}
+
+/// Each object has its own material: the last of them, and a mesh placed twice, as triangles and as instances.
 #[test]
 fn objects_have_their_materials() {
     let ball = |x: f64, color| sphere([x, 0.0, 0.0], 0.5, diffuse(color));
@@ -159,12 +206,24 @@ fn objects_have_their_materials() {
         mesh(&file, diffuse(color), Shading::Flat, vec![scale(0.5), Transform::Translate([x, 0.0, 0.0])])
     };
     let colors = [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6], [0.7, 0.8, 0.9], [0.15, 0.35, 0.55]];
-    let objects: Vec<Object> =
-        vec![ball(-3.0, colors[0]), ball(-1.0, colors[1]), copy(1.0, colors[2]), copy(3.0, colors[3])];
-    for (k, color) in colors.into_iter().enumerate() {
+    let objects = |instances: Instances| {
+        let mut objects =
+            vec![ball(-3.0, colors[0]), ball(-1.0, colors[1]), copy(1.0, colors[2]), copy(3.0, colors[3])];
+        for object in &mut objects {
+            if let Object::Mesh(mesh) = object {
+                mesh.instances = instances;
+            }
+        }
+        objects
+    };
+    let cases = [Instances::Always, Instances::Never].into_iter().flat_map(|i| (0..4).map(move |k| (i, k)));
+    for (instances, k) in cases {
+        let color = colors[k];
         let x = 2.0 * k as f64 - 3.0;
-        let desc =
-            scene(8, vec![], objects.clone()).camera([x, 0.0, 6.0], [x, 0.0, 0.0], 0.5).background([1.0; 3]).bounces(0);
+        let desc = scene(8, vec![], objects(instances))
+            .camera([x, 0.0, 6.0], [x, 0.0, 0.0], 0.5)
+            .background([1.0; 3])
+            .bounces(0);
         let scene = compiled(&desc);
         assert!(scene.instances.iter().all(|i| i.material != NONE), "each mesh object names one material");
         let film = film(&scene, 64, 1);

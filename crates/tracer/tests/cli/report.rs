@@ -104,11 +104,11 @@ const ROOM: &str = "Scene(
 fn every_switch_says_what_it_costs() {
     let sandbox = Sandbox::new();
     sandbox.write("scene.ron", ROOM);
-    let map = "render.indirect=Map";
-    let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &["--set", map], &["--set", "render.clamp=0.25"]];
+    let biased = ["--set", "render.indirect=Paths", "--set", "render.clamp=0.25"];
+    let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &[], &biased];
     // Of reuse, caustics, indirect, clamp: the setting, whether it is at work, and what the picture is an estimate of.
     let expected = [
-        ([("Blocks", false), ("Photons", false), ("Paths", false), ("None", false)], "unbiased"),
+        ([("Blocks", false), ("Photons", false), ("Map", false), ("None", false)], "unbiased"),
         ([("Blocks", true), ("Photons", true), ("Map", true), ("None", false)], "consistent"),
         ([("Blocks", true), ("Photons", true), ("Paths", false), ("0.25", true)], "biased"),
     ];
@@ -149,7 +149,7 @@ fn every_switch_says_what_it_costs() {
     let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "render.clamp=0.25"]).ends(0);
     said.says(&["what the switches of `render` cost", "reuse", "Photons: consistent", "0.25: biased", "clamping took"]);
     let said = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--stats", "--set", "background=1"]).ends(0);
-    said.says(&["Blocks, not used: unbiased", "  Paths: unbiased"]);
+    said.says(&["Blocks, not used: unbiased", "Map, not used: unbiased"]);
 }
 
 /// The examples of the report's page, few samples of a small picture: each is what its comment says.

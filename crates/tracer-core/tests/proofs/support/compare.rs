@@ -55,11 +55,11 @@ impl Renderings {
 }
 
 /// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all tiles of all
-/// scenes together (Šidák), and the means of the channels within three standard errors. Without photons, which are right in the limit
-/// only: they have a test of their own ([`assert_photons_are_consistent`]).
+/// scenes together (Šidák), and the means of the channels within three standard errors. Without photons and the indirect map, which are
+/// right in the limit only: they have tests of their own ([`assert_photons_are_consistent`], [`assert_map_is_consistent`]).
 pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     let mut desc = desc.clone();
-    desc.render.caustics = Caustics::None;
+    (desc.render.caustics, desc.render.indirect) = (Caustics::None, Indirect::Paths);
     let scene = super::compiled(&desc);
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
     let engine = Renderings::new(&scene, engine_samples, 1000);
@@ -88,7 +88,7 @@ pub fn assert_aiming_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
 fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scenes: usize) {
     let rendered = |reuse: Reuse, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        desc.render.caustics = caustics;
+        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
         let mut scene = super::compiled(&desc);
         // Under a background, too, where by itself the engine does not share.
         scene.reuse = reuse == Reuse::Blocks;
@@ -104,7 +104,7 @@ fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scen
 pub fn assert_chains_are_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
     let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        desc.render.caustics = caustics;
+        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
         Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
     };
     let size = [desc.image.width.value, desc.image.height.value];
@@ -134,7 +134,7 @@ pub fn noise(desc: &SceneDesc, samples: u32) -> f64 {
 pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, bias: f64, scenes: usize) {
     let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        desc.render.caustics = caustics;
+        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
         Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
     };
     let size = [desc.image.width.value, desc.image.height.value];

@@ -2,8 +2,8 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, Color, Effects, Emission, Image, Light, Material, MaterialRef, Mesh, Object, PixelFilter, Placements,
-    Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens, Transform, Vec3,
+    Albedo, Color, Effects, Emission, Image, Instances, Light, Material, MaterialRef, Mesh, Object, PixelFilter,
+    Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens, Transform, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
@@ -67,7 +67,7 @@ pub fn mesh(file: &Path, material: Material, shading: Shading, transform: Vec<Tr
     placed(file, material, shading, transform, Placements::One)
 }
 
-/// Copies of a mesh.
+/// Copies of a mesh, as instances even if they are few.
 pub fn placed(
     file: &Path,
     material: Material,
@@ -80,6 +80,7 @@ pub fn placed(
         material: inline(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements,
+        instances: Instances::Always,
         shading,
     })
 }
