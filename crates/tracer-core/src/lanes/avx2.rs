@@ -164,6 +164,30 @@ fn rows_of_three(table: &[f32], place: U8) -> [__m256; 3] {
     }
 }
 
+/// As [`rows_of_three`], four entries.
+#[inline(always)]
+fn rows_of_four(table: &[f32], place: U8) -> [__m256; 4] {
+    assert!(table.len() >= 4);
+    let mut places = [0u32; 8];
+    U8(place.clamped(table.len() - 3)).store(&mut places);
+    let [p0, p1, p2, p3, p4, p5, p6, p7] = places;
+    let t = table.as_ptr();
+    unsafe {
+        let a = halves(_mm_loadu_ps(t.add(p0 as usize)), _mm_loadu_ps(t.add(p4 as usize)));
+        let b = halves(_mm_loadu_ps(t.add(p1 as usize)), _mm_loadu_ps(t.add(p5 as usize)));
+        let c = halves(_mm_loadu_ps(t.add(p2 as usize)), _mm_loadu_ps(t.add(p6 as usize)));
+        let d = halves(_mm_loadu_ps(t.add(p3 as usize)), _mm_loadu_ps(t.add(p7 as usize)));
+        let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+        let (ab_high, cd_high) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab, cd),
+            _mm256_shuffle_ps::<0xee>(ab, cd),
+            _mm256_shuffle_ps::<0x44>(ab_high, cd_high),
+            _mm256_shuffle_ps::<0xee>(ab_high, cd_high),
+        ]
+    }
+}
+
 /// As [`rows_of_three`], two entries.
 #[inline(always)]
 fn rows_of_two(table: &[f32], place: U8) -> [__m256; 2] {
@@ -350,6 +374,11 @@ impl Lanes for F8 {
     fn gather3(table: &[f32], place: U8) -> [Self; 3] {
         let [x, y, z] = rows_of_three(table, place);
         [F8(x), F8(y), F8(z)]
+    }
+    #[inline(always)]
+    fn gather4(table: &[f32], place: U8) -> [Self; 4] {
+        let [a, b, c, d] = rows_of_four(table, place);
+        [F8(a), F8(b), F8(c), F8(d)]
     }
     #[inline(always)]
     fn compress(self, mask: M8, to: &mut [f32]) {

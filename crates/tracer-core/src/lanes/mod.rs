@@ -151,6 +151,13 @@ pub trait Lanes:
         let one = Self::U::splat(1);
         [Self::gather(table, place), Self::gather(table, place + one), Self::gather(table, place + one + one)]
     }
+    /// Four consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold four).
+    #[inline(always)]
+    fn gather4(table: &[f32], place: Self::U) -> [Self; 4] {
+        let two = Self::U::splat(2);
+        let ([a, b], [c, d]) = (Self::gather2(table, place), Self::gather2(table, place + two));
+        [a, b, c, d]
+    }
     /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
     fn compress(self, mask: Self::M, to: &mut [f32]);
 

@@ -88,6 +88,9 @@ fn everything<F: Lanes>() -> Vec<u32> {
                 F::gather3(&floats, at(3)).into_iter().for_each(|value| log.floats(value));
                 F::U::gather3(&integers, at(3)).into_iter().for_each(|value| log.words::<F>(value));
             }
+            if size >= 4 {
+                F::gather4(&floats, at(4)).into_iter().for_each(|value| log.floats(value));
+            }
         }
         // Past the end is the last entry.
         log.floats(F::gather(&numbers(5, seed), F::U::splat(NOWHERE)));

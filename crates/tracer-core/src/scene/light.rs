@@ -25,7 +25,8 @@ pub(crate) struct LightTable {
     /// Primitive id of the light's sphere.
     pub primitive: Vec<u32>,
     /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius and
-    /// power of the lights below, and the bits of the first child's index, or of [`LightTable::LEAF`] and a light.
+    /// power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and 1 for
+    /// [`LightTable::FEW`] lights at most, FEW / n for n.
     pub tree: Vec<f32>,
     /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
     pub trail: Vec<u32>,
@@ -50,6 +51,10 @@ impl Emitter {
 impl LightTable {
     /// Numbers of a node.
     pub const STRIDE: u32 = 8;
+    /// Where a node holds what it is: see [`LightTable::tree`].
+    pub const CONTENT: usize = 5;
+    /// So many lights may all lie in the highest place of their sphere. Of more it is unlikely.
+    const FEW: f64 = 4.0;
     /// Marks a node that is a light.
     pub const LEAF: u32 = 1 << 31;
 
@@ -124,6 +129,7 @@ impl Builder<'_> {
         };
         let numbers = [center.x, center.y, center.z, radius, power].map(|x| x as f32);
         self.tree[at..at + 5].copy_from_slice(&numbers);
-        self.tree[at + 5] = f32::from_bits(content);
+        self.tree[at + LightTable::CONTENT] = f32::from_bits(content);
+        self.tree[at + LightTable::CONTENT + 1] = (LightTable::FEW / lights.len() as f64).min(1.0) as f32;
     }
 }

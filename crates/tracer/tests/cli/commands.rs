@@ -53,7 +53,10 @@ fn info_counts() {
     let placements = "[Translate((1, 0, 0))], [Translate((4, 0, 0))]";
     sandbox.write(
         "cat.ron",
-        SCENE.replace("    objects: [", &format!("    objects: [ Mesh(file: {cat:?}, placements: [{placements}]),")),
+        SCENE.replace(
+            "    objects: [",
+            &format!("    objects: [ Mesh(file: {cat:?}, placements: [{placements}], instances: Always),"),
+        ),
     );
     let json: Value =
         serde_json::from_str(&sandbox.run(&["info", "cat.ron", "--json"]).ends(0).out_text()).expect("JSON");

@@ -247,8 +247,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "light-tree-loses-lights-on-the-horizon",
         file: LIGHTS,
-        find: "(to.dot(receiver.n) + radius)",
-        replace: "(to.dot(receiver.n) - radius)",
+        find: "(middle + r).max(zero)",
+        replace: "(middle - r).max(zero)",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {

@@ -101,9 +101,16 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "copies-forget-their-own-material",
         file: MESHES,
-        find: "Instance { mesh, material: whole, placement: Some(",
-        replace: "Instance { mesh, material: 0, placement: Some(",
+        find: "material: whole,\n            placement: Some(",
+        replace: "material: 0,\n            placement: Some(",
         caught_by: proofs(&["compiling", "random_scenes"]),
+    },
+    Mutant {
+        name: "flattened-copies-lie-as-the-first",
+        file: MESHES,
+        find: "built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials)",
+        replace: "built.add_mesh(data, variant.smooth, &placed.maps[object][0], frame.scale, whole, own_materials)",
+        caught_by: proofs(&["compiling"]),
     },
     Mutant {
         name: "transforms-last-to-first",

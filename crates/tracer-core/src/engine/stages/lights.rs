@@ -39,24 +39,25 @@ pub struct Receiver<F: Lanes> {
 
 /// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over squared distance
 /// times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting, 2018). Unlike there the direction of the lights does not count (spheres shine everywhere).
+/// Splitting, 2018). Unlike there the direction of the lights does not count (spheres shine everywhere), and distance and cosine are
+/// rather those of the middle than bounds ([`Node::importance`]).
 #[inline(always)]
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
-    let (mut u, mut node, mut probability) = (u, F::U::splat(0), F::splat(1.0));
+    let (mut u, mut content, mut probability) = (u, root::<F>(lights), F::splat(1.0));
     for level in 0..lights.depth {
         // Each step takes a bit of a number of 24.
         if level == SECOND_NUMBER {
             u = v;
         }
-        let step = Step::new(lights, node, at);
+        let step = Step::new(lights, content, at);
         let second = step.first.le(u);
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
         let rest = F::select(second, u - step.first, u) / chance;
         u = F::select(step.inner, rest.min(F::splat(ALMOST_ONE)), u);
         probability = F::select(step.inner, probability * chance, probability);
-        node = step.child(second, node);
+        content = step.child(second, content);
     }
-    Choice { light: light_of::<F>(lights, node), probability }
+    Choice { light: content & F::U::splat(!LightTable::LEAF), probability }
 }
 
 /// From this step on the second random number is used.
@@ -66,75 +67,94 @@ const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
 /// The probability that [`choose`] takes this light.
 #[inline(always)]
 fn probability<F: Lanes>(lights: &LightTable, light: F::U, at: Receiver<F>) -> F {
-    let (mut node, mut probability) = (F::U::splat(0), F::splat(1.0));
+    let (mut content, mut probability) = (root::<F>(lights), F::splat(1.0));
     let mut trail = F::U::gather(&lights.trail, light);
     for _ in 0..lights.depth {
-        let step = Step::new(lights, node, at);
+        let step = Step::new(lights, content, at);
         let second = (trail & F::U::splat(1)).eq(F::U::splat(1));
         trail = trail.shr::<1>();
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
         probability = F::select(step.inner, probability * chance, probability);
-        node = step.child(second, node);
+        content = step.child(second, content);
     }
     probability
+}
+
+/// What the root holds; see [`LightTable::tree`].
+#[inline(always)]
+fn root<F: Lanes>(lights: &LightTable) -> F::U {
+    F::splat(lights.tree[LightTable::CONTENT]).to_bits()
 }
 
 /// One step down the tree.
 struct Step<F: Lanes> {
     /// The node has children.
     inner: F::M,
-    /// Its first child.
-    children: F::U,
+    /// What they hold.
+    contents: [F::U; 2],
     /// Probability of the first one.
     first: F,
 }
 
 impl<F: Lanes> Step<F> {
+    /// From a node that holds this.
     #[inline(always)]
-    fn new(lights: &LightTable, node: F::U, at: Receiver<F>) -> Self {
-        let content = content::<F>(lights, node);
+    fn new(lights: &LightTable, content: F::U, at: Receiver<F>) -> Self {
         let inner = content.lt(F::U::splat(LightTable::LEAF));
         let children = F::U::select(inner, content, F::U::splat(0));
-        let (a, b) = (importance(lights, children, at), importance(lights, children + F::U::splat(1), at));
+        let (a, b) = (Node::load(lights, children), Node::load(lights, children + F::U::splat(1)));
+        let contents = [a.content, b.content];
+        let (a, b) = (a.importance(at), b.importance(at));
         let sum = a + b;
         let any = F::splat(0.0).lt(sum);
         let first = F::select(any, a / F::select(any, sum, F::splat(1.0)), F::splat(0.5));
-        Step { inner, children, first }
+        Step { inner, contents, first }
     }
     #[inline(always)]
-    fn child(&self, second: F::M, node: F::U) -> F::U {
-        let one = F::U::splat(1);
-        let child = F::U::select(second, self.children + one, self.children);
-        F::U::select(self.inner, child, node)
+    fn child(&self, second: F::M, content: F::U) -> F::U {
+        let child = F::U::select(second, self.contents[1], self.contents[0]);
+        F::U::select(self.inner, child, content)
     }
 }
 
-/// What the lights below a node may send to the receiver, but for a factor: their power over the squared distance of their middle, times
-/// the cosine there of the point of the sphere around them that lies highest above the horizon, or what is simpler and never less and
-/// zero where that is: (h + r) / d for a middle h above the horizon. Within that sphere no distance says more than its radius.
-#[inline(always)]
-fn importance<F: Lanes>(lights: &LightTable, node: F::U, receiver: Receiver<F>) -> F {
-    let at = node * F::U::splat(LightTable::STRIDE);
-    let tree = &lights.tree;
-    let (one, two) = (F::U::splat(1), F::U::splat(2));
-    let center = V3(F::gather(tree, at), F::gather(tree, at + one), F::gather(tree, at + two));
-    let (radius, power) = (F::gather(tree, at + one + two), F::gather(tree, at + two + two));
-    let to = center.sub(receiver.p);
-    let d2 = to.dot(to).max(radius * radius);
-    let highest = (to.dot(receiver.n) + radius).max(F::splat(0.0)) / d2.sqrt();
-    power / d2 * highest.min(F::splat(1.0))
+/// A node of the tree of lights.
+struct Node<F: Lanes> {
+    /// Middle and radius of a sphere around the lights below.
+    center: V3<F>,
+    radius: F,
+    power: F,
+    /// See [`LightTable::tree`].
+    content: F::U,
+    /// See [`LightTable::tree`].
+    few: F,
 }
 
-/// What a node holds; see [`LightTable::tree`].
-#[inline(always)]
-fn content<F: Lanes>(lights: &LightTable, node: F::U) -> F::U {
-    F::gather(&lights.tree, node * F::U::splat(LightTable::STRIDE) + F::U::splat(5)).to_bits()
-}
+/// Lights in a sphere of radius r whose middle is d away send as if they were sqrt(d^2 + r^2 / 10) away. A bound on the distance would be
+/// d - r; this, [`LEAST_HEIGHT`] and [`LightTable::FEW`] were found by trial (docs/noise.md).
+const SPREAD: f32 = 0.1;
+/// Lights in a sphere whose highest point is h above the horizon are taken to be this part of h above it at least.
+const LEAST_HEIGHT: f32 = 0.25;
 
-/// The light of a leaf.
-#[inline(always)]
-fn light_of<F: Lanes>(lights: &LightTable, leaf: F::U) -> F::U {
-    content::<F>(lights, leaf) & F::U::splat(!LightTable::LEAF)
+impl<F: Lanes> Node<F> {
+    #[inline(always)]
+    fn load(lights: &LightTable, node: F::U) -> Self {
+        let at = node * F::U::splat(LightTable::STRIDE);
+        let [x, y, z, radius] = F::gather4(&lights.tree, at);
+        let [power, content, few] = F::gather3(&lights.tree, at + F::U::splat(4));
+        Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few }
+    }
+
+    /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine there: of few lights
+    /// a bound, of many one rather of their middle, never zero while some of the sphere is above the horizon.
+    #[inline(always)]
+    fn importance(&self, receiver: Receiver<F>) -> F {
+        let (r, zero) = (self.radius, F::splat(0.0));
+        let to = self.center.sub(receiver.p);
+        let d2 = to.dot(to) + r * r * F::splat(SPREAD);
+        let middle = to.dot(receiver.n);
+        let height = (middle + r * self.few).max((middle + r).max(zero) * F::splat(LEAST_HEIGHT));
+        self.power / d2 * (height / d2.sqrt()).min(F::splat(1.0))
+    }
 }
 
 /// 1 - cos of the half angle under which a sphere is seen from squared distance d2, without cancellation; 2 (all directions) from

@@ -157,7 +157,7 @@ fn lights_are_chosen_as_their_probabilities_say() {
         // 23 products of up to 5 factors that are rounded to 2^-24.
         assert!((chances.iter().sum::<f64>() - 1.0).abs() < 23.0 * 5.0 * 6e-8);
         let mut counts = vec![0u64; lights.len()];
-        let n = 200_000;
+        let n = 1_000_000;
         for _ in 0..n {
             let choice = choose::<S>(&table, p, number(&mut random), number(&mut random));
             let mut out = [0];
@@ -206,8 +206,9 @@ fn near_lights_are_chosen_more_often() {
     };
     // (1 + 0.5) / (1 + 0.5 + 2.5 + 0.5), see `table`.
     assert!((chance([5.0, 1e6, 0.0], [0.0, -1.0, 0.0]) - 1.0 / 3.0).abs() < 1e-5);
-    // Both on the horizon, where the cosine is bounded by their radius over the distance.
-    let near = 1.5 * 0.1 / (1.5 * 0.1 + 3.0 / 81.0 * 0.1 / 9.0);
+    // Both on the horizon: their radius above it.
+    let sends = |power: f64, d2: f64| power * 0.1 / (d2 + 0.1 * 0.01).powf(1.5);
+    let near = sends(1.5, 1.0) / (sends(1.5, 1.0) + sends(3.0, 81.0));
     assert!((chance([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) - near).abs() < 1e-5);
 }
 
