@@ -112,13 +112,17 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         None => vec![false; tiles.len()],
     };
     // A second vertex scatters once more.
-    let wants_indirect = pass_options.reuse && scene.max_bounces > 1 && options.indirect.unwrap_or(scene.indirect);
+    let wants_indirect = pass_options.reuse
+        && scene.max_bounces > 1
+        && options.indirect.unwrap_or(scene.indirect)
+        && !tiles.is_empty()
+        && indirect::worth(scene, &kernels, pass_options, &workers);
     let has_maps = caustics.is_some() || wants_indirect;
     for pass in passes(samples, if has_maps { 4 * SAMPLES } else { 16 * SAMPLES }) {
         if let Some(caustics) = &mut caustics {
             caustics.prepare(scene, &kernels, pass.clone(), &workers);
         }
-        let indirect = if wants_indirect && !tiles.is_empty() {
+        let indirect = if wants_indirect {
             indirect::maps(scene, &kernels, pass_options, caustics.as_ref(), pass.clone(), &workers)
         } else {
             Vec::new()

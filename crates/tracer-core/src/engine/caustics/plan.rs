@@ -20,7 +20,7 @@ pub const LEVELS: usize = 10;
 /// Share of the photons that goes to the pairs by size and distance alone, whatever the trial says.
 const UNTRIED: f64 = 0.25;
 /// A scene whose casters pass on less of its light than this to diffuse surfaces does without a map.
-const LEAST_SHARE: f64 = 1e-5;
+const LEAST_SHARE: f64 = 4e-5;
 
 /// How the light's surface and the caster's sphere lie to each other.
 pub mod aim {
