@@ -2,9 +2,9 @@
 
 use crate::random_scenes::random_scene;
 use crate::support::compare::{assert_map_is_consistent, noise};
-use crate::support::compiled;
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, picture, torus};
+use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
     Albedo, Caustics, Indirect, Light, Object, Reuse, Shading, TextureFilter, TextureWrap, Transform,
@@ -13,7 +13,7 @@ use scene_format::diagnostic::Spanned;
 use tracer_core::{RenderOptions, Unobserved};
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 18;
+const SCENES: usize = 14;
 
 fn in_the_room(bounces: u32, objects: Vec<Object>) -> SceneDesc {
     scene(48, vec![room_light()], room().into_iter().chain(objects).collect())
@@ -35,13 +35,13 @@ fn matt_room() -> SceneDesc {
 /// Matt walls of many colours, edges, contacts; and walls so bright that half of the light has come over five surfaces.
 #[test]
 fn matt_rooms() {
-    assert_map_is_consistent("matt room", &matt_room(), SCENES);
+    assert!(assert_map_is_consistent("matt room", &matt_room(), SCENES));
     let white = || diffuse([0.9; 3]);
     let within = sphere([0.0, 0.0, 30.0], 60.0, white());
     let white = scene(48, vec![room_light()], vec![within, sphere([0.0, -10.0, 0.0], 10.0, white())])
         .camera([0.0, 0.0, 55.0], [0.0, 0.0, 0.0], 60.0)
         .bounces(12);
-    assert_map_is_consistent("white room", &white, SCENES);
+    assert!(assert_map_is_consistent("white room", &white, SCENES));
 }
 
 /// Second vertices seen over mirrors and through glass, whose paths have fewer vertices left; photons; glossy walls and textures; two lamps,
@@ -62,21 +62,24 @@ fn what_stands_between() {
             ),
         ]
     };
-    assert_map_is_consistent("with photons", &in_the_room(7, balls(1.5)), SCENES);
+    assert!(assert_map_is_consistent("with photons", &in_the_room(7, balls(1.5)), SCENES));
     let mut without = in_the_room(4, balls(1.2)).lens(3.0, 50.0);
     without.render.caustics = Caustics::None;
     without.lights.push(Spanned::from(Light::SphereLight(light([20.0, 30.0, 10.0], 9.0, [3.0, 4.0, 5.0]))));
-    assert_map_is_consistent("without photons", &without, SCENES);
+    assert!(assert_map_is_consistent("without photons", &without, SCENES));
 }
 
 #[test]
-fn random_scenes_48_to_61() {
-    for seed in 48..62 {
+fn random_scenes_48_to_79() {
+    let mut tested = 0;
+    for seed in 48..80 {
         let mut desc = random_scene(seed);
         desc.background = [0.0; 3];
         desc.render.max_bounces = desc.render.max_bounces.value.max(3).into();
-        assert_map_is_consistent(&format!("random scene {seed}"), &desc, SCENES);
+        tested += u32::from(assert_map_is_consistent(&format!("random scene {seed}"), &desc, SCENES));
     }
+    println!("{tested} of 32 scenes have a map");
+    assert!(tested >= 8, "{tested} of 32 scenes have a map");
 }
 
 /// In a matt room the map takes away most of the variance from behind second vertices. At 256x256 pixels that leaves two thirds
@@ -98,18 +101,24 @@ fn the_map_is_worth_it() {
 /// It is at work only where pixels share and second vertices scatter once more, and counts its rays.
 #[test]
 fn where_it_is_at_work() {
-    let film = |reuse: Reuse, bounces: u32, indirect: Indirect| {
+    let rendered = |reuse: Reuse, bounces: u32, indirect: Indirect| {
         let mut desc = matt_room().bounces(bounces);
         (desc.image.width, desc.image.height) = (256.into(), 256.into());
         (desc.render.reuse, desc.render.indirect) = (reuse, indirect);
         tracer_core::render(&compiled(&desc), &RenderOptions { samples: Some(1), ..Default::default() }, &Unobserved)
     };
-    let on = film(Reuse::Blocks, 5, Indirect::Map);
+    let on = rendered(Reuse::Blocks, 5, Indirect::Map);
     assert!(on.indirect && on.counters.record_rays > 0);
-    let paths = film(Reuse::Blocks, 5, Indirect::Paths);
+    let paths = rendered(Reuse::Blocks, 5, Indirect::Paths);
     // What the picture's paths no longer trace: most of what comes after second vertices.
     assert!(2 * on.counters.scattered_rays < paths.counters.scattered_rays);
-    for film in [paths, film(Reuse::None, 5, Indirect::Map), film(Reuse::Blocks, 1, Indirect::Map)] {
+    for film in [paths, rendered(Reuse::None, 5, Indirect::Map), rendered(Reuse::Blocks, 1, Indirect::Map)] {
         assert!(!film.indirect && film.counters.record_rays == 0);
     }
+    // One ball in the dark: a trial finds no second vertex, and that is all it costs.
+    let alone = scene(64, vec![room_light()], vec![sphere([0.0; 3], 10.0, diffuse([0.8; 3]))])
+        .camera([0.0, 0.0, 55.0], [0.0, 0.0, 0.0], 60.0)
+        .bounces(5);
+    let alone = film(&compiled(&alone), 1, 1);
+    assert!(!alone.indirect && (1024..4096).contains(&alone.counters.record_rays), "{:?}", alone.counters);
 }
