@@ -357,15 +357,16 @@ def plain_scenes(folder, work, size):
         yield f"figure {number}", os.path.join(repository, f"fig{number}.ron"), (size, size)
     for name, shape in (("bokeh", 16 / 9), ("cat_planet", 16 / 9), ("cradle", 3 / 2), ("marbles", 4 / 3), ("still_life", 4 / 3)):
         yield f"gallery: {name}", os.path.join(repository, "gallery", name + ".ron"), (size, round(size / shape))
-    for scene in scenes() + noise_scenes(work)[2:4] + more_scenes():
+    for scene in scenes() + noise_scenes(work)[2:4] + more_scenes(work):
         file = os.path.join(folder, "scene.ron")
         with open(file, "w") as f:
             f.write(scene.ron(size))
         yield scene.name, file, (size, size)
 
 
-def more_scenes():
-    """What the others lack: very many lamps, everything specular, outdoors, casters whose light goes nowhere, long paths, random balls."""
+def more_scenes(work):
+    """What the others lack: very many lamps, everything specular, outdoors, rooms with a window, casters whose light goes nowhere, long
+    paths, random balls."""
     draw = random.Random(7)
     lamps = [
         Light([draw.uniform(-40, 40), draw.uniform(-15, 45), draw.uniform(-40, 90)], 0.3, [draw.uniform(10, 400) for _ in range(3)])
@@ -383,15 +384,45 @@ def more_scenes():
     white = [Sphere(s.center, s.radius, Diffuse((0.95,) * 3)) for s in room()]
     sky = (0.6, 0.75, 1.0)
     view = dict(eye=(20, 30, 60), look_at=(0, 4, 0), fov=40.0)
+    indoors = [
+        Mesh(room_with_a_window(work), Diffuse((0.75, 0.72, 0.65))),
+        Sphere((-1.5, -2, -2), 1, Diffuse((0.7, 0.2, 0.15))),
+        Sphere((1.5, -2.2, -3), 0.8, Diffuse((0.2, 0.3, 0.7))),
+    ]
+    within = dict(background=(4, 5, 7), bounces=8, eye=(2, 0, 5.5), look_at=(-0.5, -0.8, -2), fov=60.0)
     return [
         Scene("a thousand lamps in the room", room() + three_balls(), lamps),
         Scene("only mirrors and glass, sky", mirrors_and_glass, background=sky, bounces=20),
         Scene("outdoors, sky alone", outdoors, background=sky, **view),
         Scene("outdoors, sky and sun", outdoors, [Light((300, 500, 200), 12, (9000, 8500, 8000))], background=sky, **view),
+        Scene("a room with a window, sky alone", indoors + [Sphere((3, -2, -1), 1, Diffuse((0.6,) * 3))], [], **within),
+        Scene("a room with a window, sky and sun", indoors + [Sphere((3, -2, -1), 1, Glass(1.5))], [Light((-40, 30, 0), 2, (2000,) * 3)], **within),
         Scene("a mirror floor under a wide lamp", [Sphere((0, -1000, 0), 1000, Mirror((0.9,) * 3)), *three_balls()], [Light((0, 60, 0), 15, (9,) * 3)]),
         Scene("fifty bounces in a white room", white + row(0, [Glass(1.5), Diffuse((0.95,) * 3), Mirror((0.95,) * 3)]), [lamp()], bounces=50),
         *(random_balls(k) for k in range(4)),
     ]
+
+
+def room_with_a_window(work):
+    """A room of 10x6x12 with an opening of 2.5x4 in its left wall, written to the folder `work`."""
+
+    def corner(x, y, z):
+        return 1 + 4 * [-5, 5].index(x) + 2 * [-3, 3].index(y) + [-6, 6].index(z)
+
+    text = "".join(f"v {x} {y} {z}\n" for x in (-5, 5) for y in (-3, 3) for z in (-6, 6))
+    text += "".join(f"v -5 {y} {z}\n" for y in (-0.5, 2) for z in (-3, 1))
+    a, b, c, d = corner(-5, -3, -6), corner(-5, -3, 6), corner(-5, 3, 6), corner(-5, 3, -6)
+    low, low_right, high, high_right = 9, 10, 11, 12
+    faces = [corner(x, y, z) for x, y, z in [(5, -3, -6), (5, 3, -6), (5, 3, 6), (5, -3, 6)]], [a, d, corner(5, 3, -6), corner(5, -3, -6)]
+    faces += [b, c, corner(5, 3, 6), corner(5, -3, 6)], [a, b, corner(5, -3, 6), corner(5, -3, -6)], [d, c, corner(5, 3, 6), corner(5, 3, -6)]
+    # Around the opening.
+    faces += [a, b, low_right, low], [b, c, high_right, low_right], [c, d, high, high_right], [d, a, low, high]
+    text += "".join(f"f {' '.join(map(str, face))}\n" for face in faces)
+    os.makedirs(work, exist_ok=True)
+    out = os.path.join(work, "window.obj")
+    with open(out, "w") as f:
+        f.write(text)
+    return out
 
 
 def random_balls(k):

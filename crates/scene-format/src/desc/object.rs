@@ -70,7 +70,7 @@ scene_words! {
         Auto,
         /// They do: a further copy takes 64 bytes, whatever the mesh. Rays take up to a third longer.
         Always,
-        /// Each copy has its own triangles in the scene's one tree, some 130 bytes each: the fastest rays.
+        /// Each copy has its own triangles in the scene's one tree, 80 to 130 bytes each: the fastest rays.
         Never,
     }
 }

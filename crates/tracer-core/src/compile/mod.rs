@@ -7,8 +7,8 @@ mod placing;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sphere, SphereTable, Tables,
-    TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
+    Tables, TextureTable,
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
@@ -101,8 +101,11 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
-        // What a ray sees where it leaves the scene is its own pixel's, and shared or not it never paid (docs/noise.md).
-        reuse: full && desc.render.reuse == Reuse::Blocks && desc.background == [0.0; 3],
+        reuse: match desc.render.reuse {
+            Reuse::Blocks if full && desc.background == [0.0; 3] => Sharing::Always,
+            Reuse::Blocks if full => Sharing::Indoors,
+            _ => Sharing::Never,
+        },
         caustics: full && desc.render.caustics == Caustics::Photons,
         indirect: full && desc.render.indirect == Indirect::Map,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),

@@ -30,8 +30,8 @@ use std::time::Instant;
 const ENOUGH: usize = 16;
 /// And so many that no finer cell has answered, to be known.
 const LEAST: u32 = 8;
-/// A map is worth it where one in so many paths has a second vertex.
-const WORTH: usize = 16;
+/// A map is worth it where such a share of the paths has a second vertex.
+pub const WORTH: f32 = 1.0 / 16.0;
 /// Levels of the octree.
 const LEVELS: u32 = 12;
 /// Cells of the finest level in a unit of render space; those of the coarsest are four units wide.
@@ -185,14 +185,15 @@ fn key_of(place: [u32; 3], side: u32, vertex: u32, level: u32) -> u64 {
     key.wrapping_add(u64::from(vertex).wrapping_mul(0xd6e8_feb8_6659_fd93)).max(1)
 }
 
-/// Whether enough paths have a second vertex that a map is worth its records: of a trial's, which depends on scene and seed alone.
-pub fn worth(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, workers: &[Mutex<Worker>]) -> bool {
+/// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
+pub fn trial(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, workers: &[Mutex<Worker>]) -> f32 {
+    let pass = Pass { reuse: true, ..pass };
     let mut items = items(scene.size, pass.seed, u32::MAX);
     // Every so many, all over the picture.
     let step = items.len().div_ceil(ITEMS);
     items = items.into_iter().step_by(step).collect();
     let found = each(workers, 1, |_, worker| records(scene, kernels, pass, &items, &mut worker.batch).len());
-    found[0] * WORTH >= items.len() * BLOCK_PIXELS
+    found[0] as f32 / (items.len() * BLOCK_PIXELS) as f32
 }
 
 /// The maps of these sample indices, in their order.

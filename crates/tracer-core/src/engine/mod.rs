@@ -18,7 +18,7 @@ pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
 use crate::film::{Crop, Film, Tile};
 use crate::lanes::level::Level;
-use crate::scene::Scene;
+use crate::scene::{Scene, Sharing};
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
 use caustics::Caustics;
 use kernels::Kernels;
@@ -54,6 +54,10 @@ pub struct RenderOptions {
     pub statistics: bool,
 }
 
+/// Under a background pixels share where such a share of the paths has a second vertex: in rooms with a window or without a wall. What a ray
+/// sees where it leaves the scene is its own pixel's; outdoors to share never paid (docs/noise.md).
+const INDOORS: f32 = 0.8;
+
 /// How far a rendering is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -85,9 +89,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let level = options.level.unwrap_or_else(Level::best);
     let kernels = Kernels::new(level);
     let samples = options.samples.unwrap_or(scene.samples);
-    let pass_options = trace::Pass {
+    let mut pass_options = trace::Pass {
         seed: options.seed.unwrap_or(scene.seed),
-        reuse: options.reuse.unwrap_or(scene.reuse),
+        reuse: false,
         lanes: level.lanes(),
         photons: None,
         indirect: None,
@@ -105,18 +109,26 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     for worker in &workers {
         lock(worker).batch.watch.start(options.statistics);
     }
+    let sharing = match options.reuse {
+        None => scene.reuse,
+        Some(true) => Sharing::Always,
+        Some(false) => Sharing::Never,
+    };
+    // A second vertex scatters once more.
+    let may_map = sharing != Sharing::Never && scene.max_bounces > 1 && options.indirect.unwrap_or(scene.indirect);
+    let has_second = if (may_map || sharing == Sharing::Indoors) && !tiles.is_empty() {
+        indirect::trial(scene, &kernels, pass_options, &workers)
+    } else {
+        0.0
+    };
+    pass_options.reuse = sharing == Sharing::Always || sharing == Sharing::Indoors && has_second >= INDOORS;
+    let wants_indirect = may_map && pass_options.reuse && has_second >= indirect::WORTH;
     let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
     let mut caustics = if wants_photons { Caustics::new(scene, &kernels, pass_options.seed, &workers) } else { None };
     let glints = match &caustics {
         Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
         None => vec![false; tiles.len()],
     };
-    // A second vertex scatters once more.
-    let wants_indirect = pass_options.reuse
-        && scene.max_bounces > 1
-        && options.indirect.unwrap_or(scene.indirect)
-        && !tiles.is_empty()
-        && indirect::worth(scene, &kernels, pass_options, &workers);
     let has_maps = caustics.is_some() || wants_indirect;
     for pass in passes(samples, if has_maps { 4 * SAMPLES } else { 16 * SAMPLES }) {
         if let Some(caustics) = &mut caustics {

@@ -32,6 +32,17 @@ use scene_format::desc::Acceleration;
 /// No primitive, no instance.
 pub const NONE: u32 = u32::MAX;
 
+/// When the pixels of a block share what they find.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Every pixel for itself.
+    Never,
+    /// Where a trial finds that hardly a path leaves the scene for its background.
+    Indoors,
+    /// Whatever the scene.
+    Always,
+}
+
 /// A compiled scene.
 pub struct Scene {
     /// Where render space lies in the person's world.
@@ -47,7 +58,7 @@ pub struct Scene {
     /// Seed of all random choices, unless the caller says otherwise.
     pub seed: u32,
     /// Whether the pixels of a block share what they find, unless the caller says otherwise.
-    pub reuse: bool,
+    pub reuse: Sharing,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
     pub caustics: bool,
     /// Whether a map brings the indirect light of second vertices.

@@ -3,7 +3,7 @@
 use crate::random_scenes::random_scene;
 use crate::support::compare::{assert_map_is_consistent, noise};
 use crate::support::describe::*;
-use crate::support::meshes::{icosphere, picture, torus};
+use crate::support::meshes::{cube, icosphere, picture, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
@@ -13,7 +13,7 @@ use scene_format::diagnostic::Spanned;
 use tracer_core::{RenderOptions, Unobserved};
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 14;
+const SCENES: usize = 16;
 
 fn in_the_room(bounces: u32, objects: Vec<Object>) -> SceneDesc {
     scene(48, vec![room_light()], room().into_iter().chain(objects).collect())
@@ -44,6 +44,14 @@ fn matt_rooms() {
     assert!(assert_map_is_consistent("white room", &white, SCENES));
 }
 
+/// Under a lamp so wide that a ray from a second vertex often meets it: the light sample stands for that.
+#[test]
+fn a_wide_lamp() {
+    let mut desc = matt_room();
+    desc.lights = vec![Spanned::from(Light::SphereLight(light([0.0, 60.0, 0.0], 40.0, [3.0, 4.0, 5.0])))];
+    assert!(assert_map_is_consistent("under a wide lamp", &desc, SCENES));
+}
+
 /// Second vertices seen over mirrors and through glass, whose paths have fewer vertices left; photons; glossy walls and textures; two lamps,
 /// and a wide one, which rays find by themselves.
 #[test]
@@ -67,6 +75,32 @@ fn what_stands_between() {
     without.render.caustics = Caustics::None;
     without.lights.push(Spanned::from(Light::SphereLight(light([20.0, 30.0, 10.0], 9.0, [3.0, 4.0, 5.0]))));
     assert!(assert_map_is_consistent("without photons", &without, SCENES));
+}
+
+/// A room that has half a wall to the sky: nine paths in ten have a second vertex, so pixels share, and the map knows the sky, too. On a floor under
+/// the sky they do not.
+#[test]
+fn rooms_with_a_window() {
+    let mut walls = cube();
+    walls.triangles.pop();
+    let walls = mesh(&walls.obj("window"), diffuse([0.8, 0.7, 0.6]), Shading::Flat, vec![scale(60.0)]);
+    let ball = || sphere([-15.0, -40.0, 0.0], 20.0, diffuse([0.3, 0.4, 0.8]));
+    let under_a_sky = |lights, objects| {
+        scene(48, lights, objects)
+            .camera([0.0, 0.0, 55.0], [0.0, -10.0, 0.0], 60.0)
+            .bounces(6)
+            .background([4.0, 5.0, 7.0])
+    };
+    let window = under_a_sky(vec![], vec![walls, ball()]);
+    let floor =
+        under_a_sky(vec![room_light()], vec![sphere([0.0, -10_060.0, 0.0], 10_000.0, diffuse([0.8; 3])), ball()]);
+    let rendered = |desc: &SceneDesc| film(&compiled(desc), 1, 1);
+    assert!(assert_map_is_consistent("room with a window", &window, SCENES));
+    assert!(rendered(&window).reuse && rendered(&window).indirect);
+    assert!(!rendered(&floor).reuse && !rendered(&floor).indirect);
+    let mut alone = window;
+    alone.render.reuse = Reuse::None;
+    assert!(!rendered(&alone).reuse && rendered(&alone).counters.record_rays == 0);
 }
 
 #[test]

@@ -67,7 +67,7 @@ fn numbers_fit_together() {
     // 40x24 pixels lie in whole tiles of 16x16.
     assert_eq!(number("/samples/total"), 48 * 32 * 2);
     assert_eq!(
-        ["camera", "scattered", "shadow", "segments", "photons", "chains"]
+        ["camera", "scattered", "shadow", "segments", "photons", "chains", "records"]
             .map(|kind| number(&format!("/rays/{kind}")))
             .iter()
             .sum::<u64>(),

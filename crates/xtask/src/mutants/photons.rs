@@ -8,6 +8,7 @@ const GATHER: &str = "crates/tracer-core/src/engine/stages/gather.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const GLINTS: &str = "crates/tracer-core/src/engine/glints.rs";
 const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
+const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
 const INDIRECT: &str = "crates/tracer-core/src/engine/indirect.rs";
 const MAP: &str = "crates/tracer-core/src/engine/caustics/map.rs";
 const PLAN: &str = "crates/tracer-core/src/engine/caustics/plan.rs";
@@ -168,6 +169,13 @@ pub const MUTANTS: &[Mutant] = &[
         file: SHADE,
         find: "{ valid & !known }",
         replace: "{ valid }",
+        caught_by: proofs(&["indirect"]),
+    },
+    Mutant {
+        name: "pixels-share-outdoors",
+        file: ENGINE,
+        find: "sharing == Sharing::Indoors && has_second >= INDOORS",
+        replace: "sharing == Sharing::Indoors",
         caught_by: proofs(&["indirect"]),
     },
     Mutant {

@@ -3,6 +3,7 @@
 use super::{effort, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{Caustics, Indirect, Reuse};
+use tracer_core::scene::Sharing;
 use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
 use tracer_reference::{Smoothing, render};
@@ -90,8 +91,8 @@ fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scen
         let mut desc = desc.clone();
         (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
         let mut scene = super::compiled(&desc);
-        // Under a background, too, where by itself the engine does not share.
-        scene.reuse = reuse == Reuse::Blocks;
+        // Outdoors, too, where by itself the engine does not share.
+        scene.reuse = if reuse == Reuse::Blocks { Sharing::Always } else { Sharing::Never };
         Renderings::new(&scene, samples * effort(), first_seed)
     };
     let size = [desc.image.width.value, desc.image.height.value];

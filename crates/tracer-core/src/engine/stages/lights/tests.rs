@@ -225,6 +225,32 @@ fn lights_behind_are_not_chosen() {
     assert!(chance(1, -9.51) > 0.0 && chance(1, -10.4) > 0.5);
 }
 
+/// Lights in clouds through which the horizon goes: each that shows above it can be chosen, however many below it are in its nodes.
+#[test]
+fn lights_that_show_are_in_reach() {
+    let mut random = Random::new(8);
+    let mut showing = 0;
+    for cloud in 0..20 {
+        let lights: Vec<_> = (0..64)
+            .map(|_| {
+                let [x, y, z] = [0; 3].map(|_| 10.0 * (scalar(number(&mut random)) - 0.5));
+                // All but a few lie low.
+                (DVec3::new(x + 7.0, y - 0.2 * f64::from(cloud), z), 0.1, 1.0)
+            })
+            .collect();
+        let table = table(&lights);
+        let at = facing_up(V3::splat([0.0; 3]));
+        for (k, (center, radius, _)) in (0..).zip(&lights) {
+            // Beyond the rounding of single precision.
+            if center.y + radius > 1e-4 {
+                assert!(scalar(probability(&table, <S as Lanes>::U::splat(k), at)) > 0.0, "cloud {cloud}, light {k}");
+                showing += 1;
+            }
+        }
+    }
+    assert!(showing > 300, "{showing}");
+}
+
 /// A thousand lights, and ten thousand at one place: the way to none is longer than the logarithm, and none is out
 /// of reach.
 #[test]
