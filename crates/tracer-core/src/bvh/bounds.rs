@@ -36,6 +36,11 @@ impl Bounds {
         self.upper = self.upper.max(point);
     }
 
+    /// There is nothing in it.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lower.x > self.upper.x
+    }
+
     /// Half the surface area; 0 for an empty box.
     #[inline(always)]
     pub(crate) fn half_area(&self) -> f32 {

@@ -32,6 +32,8 @@ const ENOUGH: usize = 16;
 const LEAST: u32 = 8;
 /// A map is worth it where such a share of the paths has a second vertex.
 pub const WORTH: f32 = 1.0 / 16.0;
+/// A map is made of the paths of so many items at most: 32768 paths.
+const MOST_ITEMS: u64 = 512;
 /// Levels of the octree.
 const LEVELS: u32 = 12;
 /// Cells of the finest level in a unit of render space; those of the coarsest are four units wide.
@@ -188,10 +190,7 @@ fn key_of(place: [u32; 3], side: u32, vertex: u32, level: u32) -> u64 {
 /// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
 pub fn trial(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, workers: &[Mutex<Worker>]) -> f32 {
     let pass = Pass { reuse: true, ..pass };
-    let mut items = items(scene.size, pass.seed, u32::MAX);
-    // Every so many, all over the picture.
-    let step = items.len().div_ceil(ITEMS);
-    items = items.into_iter().step_by(step).collect();
+    let items = items(scene.size, pass.seed, u32::MAX, ITEMS as u64);
     let found = each(workers, 1, |_, worker| records(scene, kernels, pass, &items, &mut worker.batch).len());
     found[0] as f32 / (items.len() * BLOCK_PIXELS) as f32
 }
@@ -205,7 +204,8 @@ pub fn maps(
     numbers: Range<u32>,
     workers: &[Mutex<Worker>],
 ) -> Vec<IndirectMap> {
-    let items: Vec<Vec<Item>> = numbers.clone().map(|number| items(scene.size, pass.seed, number)).collect();
+    let items: Vec<Vec<Item>> =
+        numbers.clone().map(|number| items(scene.size, pass.seed, number, MOST_ITEMS)).collect();
     let batches: Vec<(u32, &[Item])> = numbers
         .clone()
         .zip(&items)
@@ -229,13 +229,12 @@ pub fn maps(
     })
 }
 
-/// The items whose pixels make the records of a map: a quarter of the picture's pixels, 1024 at least and 32768 at most, spread over all
-/// of it.
-fn items([width, height]: [u32; 2], seed: u32, number: u32) -> Vec<Item> {
+/// The items whose pixels make the records of a map: a quarter of the picture's pixels, 1024 at least and `most` items at most, spread over
+/// all of it by chance.
+fn items([width, height]: [u32; 2], seed: u32, number: u32, most: u64) -> Vec<Item> {
     let across = width.div_ceil(TILE);
     let all = u64::from(across) * u64::from(height.div_ceil(TILE)) * u64::from(QUARTERS);
-    let block = BLOCK_PIXELS as u64;
-    let count = (all / 4).clamp(1024 / block, 32768 / block).min(all);
+    let count = (all / 4).clamp(ITEMS as u64, most).min(all);
     let item = |k: u64| {
         // One of the k-th of equal shares of all quarters.
         let (first, end) = (all * k / count, all * (k + 1) / count);

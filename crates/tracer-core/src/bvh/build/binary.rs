@@ -91,8 +91,9 @@ impl BinaryTree {
         }
         let builder = Builder { kind, most };
         let extent = Extent::of(&items);
-        let mut nodes = Vec::with_capacity(2 * items.len().div_ceil(most.min(2)));
-        builder.build(&mut items, 0, extent, 0, &mut nodes);
+        let grown = builder.grow(&mut items, 0, extent, 0);
+        let mut nodes = Vec::with_capacity(grown.count());
+        grown.append_to(&mut nodes);
         Self { nodes, order: items.iter().map(Item::index).collect() }
     }
 
@@ -276,6 +277,35 @@ struct Found {
     binning: Binning,
 }
 
+/// A subtree whose nodes are in pieces still: each is copied once, whatever the number of levels that are built in parallel.
+enum Grown {
+    Dense(Vec<BinaryNode>),
+    Halves { bounds: Bounds, halves: Box<[Grown; 2]> },
+}
+
+impl Grown {
+    fn count(&self) -> usize {
+        match self {
+            Self::Dense(nodes) => nodes.len(),
+            Self::Halves { halves, .. } => 1 + halves[0].count() + halves[1].count(),
+        }
+    }
+
+    fn append_to(self, nodes: &mut Vec<BinaryNode>) {
+        match self {
+            Self::Dense(mut dense) => nodes.append(&mut dense),
+            Self::Halves { bounds, halves } => {
+                let at = nodes.len();
+                nodes.push(BinaryNode { bounds, content: Content::Inner { right: 0 }, sealed: false });
+                let [left, right] = *halves;
+                left.append_to(nodes);
+                nodes[at].content = Content::Inner { right: (nodes.len() - at) as u32 };
+                right.append_to(nodes);
+            }
+        }
+    }
+}
+
 struct Builder {
     kind: Kind,
     most: usize,
@@ -290,8 +320,7 @@ impl Builder {
         if count == 1 {
             return;
         }
-        let medians = (count as u32).ilog2() + 1;
-        let split = if depth + medians >= DEEPEST { None } else { self.find(items, &extent) };
+        let split = self.find_unless_deep(items, &extent, depth);
         if count <= self.most {
             let area = extent.bounds.half_area();
             // Written so that a NaN keeps the leaf.
@@ -300,28 +329,36 @@ impl Builder {
                 return;
             }
         }
-        let (middle, left, right) = match split {
-            Some(found) => part(items, &found),
-            None => halve(items, &extent),
-        };
+        let (middle, left, right) = part_or_halve(items, split, &extent);
         let (left_items, right_items) = items.split_at_mut(middle);
         let right_first = first + middle as u32;
-        if count > PARALLEL_BUILD {
-            let mut right_nodes = Vec::new();
-            rayon::join(
-                || self.build(left_items, first, left, depth + 1, nodes),
-                || {
-                    right_nodes.reserve(right_items.len());
-                    self.build(right_items, right_first, right, depth + 1, &mut right_nodes);
-                },
-            );
-            nodes[at].content = Content::Inner { right: (nodes.len() - at) as u32 };
-            nodes.append(&mut right_nodes);
-        } else {
-            self.build(left_items, first, left, depth + 1, nodes);
-            nodes[at].content = Content::Inner { right: (nodes.len() - at) as u32 };
-            self.build(right_items, right_first, right, depth + 1, nodes);
+        self.build(left_items, first, left, depth + 1, nodes);
+        nodes[at].content = Content::Inner { right: (nodes.len() - at) as u32 };
+        self.build(right_items, right_first, right, depth + 1, nodes);
+    }
+
+    /// As [`Builder::build`], the halves of long ranges in parallel, each with nodes of its own.
+    fn grow(&self, items: &mut [Item], first: u32, extent: Extent, depth: u32) -> Grown {
+        if items.len() <= PARALLEL_BUILD {
+            let mut nodes = Vec::with_capacity(items.len());
+            self.build(items, first, extent, depth, &mut nodes);
+            return Grown::Dense(nodes);
         }
+        let split = self.find_unless_deep(items, &extent, depth);
+        let (middle, left, right) = part_or_halve(items, split, &extent);
+        let (left_items, right_items) = items.split_at_mut(middle);
+        let right_first = first + middle as u32;
+        let (left, right) = rayon::join(
+            || self.grow(left_items, first, left, depth + 1),
+            || self.grow(right_items, right_first, right, depth + 1),
+        );
+        Grown::Halves { bounds: extent.bounds, halves: Box::new([left, right]) }
+    }
+
+    /// The cheapest split, unless only medians stay above the deepest level from here on.
+    fn find_unless_deep(&self, items: &[Item], extent: &Extent, depth: u32) -> Option<Found> {
+        let medians = (items.len() as u32).ilog2() + 1;
+        if depth + medians >= DEEPEST { None } else { self.find(items, extent) }
     }
 
     /// The cheapest split between bins, if the centroids fall into more than one.
@@ -369,6 +406,13 @@ impl Builder {
     #[inline(always)]
     fn cost(&self, bin: &Bin) -> f32 {
         bin.bounds.half_area() * (bin.count as usize).div_ceil(self.most) as f32
+    }
+}
+
+fn part_or_halve(items: &mut [Item], split: Option<Found>, extent: &Extent) -> (usize, Extent, Extent) {
+    match split {
+        Some(found) => part(items, &found),
+        None => halve(items, extent),
     }
 }
 

@@ -124,41 +124,50 @@ impl<'a> TriangleList<'a> {
     /// The triangles to build a tree from, and the box of them all. Triangles with a corner that is not finite, or
     /// beyond the range of the arithmetic, are left out: nothing can hit them.
     pub(crate) fn items(&self) -> Result<(Vec<Item>, Bounds), BuildError> {
-        let one = |index: u32| {
-            let (part, triangle) = self.place(index);
-            let mesh = &self.meshes[part];
-            let mut bounds = Bounds::EMPTY;
-            for vertex in mesh.triangles[triangle] {
-                let Some(&[x, y, z]) = mesh.positions.get(vertex as usize) else {
-                    let vertices = mesh.positions.len();
-                    return Err(BuildError::Vertex {
-                        mesh: self.indices[part],
-                        triangle: triangle as u32,
-                        vertex,
-                        vertices,
-                    });
-                };
-                let position = Vec4::new(x, y, z, 0.0);
-                if !position.abs().cmple(Vec4::splat(RANGE)).all() {
-                    return Ok(None);
-                }
-                bounds.include_point(position);
-            }
-            // The same widening as in the triangle test (`padded_box`), so that this is the very box of that test.
-            let pad = PAD * bounds.upper.max(-bounds.lower).max_element();
-            bounds = Bounds { lower: bounds.lower - Vec4::splat(pad), upper: bounds.upper + Vec4::splat(pad) };
-            Ok(Some(Item::new(&bounds, index)))
-        };
-        let items: Vec<Option<Item>> = (0..self.count).into_par_iter().map(one).collect::<Result<_, _>>()?;
-        let items: Vec<Item> = items.into_iter().flatten().collect();
-        let bounds = items.par_iter().map(Item::bounds).reduce(
-            || Bounds::EMPTY,
-            |mut a, b| {
+        self.check()?;
+        let item = |index: u32| Item::new(&self.bounds(index).unwrap_or(Bounds::EMPTY), index);
+        let mut items: Vec<Item> = (0..self.count).into_par_iter().map(item).collect();
+        let (bounds, all) = items.par_iter().map(|item| (item.bounds(), !item.bounds().is_empty())).reduce(
+            || (Bounds::EMPTY, true),
+            |(mut a, all_a), (b, all_b)| {
                 a.include(&b);
-                a
+                (a, all_a && all_b)
             },
         );
+        if !all {
+            items.retain(|item| !item.bounds().is_empty());
+        }
         Ok((items, bounds))
+    }
+
+    /// Whether all corners are there; of several faults the first is told.
+    fn check(&self) -> Result<(), BuildError> {
+        for (mesh, &index) in self.meshes.iter().zip(&self.indices) {
+            let vertices = mesh.positions.len();
+            let missing = |corners: &[u32; 3]| corners.iter().find(|&&vertex| vertex as usize >= vertices).copied();
+            if let Some(triangle) = mesh.triangles.par_iter().position_first(|corners| missing(corners).is_some())
+                && let Some(vertex) = missing(&mesh.triangles[triangle])
+            {
+                return Err(BuildError::Vertex { mesh: index, triangle: triangle as u32, vertex, vertices });
+            }
+        }
+        Ok(())
+    }
+
+    /// The box of a triangle whose indices have been checked, if it can be hit.
+    fn bounds(&self, index: u32) -> Option<Bounds> {
+        let (corners, _) = self.triangle(index);
+        let mut bounds = Bounds::EMPTY;
+        for [x, y, z] in corners {
+            let position = Vec4::new(x, y, z, 0.0);
+            if !position.abs().cmple(Vec4::splat(RANGE)).all() {
+                return None;
+            }
+            bounds.include_point(position);
+        }
+        // The same widening as in the triangle test (`padded_box`), so that this is the very box of that test.
+        let pad = PAD * bounds.upper.max(-bounds.lower).max_element();
+        Some(Bounds { lower: bounds.lower - Vec4::splat(pad), upper: bounds.upper + Vec4::splat(pad) })
     }
 }
 

@@ -113,7 +113,7 @@ fn items_lie_in_the_picture() {
     for [width, height] in [[1, 1], [16, 16], [37, 21], [300, 200], [4000, 3000]] {
         let tiles = [width, height].map(|x: u32| x.div_ceil(TILE));
         for number in 0..5 {
-            let items = items([width, height], 7, number);
+            let items = items([width, height], 7, number, MOST_ITEMS);
             let all = u64::from(tiles[0] * tiles[1] * QUARTERS);
             let least = (1024 / BLOCK_PIXELS as u64).min(all);
             assert!((least..=32768 / BLOCK_PIXELS as u64).contains(&(items.len() as u64)), "{}", items.len());
@@ -125,4 +125,14 @@ fn items_lie_in_the_picture() {
             }
         }
     }
+}
+
+/// A trial has one item from each of sixteen equal shares of the picture, anywhere in it: not one column of tiles, which are a power of two here.
+#[test]
+fn trials_see_the_whole_picture() {
+    let items = items([512, 512], 7, u32::MAX, ITEMS as u64);
+    assert_eq!(items.len(), ITEMS);
+    let columns: std::collections::BTreeSet<u32> = items.iter().map(|item| item.tile_x).collect();
+    let rows: std::collections::BTreeSet<u32> = items.iter().map(|item| item.tile_y).collect();
+    assert!(columns.len() >= 8 && rows.len() == 16, "{columns:?} {rows:?}");
 }
