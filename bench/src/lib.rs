@@ -137,7 +137,7 @@ pub fn lamps(count: usize, size: u32, samples: u32) -> Scene {
 
 /// The scene with every pixel for itself.
 pub fn alone(mut scene: Scene) -> Scene {
-    scene.reuse = false;
+    scene.reuse = tracer_core::scene::Sharing::Never;
     scene.caustics = false;
     scene
 }
