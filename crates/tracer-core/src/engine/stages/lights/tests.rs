@@ -234,7 +234,7 @@ fn lights_that_show_are_in_reach() {
         let lights: Vec<_> = (0..64)
             .map(|_| {
                 let [x, y, z] = [0; 3].map(|_| 10.0 * (scalar(number(&mut random)) - 0.5));
-                // All but a few lie low.
+                // From cloud to cloud lower: from half of them above the horizon to a tenth.
                 (DVec3::new(x + 7.0, y - 0.2 * f64::from(cloud), z), 0.1, 1.0)
             })
             .collect();
