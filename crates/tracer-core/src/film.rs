@@ -110,34 +110,33 @@ impl Tile {
         self.taken = Some(Box::new(Taken::zeroed()));
     }
 
-    /// Scales those samples of an item whose largest channel is above the limit down to it, and keeps what that takes; slots and pixels
+    /// Scales those samples of an item whose largest channel is above the limit down to it, and keeps what that takes; samples and pixels
     /// are those of [`Tile::add`], which comes after. Parts are subtracted from parts, so that what is taken and what is left sum to
     /// what there was, exactly. Samples that will be dropped stay as they are.
-    pub(crate) fn clamp(&mut self, limit: f32, radiance: &mut [Vec<f32>; 3], slots: usize, pixels: &[u8; 64]) {
+    pub(crate) fn clamp(&mut self, limit: f32, mut samples: [&mut [f32]; 3], pixels: &[u8; 64]) {
         let Some(taken) = &mut self.taken else { return };
-        for (slot, &pixel) in (slots..).zip(pixels) {
-            let sample = radiance.each_ref().map(|channel| channel[slot]);
+        for (k, &pixel) in pixels.iter().enumerate() {
+            let sample = samples.each_ref().map(|channel| channel[k]);
             let largest = sample[0].max(sample[1]).max(sample[2]);
             if largest <= limit || !counts(sample) {
                 continue;
             }
             let pixel = usize::from(pixel);
             taken.samples[pixel] += 1;
-            for (c, channel) in radiance.iter_mut().enumerate() {
+            for (c, channel) in samples.iter_mut().enumerate() {
                 // The product is exact, so that the largest channel becomes the limit itself.
                 let after = (f64::from(sample[c]) * f64::from(limit) / f64::from(largest)) as f32;
                 let (before, left) = (parts(sample[c]), parts(after));
                 taken.sums.coarse[c][pixel] += before.0 - left.0;
                 taken.sums.fine[c][pixel] += before.1 - left.1;
-                channel[slot] = after;
+                channel[k] = after;
             }
         }
     }
 
-    /// Adds one sample of each pixel of an item from its slots on, slot k being pixel `pixels[k]`; gives the number of pixels whose
-    /// sample was dropped. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
-    pub(crate) fn add(&mut self, radiance: &[Vec<f32>; 3], slots: usize, pixels: &[u8; 64]) -> u64 {
-        let [red, green, blue] = radiance.each_ref().map(|channel| &channel[slots..slots + pixels.len()]);
+    /// Adds one sample of each pixel of an item, the k-th being of pixel `pixels[k]`; gives the number of pixels whose sample was
+    /// dropped. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
+    pub(crate) fn add(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[u8; 64]) -> u64 {
         let mut dropped = 0;
         for (&pixel, ((&r, &g), &b)) in pixels.iter().zip(red.iter().zip(green).zip(blue)) {
             let pixel = usize::from(pixel);
@@ -364,7 +363,11 @@ mod tests {
         [column.clone(), column.clone(), column]
     }
 
-    /// Slot k is pixel k.
+    fn slices(samples: &[Vec<f32>; 3]) -> [&[f32]; 3] {
+        samples.each_ref().map(Vec::as_slice)
+    }
+
+    /// Sample k is pixel k's.
     fn first_pixels() -> [u8; 64] {
         std::array::from_fn(|k| k as u8)
     }
@@ -382,8 +385,8 @@ mod tests {
             })
             .collect();
         let (mut forwards, mut backwards) = (Tile::zeroed(), Tile::zeroed());
-        samples.iter().for_each(|s| assert_eq!(forwards.add(s, 0, &first_pixels()), 0));
-        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(s, 0, &first_pixels()), 0));
+        samples.iter().for_each(|s| assert_eq!(forwards.add(slices(s), &first_pixels()), 0));
+        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(slices(s), &first_pixels()), 0));
         assert_eq!(forwards.sums, backwards.sums);
     }
 
@@ -403,7 +406,7 @@ mod tests {
     fn wrong_samples_are_dropped_and_counted() {
         let mut tile = Tile::zeroed();
         let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY][k % 4]);
-        assert_eq!(tile.add(&samples, 0, &first_pixels()), 32);
+        assert_eq!(tile.add(slices(&samples), &first_pixels()), 32);
         assert_eq!([0, 1, 2, 3].map(|k: usize| tile.sums.coarse[0][k]), [1.0, 0.0, -1.0, 0.0]);
     }
 
@@ -426,9 +429,9 @@ mod tests {
         for k in 0..200 {
             let before = [0, 1, 2].map(|channel| sample(k, channel));
             let mut after = before.clone();
-            whole.add(&before, 0, &first_pixels());
-            clamped.clamp(LIMIT, &mut after, 0, &first_pixels());
-            clamped.add(&after, 0, &first_pixels());
+            whole.add(slices(&before), &first_pixels());
+            clamped.clamp(LIMIT, after.each_mut().map(Vec::as_mut_slice), &first_pixels());
+            clamped.add(slices(&after), &first_pixels());
             for slot in 0..64 {
                 let [before, after] = [&before, &after].map(|s| s.each_ref().map(|channel| channel[slot]));
                 let largest = before.iter().fold(f32::MIN, |a, &b| a.max(b));
@@ -460,8 +463,8 @@ mod tests {
         let mut tile = Tile::zeroed();
         tile.keep_taken();
         let mut samples = filled(|k| [9.0, f32::NAN, -9.0, f32::INFINITY][k % 4]);
-        tile.clamp(3.0, &mut samples, 0, &first_pixels());
-        assert_eq!(tile.add(&samples, 0, &first_pixels()), 32);
+        tile.clamp(3.0, samples.each_mut().map(Vec::as_mut_slice), &first_pixels());
+        assert_eq!(tile.add(slices(&samples), &first_pixels()), 32);
         assert_eq!([0, 1, 2, 3].map(|k: usize| tile.sums.coarse[0][k]), [3.0, 0.0, -9.0, 0.0]);
         let taken = tile.taken.expect("it was clamped");
         assert_eq!(

@@ -23,18 +23,28 @@ pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
 /// behind every array for one vector more: a compressing store writes whole registers.
 pub const CAPACITY: usize = (2 + BRANCHING as usize) * PATHS + 64;
 
-/// Three columns: x, y, z or r, g, b.
-pub type Columns = [Vec<f32>; 3];
+/// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
+pub type Column<T> = Box<[T; CAPACITY]>;
 
-fn floats() -> Vec<f32> {
-    vec![0.0; CAPACITY]
+/// Three columns: x, y, z or r, g, b.
+pub type Columns = [Column<f32>; 3];
+
+fn filled<T: Copy>(value: T) -> Column<T> {
+    let Ok(column) = vec![value; CAPACITY].into_boxed_slice().try_into() else {
+        unreachable!("as long as it was made")
+    };
+    column
 }
-fn words() -> Vec<u32> {
-    vec![0; CAPACITY]
+fn floats() -> Column<f32> {
+    filled(0.0)
+}
+fn words() -> Column<u32> {
+    filled(0)
 }
 fn columns() -> Columns {
     [floats(), floats(), floats()]
 }
+
 /// One item.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Item {
@@ -123,18 +133,18 @@ pub struct Paths {
     /// goes by.
     pub throughput: Columns,
     /// Radiance scaling of refraction, the product of (n_i / n_t)^2, times the shares of both ways at glass.
-    pub eta2: Vec<f32>,
+    pub eta2: Column<f32>,
     /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
-    pub pdf: Vec<f32>,
+    pub pdf: Column<f32>,
     /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and `pdf` is not
     /// negative.
     pub normal: Columns,
     /// Slot and state, see [`path`].
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
     /// The surface the ray leaves.
-    pub from_primitive: Vec<u32>,
+    pub from_primitive: Column<u32>,
     /// Its instance.
-    pub from_instance: Vec<u32>,
+    pub from_instance: Column<u32>,
 }
 
 impl Paths {
@@ -148,8 +158,8 @@ impl Paths {
             pdf: floats(),
             normal: columns(),
             slot: words(),
-            from_primitive: vec![NONE; CAPACITY],
-            from_instance: vec![NONE; CAPACITY],
+            from_primitive: filled(NONE),
+            from_instance: filled(NONE),
         }
     }
 
@@ -174,11 +184,11 @@ impl Paths {
 /// What the rays of [`Paths`] hit.
 pub struct Hits {
     /// Ray parameter; infinite: nothing.
-    pub t: Vec<f32>,
+    pub t: Column<f32>,
     /// Primitive, or NONE.
-    pub primitive: Vec<u32>,
+    pub primitive: Column<u32>,
     /// Instance, or NONE.
-    pub instance: Vec<u32>,
+    pub instance: Column<u32>,
 }
 
 /// Shadow rays: from surfaces to points on lights.
@@ -190,21 +200,21 @@ pub struct Shadows {
     /// Unit direction.
     pub direction: Columns,
     /// Distance to the light.
-    pub t_max: Vec<f32>,
+    pub t_max: Column<f32>,
     /// What arrives at the slot if nothing is between.
     pub contribution: Columns,
     /// Slot and sum, see [`path`].
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
     /// The surface the ray leaves.
-    pub from_primitive: Vec<u32>,
+    pub from_primitive: Column<u32>,
     /// Its instance.
-    pub from_instance: Vec<u32>,
+    pub from_instance: Column<u32>,
     /// The primitive that the ray goes to, which does not block it.
-    pub target_primitive: Vec<u32>,
+    pub target_primitive: Column<u32>,
     /// Its instance; of lights always NONE.
-    pub target_instance: Vec<u32>,
+    pub target_instance: Column<u32>,
     /// 1: something is between.
-    pub occluded: Vec<u32>,
+    pub occluded: Column<u32>,
 }
 
 impl Shadows {
@@ -219,7 +229,7 @@ impl Shadows {
             from_primitive: words(),
             from_instance: words(),
             target_primitive: words(),
-            target_instance: vec![NONE; CAPACITY],
+            target_instance: filled(NONE),
             occluded: words(),
         }
     }
@@ -228,9 +238,9 @@ impl Shadows {
 /// Photons of a batch, and those of them that were stored.
 pub struct Photons {
     /// Pair of light and caster of each photon sent.
-    pub pair: Vec<u32>,
+    pub pair: Column<u32>,
     /// Index of each photon sent among those of its pair.
-    pub index: Vec<u32>,
+    pub index: Column<u32>,
     /// Number of photons stored.
     pub len: usize,
     /// Where they are stored.
@@ -240,9 +250,9 @@ pub struct Photons {
     /// Flux.
     pub flux: Columns,
     /// Mirrors and glass on their way.
-    pub events: Vec<u32>,
+    pub events: Column<u32>,
     /// Which of the photons sent they are.
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
 }
 
 /// Diffuse vertices that photons are gathered at.
@@ -256,7 +266,7 @@ pub struct Queries {
     /// What the slot gets of flux per area.
     pub value: Columns,
     /// Slot and sum, see [`path`].
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
 }
 
 /// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
@@ -274,19 +284,19 @@ pub struct Members {
     /// What the path carried to here times the material's colour.
     pub weight: Columns,
     /// Blinn-Phong: alpha.
-    pub parameter: Vec<f32>,
+    pub parameter: Column<f32>,
     /// Blinn-Phong: s.
-    pub specular: Vec<f32>,
+    pub specular: Column<f32>,
     /// Probability that the path went on from here.
-    pub survival: Vec<f32>,
+    pub survival: Column<f32>,
     /// One of [`member_kind`].
-    pub kind: Vec<u32>,
+    pub kind: Column<u32>,
     /// Slot.
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
     /// The surface.
-    pub primitive: Vec<u32>,
+    pub primitive: Column<u32>,
     /// Its instance.
-    pub instance: Vec<u32>,
+    pub instance: Column<u32>,
 }
 
 /// How a member scatters.
@@ -310,13 +320,13 @@ pub struct Suffixes {
     /// Geometric normal, on the side that light leaves.
     pub normal: Columns,
     /// The way from the member that found it.
-    pub distance: Vec<f32>,
+    pub distance: Column<f32>,
     /// Slot of the path that found it; its radiance is in the upper half of [`Batch::radiance`] there.
-    pub slot: Vec<u32>,
+    pub slot: Column<u32>,
     /// The surface.
-    pub primitive: Vec<u32>,
+    pub primitive: Column<u32>,
     /// Its instance.
-    pub instance: Vec<u32>,
+    pub instance: Column<u32>,
 }
 
 /// A run of [`Members`] of one item whose paths have the same number of vertices: they share.
@@ -333,13 +343,13 @@ pub struct Groups {
     /// The groups.
     pub list: Vec<Group>,
     /// Per suffix: the group that shares it.
-    pub of_suffix: Vec<u32>,
+    pub of_suffix: Column<u32>,
     /// Per suffix: the members of its group that were found not to see it, a bit each.
-    pub blocked: Vec<u64>,
+    pub blocked: Column<u64>,
     /// Pairs of a suffix and a member to be tested: suffix * 64 + the member's place in the group, and the member.
-    pub pair_tag: Vec<u32>,
+    pub pair_tag: Column<u32>,
     /// See `pair_tag`.
-    pub pair_member: Vec<u32>,
+    pub pair_member: Column<u32>,
     /// Per member: the light that it gets.
     pub gathered: Columns,
 }
@@ -384,13 +394,13 @@ pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
     /// Z-order number of each item's tile, shifted by eight, and the offset of [`Item::z_of_pixels`] (padded to a register's table).
-    pub item_z: Vec<u32>,
+    pub item_z: [u32; ITEMS],
     /// The shift of [`Item::z_of_pixels`] as a factor.
-    pub item_scale: Vec<u32>,
+    pub item_scale: [u32; ITEMS],
     /// Items with glint chains ([`super::glints`]), a bit each.
     pub glints: u32,
     /// Per item: the weight of what a path sees that has met mirrors and glass only: one, or what glint chains leave to it.
-    pub glint_weight: Vec<f32>,
+    pub glint_weight: [f32; ITEMS],
     /// The living paths.
     pub paths: Paths,
     /// The paths after the next scattering.
@@ -416,7 +426,7 @@ pub struct Batch {
     /// Who shares what.
     pub groups: Groups,
     /// Indices of the rays that the tree is asked about.
-    pub active: Vec<u32>,
+    pub active: Column<u32>,
     /// How many they are.
     pub active_len: usize,
     /// Counters.
@@ -430,10 +440,10 @@ impl Batch {
     pub fn new() -> Self {
         Batch {
             items: Vec::with_capacity(ITEMS),
-            item_z: vec![0; ITEMS],
-            item_scale: vec![0; ITEMS],
+            item_z: [0; ITEMS],
+            item_scale: [0; ITEMS],
             glints: 0,
-            glint_weight: vec![1.0; ITEMS],
+            glint_weight: [1.0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
             branches: Paths::new(),
@@ -451,7 +461,7 @@ impl Batch {
             hits: Hits { t: floats(), primitive: words(), instance: words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),
-            radiance: [0, 1, 2].map(|_| vec![0.0; 2 * PATHS + 64]),
+            radiance: columns(),
             members: Members {
                 len: 0,
                 start: columns(),
@@ -479,7 +489,7 @@ impl Batch {
             groups: Groups {
                 list: Vec::with_capacity(CAPACITY),
                 of_suffix: words(),
-                blocked: vec![0; CAPACITY],
+                blocked: filled(0),
                 pair_tag: words(),
                 pair_member: words(),
                 gathered: columns(),

@@ -43,7 +43,7 @@ macro_rules! kernels {
             }
             $(#[target_feature(enable = $features)])?
             fn closest_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_closest::<$of_spheres>(scene, batch)
+                spheres::spheres_closest::<$of_spheres>(&scene.tables.spheres, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -51,7 +51,7 @@ macro_rules! kernels {
             }
             $(#[target_feature(enable = $features)])?
             fn occluded_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_occluded::<$of_spheres>(scene, batch)
+                spheres::spheres_occluded::<$of_spheres>(&scene.tables.spheres, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn reach_closest_entry(boxes: &TopBoxes, batch: &mut Batch) {

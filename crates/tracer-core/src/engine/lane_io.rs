@@ -1,19 +1,39 @@
 //! Vectors of three from and to the columns of a batch.
 
-use super::batch::Columns;
+use super::batch::{Column, Columns};
 use crate::lanes::Lanes;
 use crate::math::V3;
+
+/// A column, whether its length is known when compiled or not.
+pub trait AsColumn {
+    /// Its numbers.
+    fn column(&self) -> &[f32];
+}
+impl AsColumn for Column<f32> {
+    #[inline(always)]
+    fn column(&self) -> &[f32] {
+        &**self
+    }
+}
+impl AsColumn for Vec<f32> {
+    #[inline(always)]
+    fn column(&self) -> &[f32] {
+        self
+    }
+}
 
 impl<F: Lanes> V3<F> {
     /// Rows i .. i + N of three columns.
     #[inline(always)]
-    pub fn load(columns: &Columns, i: usize) -> Self {
-        V3(F::load(&columns[0][i..]), F::load(&columns[1][i..]), F::load(&columns[2][i..]))
+    pub fn load(columns: &[impl AsColumn; 3], i: usize) -> Self {
+        let [x, y, z] = columns;
+        V3(F::load(&x.column()[i..]), F::load(&y.column()[i..]), F::load(&z.column()[i..]))
     }
     /// Rows `index` of three columns.
     #[inline(always)]
-    pub fn gather_columns(columns: &Columns, index: F::U) -> Self {
-        V3(F::gather(&columns[0], index), F::gather(&columns[1], index), F::gather(&columns[2], index))
+    pub fn gather_columns(columns: &[impl AsColumn; 3], index: F::U) -> Self {
+        let [x, y, z] = columns;
+        V3(F::gather(x.column(), index), F::gather(y.column(), index), F::gather(z.column(), index))
     }
     /// Into rows i .. i + N of three columns.
     #[inline(always)]

@@ -23,6 +23,7 @@ use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
 use caustics::Caustics;
 use kernels::Kernels;
 use std::ops::ControlFlow;
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
@@ -212,13 +213,18 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     film
 }
 
+/// The slots of an item's pixels.
+fn slots_of(item: usize) -> Range<usize> {
+    item * batch::BLOCK_PIXELS..(item + 1) * batch::BLOCK_PIXELS
+}
+
 /// Adds the samples of a batch to its tiles: `count` sample indices of each.
 fn add_samples(count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
     for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
         let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         for item in first..first + (count * QUARTERS) as usize {
-            let pixels = batch.items[item].pixels();
-            batch.counters.dropped += tile.add(&batch.radiance, item * batch::BLOCK_PIXELS, pixels);
+            let samples = batch.radiance.each_ref().map(|channel| &channel[slots_of(item)]);
+            batch.counters.dropped += tile.add(samples, batch.items[item].pixels());
         }
         tile.count(count);
     }
@@ -231,8 +237,8 @@ fn clamp_samples(limit: f32, count: u32, cells: &[Mutex<&mut Tile>], batch: &mut
     for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
         let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         for item in first..first + (count * QUARTERS) as usize {
-            let pixels = batch.items[item].pixels();
-            tile.clamp(limit, &mut batch.radiance, item * batch::BLOCK_PIXELS, pixels);
+            let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots_of(item)]);
+            tile.clamp(limit, samples, batch.items[item].pixels());
         }
     }
     batch.watch.costs.clamp += start.elapsed().as_secs_f64();

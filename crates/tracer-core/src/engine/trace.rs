@@ -139,7 +139,7 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
             occluded(scene, kernels, coherence, batch);
             std::mem::swap(&mut batch.shadows, &mut batch.segments);
             let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
-            for (&occluded, &tag) in occluded[..*len].iter().zip(tags) {
+            for (&occluded, &tag) in occluded[..*len].iter().zip(tags.iter()) {
                 batch.groups.blocked[(tag >> 6) as usize] |= u64::from(occluded) << (tag & 63);
             }
         }
@@ -147,7 +147,7 @@ fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
     kernels.share_gather(batch);
     batch.watch.lap(Stage::Share);
     for (channel, gathered) in batch.radiance.iter_mut().zip(&batch.groups.gathered) {
-        for (&slot, &light) in batch.members.slot[..batch.members.len].iter().zip(gathered) {
+        for (&slot, &light) in batch.members.slot[..batch.members.len].iter().zip(gathered.iter()) {
             channel[slot as usize] += light;
         }
     }
@@ -193,7 +193,7 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
         instance: &mut batch.hits.instance[..len],
     };
     let coherence = if camera { Coherence::Coherent } else { Coherence::Incoherent };
-    let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive, &paths.from_instance, len);
+    let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
         let counters = accel.closest_counted(&rays, active, &mut hits, coherence);
@@ -218,7 +218,7 @@ fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut 
         target_instance: &shadows.target_instance[..len],
         occluded: &mut shadows.occluded[..len],
     };
-    let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive, &shadows.from_instance, len);
+    let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive[..], &shadows.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
         let counters = accel.occluded_counted(&rays, active, &mut occlusion, coherence);

@@ -18,7 +18,7 @@
 //!
 //! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per tile.
 
-use super::sobol::{companion_index, higher_dimension, owen, pascal_lower, pascal_upper, shuffle_index};
+use super::sobol::{companion_index, higher_dimension, owen, pascal_upper, shuffle_index};
 use crate::lanes::{ArrayU, Bits, Lanes};
 
 /// What a pair of dimensions is used for; `u32` is the vertex number along the path, 0 at the first hit.
@@ -117,11 +117,39 @@ impl Pair {
     /// The two numbers, in [0, 1). `reversed_z` is the bit-reversed Z-order number of each lane's pixel.
     #[inline(always)]
     pub fn points<F: Lanes>(&self, reversed_z: F::U, sample_x: F::U, sample_y: F::U) -> (F, F) {
+        let [points] = Self::points_of([self], reversed_z, [(sample_x, sample_y)]);
+        points
+    }
+
+    /// [`Pair::points`] of several pairs, step by step together: each step of a pair waits for the one before, so alone it leaves most of
+    /// the processor idle.
+    #[inline(always)]
+    pub fn points_of<F: Lanes, const K: usize>(
+        pairs: [&Pair; K],
+        reversed_z: F::U,
+        parts: [(F::U, F::U); K],
+    ) -> [(F, F); K] {
         let s = F::U::splat;
-        let z = owen(reversed_z, s(self.pixel_key)).reverse_bits();
-        let x = sample_x ^ pascal_lower(z);
-        let y = sample_y ^ pascal_lower(pascal_upper(z));
-        (unit::<F>(owen(x, s(self.owen_x)).reverse_bits()), unit::<F>(owen(y, s(self.owen_y)).reverse_bits()))
+        let (mut x, mut y) = ([reversed_z; K], [reversed_z; K]);
+        for (k, pair) in pairs.iter().enumerate() {
+            y[k] = owen(reversed_z, s(pair.pixel_key));
+        }
+        // L U z is the reversal of L z, as L U L is the matrix that reverses (a test in `sobol`), and L of a reversed word the reversal of
+        // U of the word: of the two numbers that the pixel adds, one is the other reversed.
+        for y in &mut y {
+            *y = pascal_upper(*y);
+        }
+        for k in 0..K {
+            (x[k], y[k]) = (parts[k].0 ^ y[k].reverse_bits(), parts[k].1 ^ y[k]);
+        }
+        for k in 0..K {
+            (x[k], y[k]) = (owen(x[k], s(pairs[k].owen_x)), owen(y[k], s(pairs[k].owen_y)));
+        }
+        let mut points = [(F::splat(0.0), F::splat(0.0)); K];
+        for k in 0..K {
+            points[k] = (unit(x[k].reverse_bits()), unit(y[k].reverse_bits()));
+        }
+        points
     }
 }
 

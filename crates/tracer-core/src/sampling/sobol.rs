@@ -16,18 +16,6 @@ pub fn pascal_upper<U: Bits>(i: U) -> U {
     i ^ (i & m(0xaaaa_aaaa)).shr::<1>()
 }
 
-/// The Pascal matrix mod 2 (lower triangle): row r, column c is binomial(r, c). Any k successive rows of its first k columns are
-/// invertible (the binomials are polynomials of degree c in r), which is what [`super::sampler`] needs.
-#[inline(always)]
-pub fn pascal_lower<U: Bits>(i: U) -> U {
-    let m = U::splat;
-    let i = i ^ i.shl::<16>();
-    let i = i ^ (i & m(0x00ff_00ff)).shl::<8>();
-    let i = i ^ (i & m(0x0f0f_0f0f)).shl::<4>();
-    let i = i ^ (i & m(0x3333_3333)).shl::<2>();
-    i ^ (i & m(0x5555_5555)).shl::<1>()
-}
-
 /// Owen scrambling of a reversed fraction, keyed: each bit is flipped by a hash of the bits that weigh more.
 /// Laine and Karras: Stratified Sampling for Stochastic Transparency (2011), with the constants of Vegdahl (2021).
 #[inline(always)]
@@ -138,10 +126,14 @@ mod tests {
         pascal_upper(ArrayU::<1>::splat(i)).store(&mut out);
         out[0]
     }
+    /// The Pascal matrix mod 2 (lower triangle): row r, column c is binomial(r, c). Any k successive rows of its first k columns are
+    /// invertible (the binomials are polynomials of degree c in r), which is what the sampler needs.
     fn lower(i: u32) -> u32 {
-        let mut out = [0];
-        pascal_lower(ArrayU::<1>::splat(i)).store(&mut out);
-        out[0]
+        let i = i ^ (i << 16);
+        let i = i ^ ((i & 0x00ff_00ff) << 8);
+        let i = i ^ ((i & 0x0f0f_0f0f) << 4);
+        let i = i ^ ((i & 0x3333_3333) << 2);
+        i ^ ((i & 0x5555_5555) << 1)
     }
 
     #[test]
@@ -152,6 +144,16 @@ mod tests {
                 assert_eq!(lower(1 << c) >> r & 1, u32::from(c & !r == 0), "lower {r} {c}");
                 assert_eq!(upper(1 << c) >> r & 1, u32::from(r & !c == 0), "upper {r} {c}");
             }
+        }
+    }
+
+    /// What the sampler's points rest on: columns suffice, as all of it is linear.
+    #[test]
+    fn lower_upper_lower_reverses() {
+        for column in (0..32).map(|c| 1u32 << c) {
+            assert_eq!(lower(upper(lower(column))), column.reverse_bits());
+            assert_eq!(lower(upper(column)), lower(column).reverse_bits());
+            assert_eq!(lower(column.reverse_bits()), upper(column).reverse_bits());
         }
     }
 

@@ -1,5 +1,6 @@
 //! Luminous spheres, and the tree by which one of them is chosen.
 
+use super::table::Table;
 use super::{Sphere, padded};
 use glam::DVec3;
 
@@ -19,11 +20,8 @@ pub enum Light {
 pub(crate) struct LightTable {
     /// Number of lights.
     pub len: u32,
-    pub center: [Vec<f32>; 3],
-    pub radius: Vec<f32>,
-    pub radiance: [Vec<f32>; 3],
-    /// Primitive id of the light's sphere.
-    pub primitive: Vec<u32>,
+    /// Centre and radius, radiance, and the bits of the primitive id of the light's sphere.
+    pub rows: Table<8>,
     /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius and
     /// power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and 1 for
     /// [`LightTable::FEW`] lights at most, FEW / n for n.
@@ -67,7 +65,10 @@ impl LightTable {
                 Some(Emitter { center: s.center, radius: s.radius, radiance, primitive: sphere })
             })
             .collect();
-        let column = |f: &dyn Fn(&Emitter) -> f64| padded(emitters.iter().map(|e| f(e) as f32).collect());
+        let rows = emitters.iter().map(|e| {
+            let ([x, y, z], [r, g, b]) = (e.center.as_vec3().to_array(), e.radiance.map(|x| x as f32));
+            [x, y, z, e.radius as f32, r, g, b, f32::from_bits(e.primitive)]
+        });
         let pad = |mut v: Vec<u32>| {
             v.resize(v.len().max(16), 0);
             v
@@ -80,10 +81,7 @@ impl LightTable {
         }
         LightTable {
             len: emitters.len() as u32,
-            center: [0, 1, 2].map(|a| column(&|e| e.center[a])),
-            radius: column(&|e| e.radius),
-            radiance: [0, 1, 2].map(|a| column(&|e| e.radiance[a])),
-            primitive: pad(emitters.iter().map(|e| e.primitive).collect()),
+            rows: Table::new(rows),
             depth: builder.depth,
             trail: pad(builder.trail),
             tree: padded(builder.tree),

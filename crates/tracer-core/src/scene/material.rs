@@ -1,6 +1,6 @@
 //! Materials in linear RGB, and their look-up tables.
 
-use super::padded;
+use super::table::Table;
 
 /// A colour, constant or from a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,16 +56,10 @@ pub(crate) mod kind {
 
 /// Materials as look-up tables, index = material; the last entry is the emitters' (black).
 pub(crate) struct MaterialTable {
-    /// One of [`kind`], as a number.
-    pub kind: Vec<f32>,
-    /// Albedo, reflectance or transmittance.
-    pub color: [Vec<f32>; 3],
-    /// Index of refraction, or alpha.
-    pub parameter: Vec<f32>,
-    /// s.
-    pub specular: Vec<f32>,
-    /// Texture + 1, or 0.
-    pub texture: Vec<f32>,
+    /// Albedo, reflectance or transmittance; the bits of one of [`kind`], and of texture + 1, or 0.
+    pub rows: Table<5>,
+    /// Index of refraction, or alpha; s.
+    pub parameters: Table<2>,
     /// Which kinds occur, one bit each: a stage skips what no material asks for.
     pub kinds: u32,
     /// Whether any material has a texture.
@@ -118,13 +112,12 @@ impl MaterialTable {
             .collect();
         let emitter = rows.len() as u32;
         rows.push(Row { kind: kind::EMITTER, color: [0.0; 3], parameter: 0.0, specular: 0.0, texture: 0 });
-        let column = |f: &dyn Fn(&Row) -> f32| padded(rows.iter().map(f).collect());
         MaterialTable {
-            kind: column(&|r| r.kind as f32),
-            color: [0, 1, 2].map(|a| column(&|r| r.color[a] as f32)),
-            parameter: column(&|r| r.parameter as f32),
-            specular: column(&|r| r.specular as f32),
-            texture: column(&|r| r.texture as f32),
+            rows: Table::new(rows.iter().map(|row| {
+                let [r, g, b] = row.color.map(|x| x as f32);
+                [r, g, b, f32::from_bits(row.kind), f32::from_bits(row.texture)]
+            })),
+            parameters: Table::new(rows.iter().map(|r| [r.parameter as f32, r.specular as f32])),
             kinds: rows.iter().fold(0, |bits, r| bits | 1 << r.kind),
             textured: rows.iter().any(|r| r.texture != 0),
             emitter,

@@ -10,6 +10,7 @@ mod material;
 mod mesh;
 mod sphere;
 mod statistics;
+mod table;
 mod texture;
 
 pub use camera::{Camera, Filter};
@@ -21,7 +22,7 @@ pub(crate) use material::{MaterialTable, kind};
 pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
-pub(crate) use sphere::{LinearSphere, SphereTable};
+pub(crate) use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
 pub use texture::{Texel, TextureView};
 pub(crate) use texture::{TextureTable, TextureUse};

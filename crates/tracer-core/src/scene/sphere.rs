@@ -2,13 +2,15 @@
 //!
 //! A sphere is a point P on its surface (the nearest to the origin), the outward unit normal N there and the curvature k = 1/r,
 //! found in f64. With g = o - P a ray o + t d (d unit) meets it where k t^2 + 2 beta t + gamma = 0,
-//! beta = N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Two classes:
+//! beta = N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Where every ray is to test a sphere, there are two forms:
 //!
-//! * *large* (r at least an eighth of the scene's size): lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d + m.d with m = N - k P and
+//! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d + m.d with m = N - k P and
 //!   c = k P.P - 2 N.P: eight fused operations;
-//! * *small*: recentred, the same quadratic seen from the ray's closest approach to P (t = u - g.d), clean at every radius.
+//! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther, Akenine-Moeller: Precision
+//!   Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations of the same about P, and as exact while r is no
+//!   larger than the way to the sphere.
 
-use super::padded;
+use super::table::Table;
 use glam::DVec3;
 
 /// A sphere in render space.
@@ -24,40 +26,48 @@ pub struct Sphere {
     pub light: u32,
 }
 
-/// A sphere for the linear stage.
+/// A sphere by a point on its surface.
 #[derive(Clone, Copy, Debug)]
-pub struct LinearSphere {
+struct Anchored {
+    p: [f32; 3],
+    n: [f32; 3],
+    k: f32,
+}
+
+/// A large sphere, lifted.
+#[derive(Clone, Copy, Debug)]
+pub struct LargeSphere {
     /// Primitive id.
     pub id: u32,
-    /// P.
-    pub p: [f32; 3],
-    /// N.
-    pub n: [f32; 3],
     /// 1/r.
     pub k: f32,
-    /// r.
-    pub r: f32,
     /// m.
     pub m: [f32; 3],
     /// c.
     pub c: f32,
 }
 
-/// Spheres as look-up tables (index = primitive id) and as lists for the linear stage.
+/// A small sphere, by its centre.
+#[derive(Clone, Copy, Debug)]
+pub struct SmallSphere {
+    /// Primitive id.
+    pub id: u32,
+    /// Centre.
+    pub center: [f32; 3],
+    /// r^2.
+    pub r2: f32,
+}
+
+/// Spheres as a look-up table (index = primitive id) and as lists for the linear stage.
 pub(crate) struct SphereTable {
-    pub p: [Vec<f32>; 3],
-    pub n: [Vec<f32>; 3],
-    pub k: Vec<f32>,
-    /// Material (the emitters' entry for lights).
-    pub material: Vec<f32>,
-    /// Light + 1, or 0.
-    pub light: Vec<f32>,
+    /// P, N, k, and the bits of the material (the emitters' entry for lights) and of light + 1, or 0.
+    pub rows: Table<9>,
     /// Number of spheres.
     pub len: u32,
     /// Large spheres, tested by every ray.
-    pub large: Vec<LinearSphere>,
+    pub large: Vec<LargeSphere>,
     /// Small spheres, tested by every ray because they are few.
-    pub small: Vec<LinearSphere>,
+    pub small: Vec<SmallSphere>,
     /// So many of the first spheres hang in the tree.
     pub in_tree: usize,
 }
@@ -84,47 +94,55 @@ impl SphereTable {
 
     /// Of spheres in their [`order`](SphereTable::order).
     pub fn new(spheres: &[Sphere], emitter_material: u32) -> Self {
-        let linear: Vec<LinearSphere> = spheres.iter().enumerate().map(|(id, s)| anchor(id as u32, s)).collect();
+        let anchored: Vec<Anchored> = spheres.iter().map(Anchored::new).collect();
         let in_tree = many_small(spheres);
-        let every_ray = || linear.iter().skip(in_tree).copied();
-        let is_large = |s: &LinearSphere| spheres[s.id as usize].radius >= LARGE;
-        let large = every_ray().filter(is_large).collect();
-        let small = every_ray().filter(|s| !is_large(s)).collect();
-        let column = |f: &dyn Fn(&LinearSphere) -> f32| padded(linear.iter().map(f).collect());
+        let every_ray = || (0..).zip(spheres.iter().zip(&anchored)).skip(in_tree);
+        let large = every_ray().filter(|(_, (s, _))| s.radius >= LARGE).map(|(id, (s, _))| LargeSphere::new(id, s));
+        let small = every_ray().filter(|(_, (s, _))| s.radius < LARGE).map(|(id, (_, a))| SmallSphere::new(id, a));
+        let rows = spheres.iter().zip(&anchored).map(|(s, &Anchored { p, n, k })| {
+            let material = if s.light == super::NONE { s.material } else { emitter_material };
+            let light = s.light.wrapping_add(1);
+            [p[0], p[1], p[2], n[0], n[1], n[2], k, f32::from_bits(material), f32::from_bits(light)]
+        });
         SphereTable {
-            p: [0, 1, 2].map(|a| column(&|s| s.p[a])),
-            n: [0, 1, 2].map(|a| column(&|s| s.n[a])),
-            k: column(&|s| s.k),
-            material: padded(
-                spheres
-                    .iter()
-                    .map(|s| (if s.light == super::NONE { s.material } else { emitter_material }) as f32)
-                    .collect(),
-            ),
-            light: padded(spheres.iter().map(|s| s.light.wrapping_add(1) as f32).collect()),
+            rows: Table::new(rows),
             len: spheres.len() as u32,
-            large,
-            small,
+            large: large.collect(),
+            small: small.collect(),
             in_tree,
         }
     }
 }
 
-fn anchor(id: u32, s: &Sphere) -> LinearSphere {
+/// P and N of a sphere: the point that is nearest to the origin.
+fn anchor(s: &Sphere) -> (DVec3, DVec3) {
     let distance = s.center.length();
     let n = if distance > 0.0 { -s.center / distance } else { DVec3::Z };
     // Where |centre| and r are large and nearly equal, |centre| - r loses what centre + r n would lose per component.
-    let p = n * (s.radius - distance);
-    let k = 1.0 / s.radius;
-    let m = n - p * k;
-    let c = k * p.dot(p) - 2.0 * n.dot(p);
-    LinearSphere {
-        id,
-        p: p.as_vec3().to_array(),
-        n: n.as_vec3().to_array(),
-        k: k as f32,
-        r: s.radius as f32,
-        m: m.as_vec3().to_array(),
-        c: c as f32,
+    (n * (s.radius - distance), n)
+}
+
+impl Anchored {
+    fn new(s: &Sphere) -> Self {
+        let (p, n) = anchor(s);
+        Anchored { p: p.as_vec3().to_array(), n: n.as_vec3().to_array(), k: (1.0 / s.radius) as f32 }
+    }
+}
+
+impl LargeSphere {
+    fn new(id: u32, s: &Sphere) -> Self {
+        let (p, n) = anchor(s);
+        let k = 1.0 / s.radius;
+        let c = k * p.dot(p) - 2.0 * n.dot(p);
+        LargeSphere { id, k: k as f32, m: (n - p * k).as_vec3().to_array(), c: c as f32 }
+    }
+}
+
+impl SmallSphere {
+    /// The sphere that the rounded P, N and k say, which is where rays that leave it start.
+    fn new(id: u32, a: &Anchored) -> Self {
+        let [p, n] = [a.p, a.n].map(|v| glam::Vec3::from(v).as_dvec3());
+        let r = 1.0 / f64::from(a.k);
+        SmallSphere { id, center: (p - n * r).as_vec3().to_array(), r2: (r * r) as f32 }
     }
 }

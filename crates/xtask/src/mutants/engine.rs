@@ -20,8 +20,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "cosine-twice",
         file: SHADE,
-        find: "scale(cos_i / l.pdf",
-        replace: "scale(cos_i * cos_i / l.pdf",
+        find: "scale(cos_i * l.inverse_pdf",
+        replace: "scale(cos_i * cos_i * l.inverse_pdf",
         caught_by: proofs(&["analytic::a_sphere_light_above_and_partly_below_the_horizon"]),
     },
     Mutant {
@@ -208,12 +208,26 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "(beta, gamma)",
         caught_by: proofs(&["surfaces::huge_spheres_have_no_rings", "figures::figure_6"]),
     },
+    Mutant {
+        name: "small-sphere-meets-itself",
+        file: SPHERES,
+        find: "F::select(own, middle * middle, disc)",
+        replace: "disc",
+        caught_by: units(&["engine::stages::spheres"]),
+    },
+    Mutant {
+        name: "small-spheres-let-out-what-leaves-them-inwards",
+        file: SPHERES,
+        find: "(middle * middle).lt(disc) | (own & inwards)",
+        replace: "(middle * middle).lt(disc)",
+        caught_by: units(&["engine::stages::spheres"]),
+    },
     // Lights.
     Mutant {
         name: "light-sample-without-the-choice-of-light",
         file: LIGHTS,
-        find: "pdf: choice.probability / (opening * c(TWO_PI)),",
-        replace: "pdf: c(1.0) / (opening * c(TWO_PI)),",
+        find: "opening * c(TWO_PI) / choice.probability",
+        replace: "opening * c(TWO_PI)",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
@@ -362,8 +376,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "pixels-share-their-points",
         file: SAMPLER,
-        find: "let x = sample_x ^ pascal_lower(z);",
-        replace: "let x = sample_x;",
+        find: "parts[k].0 ^ y[k].reverse_bits()",
+        replace: "parts[k].0",
         caught_by: units(&["sampling::sampler"]),
     },
     Mutant {

@@ -2,7 +2,7 @@
 
 use super::map::Photon;
 use super::plan::{Plan, Share};
-use crate::engine::batch::{Batch, PATHS, Photons};
+use crate::engine::batch::{Batch, Columns, PATHS, Photons};
 use crate::engine::kernels::Kernels;
 use crate::engine::statistics::Stage;
 use crate::engine::trace::closest;
@@ -85,7 +85,7 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
 
 /// Appends what one event stored.
 fn store(photons: &Photons, stored: &mut Vec<Photon>) {
-    let at = |columns: &[Vec<f32>; 3], k: usize| [columns[0][k], columns[1][k], columns[2][k]];
+    let at = |columns: &Columns, k: usize| [columns[0][k], columns[1][k], columns[2][k]];
     stored.extend((0..photons.len).map(|k| Photon {
         point: at(&photons.point, k),
         normal: at(&photons.normal, k),

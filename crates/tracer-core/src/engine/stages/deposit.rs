@@ -1,18 +1,24 @@
 //! Adds the light of unblocked shadow rays to their slots.
 
-use crate::engine::batch::Batch;
+use crate::engine::batch::{Batch, path};
 
-/// Adds each unblocked contribution to its slot; those of a slot in the order of its paths.
+/// Adds each unblocked contribution to its slot; those of a slot in the order of its paths. Which rays are blocked cannot be foretold, so
+/// the others are listed first, without a branch.
 pub fn deposit(batch: &mut Batch) {
-    let shadows = &batch.shadows;
-    let [red, green, blue] = &mut batch.radiance;
-    let [r, g, b] = &shadows.contribution;
-    for i in 0..shadows.len {
-        if shadows.occluded[i] == 0 {
-            let slot = shadows.slot[i] as usize;
-            red[slot] += r[i];
-            green[slot] += g[i];
-            blue[slot] += b[i];
-        }
+    let (shadows, open) = (&batch.shadows, &mut batch.active);
+    let mut count = 0;
+    for (i, &occluded) in (0..).zip(&shadows.occluded[..shadows.len]) {
+        open[count] = i;
+        count += usize::from(occluded == 0);
+    }
+    let [red, green, blue] = batch.radiance.each_mut().map(|channel| &mut **channel);
+    let [r, g, b] = shadows.contribution.each_ref().map(|channel| &**channel);
+    let slots = &*shadows.slot;
+    for &i in &open[..count] {
+        let i = i as usize;
+        let slot = (slots[i] & path::SUM) as usize;
+        red[slot] += r[i];
+        green[slot] += g[i];
+        blue[slot] += b[i];
     }
 }

@@ -12,8 +12,8 @@ pub struct LightSample<F: Lanes> {
     pub wi: V3<F>,
     /// Distance to the light's surface along it.
     pub distance: F,
-    /// Density in solid angle, the choice of the light included.
-    pub pdf: F,
+    /// One over the density in solid angle, the choice of the light included.
+    pub inverse_pdf: F,
     /// Radiance that comes from there.
     pub radiance: V3<F>,
     /// The light's primitive.
@@ -45,11 +45,11 @@ pub struct Receiver<F: Lanes> {
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
     let (mut u, mut content, mut probability) = (u, root::<F>(lights), F::splat(1.0));
     for level in 0..lights.depth {
+        let step = if level == 0 { Step::below_root(lights, at) } else { Step::new(lights, content, at) };
         // Each step takes a bit of a number of 24.
         if level == SECOND_NUMBER {
             u = v;
         }
-        let step = Step::new(lights, content, at);
         let second = step.first.le(u);
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
         let rest = F::select(second, u - step.first, u) / chance;
@@ -69,8 +69,8 @@ const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
 fn probability<F: Lanes>(lights: &LightTable, light: F::U, at: Receiver<F>) -> F {
     let (mut content, mut probability) = (root::<F>(lights), F::splat(1.0));
     let mut trail = F::U::gather(&lights.trail, light);
-    for _ in 0..lights.depth {
-        let step = Step::new(lights, content, at);
+    for level in 0..lights.depth {
+        let step = if level == 0 { Step::below_root(lights, at) } else { Step::new(lights, content, at) };
         let second = (trail & F::U::splat(1)).eq(F::U::splat(1));
         trail = trail.shr::<1>();
         let chance = F::select(second, F::splat(1.0) - step.first, step.first);
@@ -102,7 +102,17 @@ impl<F: Lanes> Step<F> {
     fn new(lights: &LightTable, content: F::U, at: Receiver<F>) -> Self {
         let inner = content.lt(F::U::splat(LightTable::LEAF));
         let children = F::U::select(inner, content, F::U::splat(0));
-        let (a, b) = (Node::load(lights, children), Node::load(lights, children + F::U::splat(1)));
+        let nodes = [Node::load(lights, children), Node::load(lights, children + F::U::splat(1))];
+        Step::between(inner, nodes, at)
+    }
+    /// From the root, which has children, and the same ones for all lanes.
+    #[inline(always)]
+    fn below_root(lights: &LightTable, at: Receiver<F>) -> Self {
+        let nodes = lights.tree.as_chunks().0;
+        Step::between(F::first(F::N), [Node::splat(&nodes[1]), Node::splat(&nodes[2])], at)
+    }
+    #[inline(always)]
+    fn between(inner: F::M, [a, b]: [Node<F>; 2], at: Receiver<F>) -> Self {
         let contents = [a.content, b.content];
         let (a, b) = (a.importance(at), b.importance(at));
         let sum = a + b;
@@ -144,16 +154,30 @@ impl<F: Lanes> Node<F> {
         Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few }
     }
 
+    /// The same for all lanes, from its numbers.
+    #[inline(always)]
+    fn splat(numbers: &[f32; LightTable::STRIDE as usize]) -> Self {
+        let c = F::splat;
+        let &[x, y, z, radius, power, content, few, _] = numbers;
+        Node {
+            center: V3(c(x), c(y), c(z)),
+            radius: c(radius),
+            power: c(power),
+            content: c(content).to_bits(),
+            few: c(few),
+        }
+    }
+
     /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine there: of few lights
     /// a bound, of many one rather of their middle, never zero while some of the sphere is above the horizon.
     #[inline(always)]
     fn importance(&self, receiver: Receiver<F>) -> F {
         let (r, zero) = (self.radius, F::splat(0.0));
         let to = self.center.sub(receiver.p);
-        let d2 = to.dot(to) + r * r * F::splat(SPREAD);
+        let inverse = F::splat(1.0) / (to.dot(to) + r * r * F::splat(SPREAD));
         let middle = to.dot(receiver.n);
         let height = (middle + r * self.few).max((middle + r).max(zero) * F::splat(LEAST_HEIGHT));
-        self.power / d2 * (height / d2.sqrt()).min(F::splat(1.0))
+        self.power * inverse * (height * inverse.sqrt()).min(F::splat(1.0))
     }
 }
 
@@ -173,9 +197,8 @@ fn one_minus_cos<F: Lanes>(d2: F, r2: F) -> F {
 pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
     let k = choice.light;
     let c = F::splat;
-    let center = V3(F::gather(&lights.center[0], k), F::gather(&lights.center[1], k), F::gather(&lights.center[2], k));
-    let radius = F::gather(&lights.radius, k);
-    let to_center = center.sub(p);
+    let [x, y, z, radius, red, green, blue, primitive] = lights.rows.row::<F>(k);
+    let to_center = V3(x, y, z).sub(p);
     let d2 = to_center.dot(to_center);
     let r2 = radius * radius;
     let inside = d2.le(r2);
@@ -192,18 +215,17 @@ pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F,
     LightSample {
         wi,
         distance,
-        pdf: choice.probability / (opening * c(TWO_PI)),
-        radiance: radiance(lights, k),
-        primitive: F::U::gather(&lights.primitive, k),
+        inverse_pdf: if lights.len > 1 { opening * c(TWO_PI) / choice.probability } else { opening * c(TWO_PI) },
+        radiance: V3(red, green, blue),
+        primitive: primitive.to_bits(),
     }
 }
 
 /// Density with which [`choose`] and [`sample`] take a direction that meets light k.
 #[inline(always)]
 pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>) -> F {
-    let center = V3(F::gather(&lights.center[0], k), F::gather(&lights.center[1], k), F::gather(&lights.center[2], k));
-    let radius = F::gather(&lights.radius, k);
-    let to_center = center.sub(at.p);
+    let [x, y, z, radius, ..] = lights.rows.row::<F>(k);
+    let to_center = V3(x, y, z).sub(at.p);
     let opening = one_minus_cos(to_center.dot(to_center), radius * radius);
     probability(lights, k, at) / (opening * F::splat(TWO_PI))
 }
@@ -211,7 +233,8 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>) -> F {
 /// Radiance of light k.
 #[inline(always)]
 pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U) -> V3<F> {
-    V3(F::gather(&lights.radiance[0], k), F::gather(&lights.radiance[1], k), F::gather(&lights.radiance[2], k))
+    let [.., red, green, blue, _] = lights.rows.row::<F>(k);
+    V3(red, green, blue)
 }
 
 #[cfg(test)]

@@ -32,26 +32,21 @@ pub struct Bsdf<F: Lanes> {
 }
 
 impl<F: Lanes> Bsdf<F> {
-    /// Looks the material up; all masks are within `valid`.
+    /// Looks the material up, and its texture + 1, or 0; all masks are within `valid`.
     #[inline(always)]
-    pub fn new(table: &MaterialTable, material: F::U, valid: F::M) -> Self {
+    fn new(table: &MaterialTable, material: F::U, valid: F::M) -> (Self, F::U) {
         let none = F::M::from_bits(0);
-        let kind = F::gather(&table.kind, material).to_int();
+        let [red, green, blue, kind, texture] = table.rows.row::<F>(material);
+        let kind = kind.to_bits();
         let is = |k: u32| if table.kinds >> k & 1 == 1 { valid & kind.eq(F::U::splat(k)) } else { none };
-        let color = V3(
-            F::gather(&table.color[0], material),
-            F::gather(&table.color[1], material),
-            F::gather(&table.color[2], material),
-        );
         let (transparent, conserving) = (is(kind::TRANSPARENT), is(kind::BLINN_PHONG_CONSERVING));
         let glossy = is(kind::BLINN_PHONG) | conserving;
         let (mut parameter, mut specular) = (F::splat(1.0), F::splat(0.0));
         if (transparent | glossy).any() {
-            parameter = F::gather(&table.parameter, material);
-            specular = F::gather(&table.specular, material);
+            [parameter, specular] = table.parameters.row::<F>(material);
         }
-        Bsdf {
-            color,
+        let bsdf = Bsdf {
+            color: V3(red, green, blue),
             parameter,
             specular,
             diffuse: is(kind::DIFFUSE),
@@ -59,15 +54,15 @@ impl<F: Lanes> Bsdf<F> {
             transparent,
             glossy,
             conserving,
-        }
+        };
+        (bsdf, texture.to_bits())
     }
 
     /// The material of a surface, its texture looked up.
     #[inline(always)]
     pub fn at(tables: &Tables, s: &Surface<F>, valid: F::M) -> Self {
-        let mut bsdf = Bsdf::new(&tables.materials, s.material, valid);
+        let (mut bsdf, texture) = Bsdf::<F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
-            let texture = F::gather(&tables.materials.texture, s.material).to_int();
             let textured = valid & !texture.eq(F::U::splat(0));
             if textured.any() {
                 let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);

@@ -127,7 +127,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let mut hit = valid & !primitive.eq(F::U::splat(NONE));
         if event == 0 && hit.any() {
             let on_sphere = primitive.lt(spheres);
-            let wanted = F::U::gather(&plan.pairs.caster, F::U::gather(&photons.pair, slot));
+            let wanted = F::U::gather(&plan.pairs.caster, F::U::gather(&photons.pair[..], slot));
             let none = F::U::splat(0);
             let of_sphere = F::U::gather(&plan.casters.of_sphere, F::U::select(on_sphere, primitive, none));
             let of_instance = F::U::gather(&plan.casters.of_instance, F::U::select(on_sphere, none, instance));
@@ -159,9 +159,9 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         if !goes_on || !passes.any() {
             continue;
         }
-        let photon = F::U::gather(&photons.pair, slot);
+        let photon = F::U::gather(&photons.pair[..], slot);
         let numbers =
-            Numbers::<F> { index: F::U::gather(&photons.index, slot), key: F::U::gather(&plan.pairs.key, photon) };
+            Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, photon) };
         let (mut wi, _) = reflect_bent(&s, wo);
         let mut start = s.ng.mad(s.offset, s.p);
         let mut weight = bsdf.color;

@@ -173,11 +173,19 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid & !known };
         let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+        let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
+        let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
+        let (mut of_choice, mut of_roulette) = ((zero, zero), (zero, zero));
+        if several {
+            [of_choice, of_roulette] = PairPoints::points_of([&choices, &roulettes], &pixel);
+        } else if lobes_or_end || pass.photons.is_some() {
+            of_roulette = roulettes.points(&pixel);
+        }
 
         // Light that photons have brought here; to look for it costs as much as all else at a vertex, so after the first diffuse vertex
         // of a path only one in so many does.
         if pass.photons.is_some() && !last && lit_here.any() {
-            let (_, choice) = roulettes.points(&pixel);
+            let (_, choice) = of_roulette;
             let chance = F::select(has(slot, path::MAPPED), c(GATHER_LATER), one);
             let lambert = one - bsdf.specular;
             let value = bsdf.color.mul(throughput).scale(lambert * eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
@@ -192,29 +200,29 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
 
         // Light sampled from here.
         if lit_here.any() && tables.lights.len > 0 {
-            let (u, v) = if several { choices.points(&pixel) } else { (zero, zero) };
+            let (u, v) = of_choice;
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
-            let (u, v) = light_points.points(&pixel);
+            let (u, v) = on_light;
             let l = lights::sample(&tables.lights, &choice, s.start, u, v);
             let cos_i = s.ns.dot(l.wi);
             let lit = lit_here & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {
                 let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
                 let (mut f, pdf) = bsdf.both(&lobes);
-                let mut weight = F::select(goes_on, power_heuristic(l.pdf, pdf), one);
+                let mut weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), one);
                 if let Some(photons) = pass.photons
                     && bsdf.glossy.any()
                 {
                     // Each lobe against its own samples; what a narrow one would bring to a diffuse vertex is the photons'.
                     let p = bsdf.glossy_probability();
-                    let lambert = lobes.lambert * power_heuristic(l.pdf, (one - p) * lobes.lambert_pdf);
-                    let glossy = lobes.glossy * power_heuristic(l.pdf, p * lobes.glossy_pdf);
+                    let lambert = lobes.lambert * weight_of_ratio((one - p) * lobes.lambert_pdf * l.inverse_pdf);
+                    let glossy = lobes.glossy * weight_of_ratio(p * lobes.glossy_pdf * l.inverse_pdf);
                     let by_photons = has(slot, path::MAPPED) & bsdf.narrow() & photons.brings::<F>(choice.light);
                     let sum = lambert + F::select(by_photons, zero, glossy);
                     f = V3::select(bsdf.glossy, bsdf.color.scale(sum), f);
                     weight = F::select(bsdf.glossy, one, weight);
                 }
-                let value = f.mul(throughput).mul(l.radiance).scale(cos_i / l.pdf * (weight * eta2));
+                let value = f.mul(throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * eta2));
                 let cast = lit & zero.lt(value.max_component());
                 let k = shadows.len;
                 s.start.compress(cast, &mut shadows.origin, k);
@@ -230,11 +238,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         // The next ray.
-        let (go_on, lobe) = if bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM {
-            roulettes.points(&pixel)
-        } else {
-            (zero, zero)
-        };
+        let (go_on, lobe) = of_roulette;
         let mut wi = direction;
         let mut weight = bsdf.color;
         let mut pdf = c(-1.0);
@@ -243,7 +247,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let mut alive = surfaces & goes_on;
         let mut from_lobe = F::M::from_bits(0);
         if (rough & goes_on).any() {
-            let (u, v) = directions.points(&pixel);
+            let (u, v) = of_direction;
             let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe, pass.photons.is_some());
             from_lobe = sample.from_lobe;
             wi = V3::select(rough, sample.wi, wi);
@@ -365,7 +369,12 @@ fn has<U: Bits>(slot: U, bit: u32) -> U::M {
 /// a^2 / (a^2 + b^2), written so that large densities do not overflow.
 #[inline(always)]
 fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
-    let ratio = b / a;
+    weight_of_ratio(b / a)
+}
+
+/// 1 / (1 + (b / a)^2) of the ratio b / a.
+#[inline(always)]
+fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
 }
 

@@ -19,7 +19,7 @@
 
 use super::materials::Bsdf;
 use super::surface::Surface;
-use crate::engine::batch::{Batch, Group, Item, Members, PATHS, Suffixes, member_kind, path};
+use crate::engine::batch::{Batch, Columns, Group, Item, Members, PATHS, Suffixes, member_kind, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::hash3;
@@ -128,7 +128,7 @@ struct Target<F: Lanes> {
 impl<F: Lanes> Target<F> {
     #[inline(always)]
     fn new(suffixes: &Suffixes, j: usize) -> Self {
-        let at = |columns: &[Vec<f32>; 3]| [columns[0][j], columns[1][j], columns[2][j]];
+        let at = |columns: &Columns| [columns[0][j], columns[1][j], columns[2][j]];
         Target {
             point: V3::splat(at(&suffixes.point)),
             normal: V3::splat(at(&suffixes.normal)),
@@ -190,11 +190,11 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
         let to = V3::<F>::gather_columns(&suffixes.point, j).sub(start);
         let faces = zero.lt(V3::gather_columns(&members.normal, i).dot(to))
             & V3::<F>::gather_columns(&suffixes.normal, j).dot(to).lt(zero);
-        let own = F::U::gather(&members.slot, i).eq(F::U::gather(&suffixes.slot, j));
+        let own = F::U::gather(&members.slot[..], i).eq(F::U::gather(&suffixes.slot[..], j));
         let cast = F::first(count - k) & faces & !own;
-        let kind = F::U::gather(&members.kind, i);
+        let kind = F::U::gather(&members.kind[..], i);
         let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
-        let mut from = F::U::gather(&members.primitive, i);
+        let mut from = F::U::gather(&members.primitive[..], i);
         if raised.any() {
             let sinks = raised & V3::gather_columns(&members.geometric, i).dot(to).le(zero);
             from = F::U::select(sinks, F::U::splat(NONE), from);
@@ -205,9 +205,9 @@ pub fn share_segments<F: Lanes>(seed: u32, round: Round, next: usize, batch: &mu
         to.scale(F::splat(1.0) / distance).compress(cast, &mut rays.direction, k);
         distance.compress(cast, &mut rays.t_max[k..]);
         from.compress(cast, &mut rays.from_primitive[k..]);
-        F::U::gather(&members.instance, i).compress(cast, &mut rays.from_instance[k..]);
-        F::U::gather(&suffixes.primitive, j).compress(cast, &mut rays.target_primitive[k..]);
-        F::U::gather(&suffixes.instance, j).compress(cast, &mut rays.target_instance[k..]);
+        F::U::gather(&members.instance[..], i).compress(cast, &mut rays.from_instance[k..]);
+        F::U::gather(&suffixes.primitive[..], j).compress(cast, &mut rays.target_primitive[k..]);
+        F::U::gather(&suffixes.instance[..], j).compress(cast, &mut rays.target_instance[k..]);
         tag.compress(cast, &mut rays.slot[k..]);
         rays.len += cast.count();
     }

@@ -1,12 +1,12 @@
 //! Rays against the spheres that every ray tests, over lanes (see `scene::sphere` for the two forms of the quadratic).
 //!
-//! A ray that leaves a sphere sets gamma = 0 for it (and the shift of the recentred form), so that its roots there are exactly 0
-//! and -2 beta / k: no epsilon, and no self-intersection.
+//! A ray that leaves a sphere is known to start on it, so that its roots there are exactly 0 and the other end of the chord: no epsilon, and
+//! no self-intersection. Large spheres have gamma = 0 then; of small ones half the chord is as long as the way to its middle.
 
 use crate::engine::batch::Batch;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
-use crate::scene::{LinearSphere, NONE, Scene};
+use crate::scene::{LargeSphere, NONE, SmallSphere, SphereTable};
 
 /// A ray, with what the lifted form shares between spheres.
 #[derive(Clone, Copy)]
@@ -24,14 +24,14 @@ impl<F: Lanes> Ray<F> {
         Ray { o, d, oo: o.dot(o), od: o.dot(d), from }
     }
     #[inline(always)]
-    fn leaves(&self, s: &LinearSphere) -> F::M {
-        self.from.eq(F::U::splat(s.id))
+    fn leaves(&self, id: u32) -> F::M {
+        self.from.eq(F::U::splat(id))
     }
 }
 
 /// (beta, gamma) of the lifted form.
 #[inline(always)]
-fn lifted<F: Lanes>(s: &LinearSphere, ray: &Ray<F>, own: F::M) -> (F, F) {
+fn lifted<F: Lanes>(s: &LargeSphere, ray: &Ray<F>, own: F::M) -> (F, F) {
     let c = F::splat;
     let m = V3::<F>::splat(s.m);
     let k = c(s.k);
@@ -41,25 +41,19 @@ fn lifted<F: Lanes>(s: &LinearSphere, ray: &Ray<F>, own: F::M) -> (F, F) {
     (beta, F::select(own, c(0.0), gamma))
 }
 
-/// (shift, beta, gamma) of the recentred form: t = shift + u.
+/// (middle, disc): the ray meets the sphere at middle - sqrt(disc) and middle + sqrt(disc).
 #[inline(always)]
-fn recentred<F: Lanes>(s: &LinearSphere, ray: &Ray<F>, own: F::M) -> (F, F, F) {
-    let c = F::splat;
-    let k = c(s.k);
-    let n = V3::<F>::splat(s.n);
-    let g0 = ray.o.sub(V3::splat(s.p));
-    let shift = F::select(own, c(0.0), -g0.dot(ray.d));
-    let g = ray.d.mad(shift, g0);
-    let beta = g.dot(ray.d).fma(k, n.dot(ray.d));
-    let ng = n.dot(g);
-    let gamma = F::select(own, c(0.0), g.dot(g).fma(k, ng + ng));
-    (shift, beta, gamma)
+fn centred<F: Lanes>(s: &SmallSphere, ray: &Ray<F>, own: F::M) -> (F, F) {
+    let V3(x, y, z) = V3::<F>::splat(s.center).sub(ray.o);
+    let middle = V3(x, y, z).dot(ray.d);
+    let (x, y, z) = (middle.fnma(ray.d.0, x), middle.fnma(ray.d.1, y), middle.fnma(ray.d.2, z));
+    let disc = z.fnma(z, y.fnma(y, x.fnma(x, F::splat(s.r2))));
+    (middle, F::select(own, middle * middle, disc))
 }
 
 /// Fills `batch.hits` with the nearest of the linear spheres.
 #[inline(always)]
-pub fn spheres_closest<F: Lanes>(scene: &Scene, batch: &mut Batch) {
-    let spheres = &scene.tables.spheres;
+pub fn spheres_closest<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
     let paths = &batch.paths;
     let zero = F::splat(0.0);
     for i in (0..paths.len).step_by(F::N) {
@@ -72,7 +66,7 @@ pub fn spheres_closest<F: Lanes>(scene: &Scene, batch: &mut Batch) {
         // The large ones: t as a fraction, compared by cross-multiplying, one division at the end.
         let (mut num, mut den) = (F::splat(1.0), zero);
         for s in &spheres.large {
-            let own = ray.leaves(s);
+            let own = ray.leaves(s.id);
             let (beta, gamma) = lifted(s, &ray, own);
             let k = F::splat(s.k);
             let disc = beta.fma(beta, -(k * gamma));
@@ -92,20 +86,15 @@ pub fn spheres_closest<F: Lanes>(scene: &Scene, batch: &mut Batch) {
         }
         let mut t = num / den;
         for s in &spheres.small {
-            let own = ray.leaves(s);
-            let (shift, beta, gamma) = recentred(s, &ray, own);
-            let disc = beta.fma(beta, -(F::splat(s.k) * gamma));
-            let may = zero.le(disc);
-            if may.any() {
-                let root = disc.max(zero).sqrt();
-                let r = F::splat(s.r);
-                let first = (-(beta + root)).fma(r, shift);
-                let second = (root - beta).fma(r, shift);
-                let candidate = F::select(zero.lt(first), first, second);
-                let hit = may & zero.lt(candidate) & candidate.lt(t);
-                t = F::select(hit, candidate, t);
-                id = F::U::select(hit, F::U::splat(s.id), id);
-            }
+            let own = ray.leaves(s.id);
+            let (middle, disc) = centred(s, &ray, own);
+            // No branch past those that no lane meets: it is taken wrong too often.
+            let root = disc.max(zero).sqrt();
+            let (first, second) = (middle - root, middle + root);
+            let candidate = F::select(zero.lt(first), first, second);
+            let hit = zero.le(disc) & zero.lt(candidate) & candidate.lt(t);
+            t = F::select(hit, candidate, t);
+            id = F::U::select(hit, F::U::splat(s.id), id);
         }
         t.store(&mut batch.hits.t[i..]);
         id.store(&mut batch.hits.primitive[i..]);
@@ -116,8 +105,7 @@ pub fn spheres_closest<F: Lanes>(scene: &Scene, batch: &mut Batch) {
 /// Sets `batch.shadows.occluded` for the shadow rays that a linear sphere blocks: no square root and no division, only the signs of
 /// the quadratic at both ends of the segment and, where both are outside, at its vertex.
 #[inline(always)]
-pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
-    let spheres = &scene.tables.spheres;
+pub fn spheres_occluded<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
     let shadows = &mut batch.shadows;
     let zero = F::splat(0.0);
     for i in (0..shadows.len).step_by(F::N) {
@@ -130,7 +118,7 @@ pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
         let target = F::U::load(&shadows.target_primitive[i..]);
         let mut occluded = F::M::from_bits(0);
         for s in &spheres.large {
-            let own = ray.leaves(s);
+            let own = ray.leaves(s.id);
             let (beta, gamma) = lifted(s, &ray, own);
             let k = F::splat(s.k);
             let kt = k * t_max;
@@ -144,21 +132,20 @@ pub fn spheres_occluded<F: Lanes>(scene: &Scene, batch: &mut Batch) {
             occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
         }
         for s in &spheres.small {
-            let own = ray.leaves(s);
-            let (shift, beta, gamma) = recentred(s, &ray, own);
-            let k = F::splat(s.k);
-            let end = t_max - shift;
-            let (k_start, k_end) = (-(k * shift), k * end);
-            let beta2 = beta + beta;
-            let at_start = (beta2 + k_start).fnma(shift, gamma);
-            let at_end = (k_end + beta2).fma(end, gamma);
-            let disc = beta.fma(beta, -(k * gamma));
-            let starts_inside = F::select(own, beta, at_start).lt(zero);
-            let ends_inside = at_end.lt(zero);
-            let dips = k_start.lt(-beta) & (-beta).lt(k_end) & zero.lt(disc);
+            let own = ray.leaves(s.id);
+            let (middle, disc) = centred(s, &ray, own);
+            let end = t_max - middle;
+            // On its own sphere, where both squares are the same, the ray starts inside when it heads inwards.
+            let inwards = zero.lt(middle);
+            let starts_inside = (middle * middle).lt(disc) | (own & inwards);
+            let ends_inside = (end * end).lt(disc);
+            let dips = inwards & zero.lt(end) & zero.lt(disc);
             let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
             occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
         }
         F::U::select(occluded, F::U::splat(1), F::U::splat(0)).store(&mut shadows.occluded[i..]);
     }
 }
+
+#[cfg(test)]
+mod tests;

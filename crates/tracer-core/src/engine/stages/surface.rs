@@ -72,9 +72,8 @@ pub fn surface<F: Lanes>(
 fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id: F::U) -> Surface<F> {
     let c = F::splat;
     let table = &scene.tables.spheres;
-    let anchor = V3(F::gather(&table.p[0], id), F::gather(&table.p[1], id), F::gather(&table.p[2], id));
-    let n = V3(F::gather(&table.n[0], id), F::gather(&table.n[1], id), F::gather(&table.n[2], id));
-    let k = F::gather(&table.k, id);
+    let [px, py, pz, nx, ny, nz, k, material, light] = table.rows.row::<F>(id);
+    let (anchor, n) = (V3(px, py, pz), V3(nx, ny, nz));
     let hit = direction.mad(t, origin);
     // Back onto the sphere by one Newton step; the normal N + k g, renormalised to first order.
     let g = hit.sub(anchor);
@@ -102,8 +101,8 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
         offset: c(0.0),
         u,
         v,
-        material: F::gather(&table.material, id).to_int(),
-        light: F::gather(&table.light, id).to_int(),
+        material: material.to_bits(),
+        light: light.to_bits(),
     }
 }
 
@@ -277,17 +276,11 @@ impl<F: Lanes> Placement<F> {
         if !wanted {
             return Placement { rows: [zero, zero, zero], translation: zero };
         }
-        let i = instance * F::U::splat(12);
-        let (four, three) = (F::U::splat(4), F::U::splat(3));
-        let row = [i, i + four, i + four + four];
-        Placement {
-            rows: [V3::gather_at(matrices, row[0]), V3::gather_at(matrices, row[1]), V3::gather_at(matrices, row[2])],
-            translation: V3(
-                F::gather(matrices, row[0] + three),
-                F::gather(matrices, row[1] + three),
-                F::gather(matrices, row[2] + three),
-            ),
-        }
+        let (i, four) = (instance * F::U::splat(12), F::U::splat(4));
+        let [ax, ay, az, tx] = F::gather4(matrices, i);
+        let [bx, by, bz, ty] = F::gather4(matrices, i + four);
+        let [cx, cy, cz, tz] = F::gather4(matrices, i + four + four);
+        Placement { rows: [V3(ax, ay, az), V3(bx, by, bz), V3(cx, cy, cz)], translation: V3(tx, ty, tz) }
     }
     #[inline(always)]
     fn point(&self, p: V3<F>) -> V3<F> {

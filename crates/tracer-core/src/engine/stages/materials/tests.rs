@@ -43,7 +43,7 @@ impl Rough {
                 Material::BlinnPhong { albedo, exponent, specular, energy_conserving: self.conserving }
             }
         };
-        Bsdf::new(&MaterialTable::new(&[material]), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1))
+        Bsdf::new(&MaterialTable::new(&[material]), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
     }
 
     /// f for albedo 1, by the formula of the scene language.
