@@ -393,7 +393,7 @@ impl Counters {
 pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
-    /// Z-order number of each item's tile, shifted by eight, and the offset of [`Item::z_of_pixels`] (padded to a register's table).
+    /// Z-order number of each item's tile, shifted by eight, and the offset of [`Item::z_of_pixels`].
     pub item_z: [u32; ITEMS],
     /// The shift of [`Item::z_of_pixels`] as a factor.
     pub item_scale: [u32; ITEMS],

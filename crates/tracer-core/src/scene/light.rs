@@ -1,7 +1,7 @@
 //! Luminous spheres, and the tree by which one of them is chosen.
 
+use super::Sphere;
 use super::table::Table;
-use super::{Sphere, padded};
 use glam::DVec3;
 
 /// A light.
@@ -84,7 +84,7 @@ impl LightTable {
             rows: Table::new(rows),
             depth: builder.depth,
             trail: pad(builder.trail),
-            tree: padded(builder.tree),
+            tree: builder.tree,
         }
     }
 }

@@ -126,19 +126,3 @@ pub(crate) struct Tables {
     pub textures: TextureTable,
     pub instances: InstanceTable,
 }
-
-/// Pads a look-up table: 16 and 32 entries are looked up by a permutation of registers, and no table may be empty.
-pub(crate) fn padded(mut table: Vec<f32>) -> Vec<f32> {
-    let n = table.len();
-    table.resize(
-        if n <= 16 {
-            16
-        } else if n <= 32 {
-            32
-        } else {
-            n
-        },
-        0.0,
-    );
-    table
-}

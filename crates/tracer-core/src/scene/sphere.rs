@@ -7,8 +7,8 @@
 //! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d + m.d with m = N - k P and
 //!   c = k P.P - 2 N.P: eight fused operations;
 //! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther, Akenine-Moeller: Precision
-//!   Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations of the same about P, and as exact while r is no
-//!   larger than the way to the sphere.
+//!   Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations of the same about P, and as exact where r is
+//!   small against the scene.
 
 use super::table::Table;
 use glam::DVec3;
