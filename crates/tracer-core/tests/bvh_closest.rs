@@ -3,18 +3,19 @@
 mod bvh_support;
 
 use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build};
-use tracer_core::bvh::{Accel, Geometry, Level, NONE, triangle_hit};
+use tracer_core::bvh::{Accel, Geometry, Level, NONE, TrianglePart, part_hit, triangle_hit};
 
-/// Closest of all triangles by the scalar formula; ties go to the smaller id.
-fn brute_force(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
+/// Closest of all triangles, or of their parts, by the scalar formula; ties go to the smaller id.
+fn brute_force(mesh: &Mesh, parts: &[TrianglePart], batch: &Batch) -> Vec<Hit> {
+    let parts = (0..mesh.triangles.len() as u32).map(|triangle| parts_of(parts, triangle)).collect::<Vec<_>>();
     let one = |ray: usize| {
         let (origin, direction) = batch.ray(ray);
         let mut best = MISS;
-        for triangle in 0..mesh.triangles.len() {
+        for (triangle, parts) in parts.iter().enumerate() {
             if batch.from_primitive[ray] == triangle as u32 {
                 continue;
             }
-            if let Some(t) = triangle_hit(mesh.corners(triangle), origin, direction)
+            if let Some(t) = hit_of(mesh.corners(triangle), parts, origin, direction)
                 && t < best.t
             {
                 best = Hit { t, primitive: triangle as u32, instance: 0 };
@@ -25,11 +26,47 @@ fn brute_force(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
     (0..batch.len()).map(one).collect()
 }
 
+/// Parts are sorted by triangle.
+fn parts_of(parts: &[TrianglePart], triangle: u32) -> &[TrianglePart] {
+    let start = parts.partition_point(|part| part.primitive < triangle);
+    let end = parts.partition_point(|part| part.primitive <= triangle);
+    &parts[start..end]
+}
+
+/// The hit of a triangle that is cut is the least of its parts'.
+fn hit_of(corners: [[f32; 3]; 3], parts: &[TrianglePart], origin: [f32; 3], direction: [f32; 3]) -> Option<f32> {
+    if parts.is_empty() {
+        return triangle_hit(corners, origin, direction);
+    }
+    parts.iter().filter_map(|part| part_hit(corners, part.bounds, origin, direction)).reduce(f32::min)
+}
+
+/// The parts of a mesh's triangles, which are those of every mode.
+fn parts(geometry: &Geometry) -> Vec<TrianglePart> {
+    let [parts, others @ ..] = MODES.map(|mode| {
+        let accel = Accel::build(geometry, mode).expect("the geometry is sound");
+        accel.validate(geometry).expect("the tree is valid")
+    });
+    assert!(others.iter().all(|other| same_parts(other, &parts)));
+    parts
+}
+
+/// Trees may have the parts of a triangle in another order.
+fn same_parts(a: &[TrianglePart], b: &[TrianglePart]) -> bool {
+    let sorted = |parts: &[TrianglePart]| {
+        let mut keys: Vec<_> =
+            parts.iter().map(|part| (part.primitive, part.bounds.map(|corner| corner.map(f32::to_bits)))).collect();
+        keys.sort_unstable();
+        keys
+    };
+    sorted(a) == sorted(b)
+}
+
 /// Every mode, level and packing gives what brute force gives, to the bit; and what is hit is what blocks.
 fn check(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
     let meshes = [mesh.geometry(0)];
     let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
-    let expected = brute_force(mesh, batch);
+    let expected = brute_force(mesh, &parts(&geometry), batch);
     for mode in MODES {
         let mut accel = build(&geometry, mode);
         for level in Level::supported() {
@@ -295,7 +332,7 @@ fn limits_that_are_none() {
 fn rays_from_a_surface_do_not_hit_it() {
     let mut random = Random::new(12);
     let mesh = Mesh::ball(40, 20);
-    let seen = brute_force(&mesh, &Batch::random(500, 2.0, &mut Random::new(13)));
+    let seen = brute_force(&mesh, &[], &Batch::random(500, 2.0, &mut Random::new(13)));
     let first = Batch::random(500, 2.0, &mut Random::new(13));
     let mut batch = Batch::default();
     for (ray, hit) in seen.iter().enumerate().filter(|(_, hit)| hit.primitive != NONE) {
@@ -303,4 +340,92 @@ fn rays_from_a_surface_do_not_hit_it() {
         batch.push_from([0, 1, 2].map(|k: usize| o[k] + hit.t * d[k]), random.cube(), hit.primitive, 0);
     }
     check(&mesh, &batch);
+}
+
+/// Rays at points of triangles: from anywhere, and from a point in the triangle's own plane.
+fn at_triangles(mesh: &Mesh, count: usize, random: &mut Random) -> Batch {
+    let mut batch = Batch::default();
+    for _ in 0..count {
+        let [a, b, c] = mesh.corners(random.below(mesh.triangles.len()));
+        let mut within = |reach: f32| {
+            let (s, t) = (reach * random.unit(), random.unit());
+            [0, 1, 2].map(|k: usize| a[k] + s * (1.0 - t) * (b[k] - a[k]) + s * t * (c[k] - a[k]))
+        };
+        let (p, edge_on) = (within(1.0), within(-1.0));
+        for o in [random.cube(), edge_on] {
+            batch.push(o, [0, 1, 2].map(|k: usize| p[k] - o[k]));
+        }
+    }
+    batch
+}
+
+#[test]
+fn triangles_that_are_cut() {
+    let mut random = Random::new(15);
+    for (count, width) in [(60, 0.03), (60, 1e-3), (20, 0.3)] {
+        let mesh = Mesh::aslant(count, width, &mut random);
+        let meshes = [mesh.geometry(0)];
+        let parts = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        assert!(parts.len() > 2 * count, "{} parts", parts.len());
+        for mut batch in [Batch::random(200, 1.0, &mut random), Batch::beams(20, 1.0, &mut random)] {
+            batch.append(&at_triangles(&mesh, 150, &mut random));
+            check(&mesh, &batch);
+        }
+    }
+    let mesh = Mesh::aslant(60, 0.03, &mut random);
+    check(&mesh.clone().scaled(1e6), &at_triangles(&mesh, 100, &mut random).scaled(1e6));
+    check(&mesh.clone().scaled(1e-6), &at_triangles(&mesh, 100, &mut random).scaled(1e-6));
+}
+
+#[test]
+fn a_cut_takes_no_hit_away_and_adds_none() {
+    let mut random = Random::new(16);
+    for width in [0.03, 1e-3, 1e-5, 0.3] {
+        let mesh = Mesh::aslant(60, width, &mut random);
+        let meshes = [mesh.geometry(0)];
+        let all = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        let batch = at_triangles(&mesh, 1500, &mut random);
+        let mut hits = 0;
+        for ray in 0..batch.len() {
+            let (origin, direction) = batch.ray(ray);
+            for triangle in 0..mesh.triangles.len() {
+                let corners = mesh.corners(triangle);
+                let parts = parts_of(&all, triangle as u32);
+                let (whole, cut) =
+                    (triangle_hit(corners, origin, direction), hit_of(corners, parts, origin, direction));
+                // Where t' is not to be trusted, the ray is in the triangle's plane and may start in it.
+                let behind = whole.into_iter().chain(cut).all(|t| t < 1e-3);
+                assert!(whole.is_some() == cut.is_some() || behind, "{corners:?} {origin:?} {direction:?}");
+                hits += u32::from(cut.is_some());
+            }
+        }
+        assert!(hits > 2000, "{hits} hits");
+    }
+}
+
+#[test]
+fn only_long_triangles_aslant_are_cut() {
+    let mut random = Random::new(18);
+    // Large triangles of all shapes, of which a few could be; a scan; needles along an axis.
+    let mut straight = Mesh::default();
+    for i in 0..300 {
+        let [_, y, z] = random.cube();
+        straight.positions.extend([[-1.0, y, z], [1.0, y, z], [1.0, y + 0.02, z]]);
+        straight.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    for mesh in [Mesh::soup(3000, 0.4, &mut random), Mesh::ball(60, 30), straight] {
+        let meshes = [mesh.geometry(0)];
+        assert!(parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }).is_empty());
+    }
+}
+
+#[test]
+fn triangles_too_small_or_too_large_are_not_cut() {
+    let mesh = Mesh::aslant(60, 0.03, &mut Random::new(17));
+    for (scale, cut) in [(1.0, true), (1e-8, true), (1e8, true), (1e-10, false), (1e10, false)] {
+        let mesh = mesh.clone().scaled(scale);
+        let meshes = [mesh.geometry(0)];
+        let parts = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        assert_eq!(!parts.is_empty(), cut, "{scale}");
+    }
 }

@@ -107,6 +107,35 @@ fn everything_together() {
 }
 
 #[test]
+fn triangles_that_are_cut() {
+    let mut random = Random::new(11);
+    let (beams, ball) = (Mesh::aslant(40, 0.03, &mut random), Mesh::ball(16, 8));
+    let spheres = spheres(20, &mut random);
+    let meshes = [ball.geometry(20), beams.geometry(20 + ball.triangles.len() as u32)];
+    // Beside whole ones in the world's tree, and in a tree of their own.
+    let mut instances =
+        vec![InstanceGeometry { mesh: 0, placement: None }, InstanceGeometry { mesh: 1, placement: None }];
+    for _ in 0..10 {
+        instances.push(InstanceGeometry { mesh: 1, placement: Some(rows(&placement(&mut random, 1.0, 0.5))) });
+    }
+    let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances };
+    let stats = build(&geometry, Acceleration::Bvh).stats();
+    let parts_of_one = build(&Geometry { instances: &instances[2..3], ..geometry }, Acceleration::Bvh).stats().parts;
+    assert!(parts_of_one > 200 && stats.parts > parts_of_one + 200, "{parts_of_one} of {stats:?}");
+    for batch in [Batch::random(500, 2.0, &mut random), Batch::beams(30, 2.0, &mut random)] {
+        let hits = check(&geometry, &batch);
+        let placed = hits.iter().filter(|hit| hit.instance >= 2 && hit.instance != NONE).count();
+        assert!(placed > 20, "{placed}");
+        let next = onward(&batch, &hits, &mut random);
+        let again = check(&geometry, &next);
+        for (ray, hit) in again.iter().enumerate() {
+            let itself = hit.primitive == next.from_primitive[ray] && hit.instance == next.from_instance[ray];
+            assert!(!itself || hit.primitive < 20, "ray {ray} hits the triangle it leaves");
+        }
+    }
+}
+
+#[test]
 fn an_instance_is_where_its_triangles_are() {
     let mut random = Random::new(2);
     let ball = Mesh::ball(24, 12);

@@ -26,6 +26,27 @@ fn builds_are_the_same_for_any_number_of_threads() {
 }
 
 #[test]
+fn triangles_are_cut_the_same_for_any_number_of_threads() {
+    let mesh = Mesh::aslant(3000, 0.01, &mut Random::new(3));
+    let meshes = [mesh.geometry(0)];
+    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Accel::build(&geometry, Acceleration::Bvh).expect("the geometry is sound"))
+    };
+    let one = with(1);
+    one.validate(&geometry).expect("the tree is valid");
+    let stats = one.stats();
+    // Every triangle is counted once; no more cuts than three a triangle, each of which makes one box of a part more.
+    assert_eq!(stats.triangles, 36_000);
+    assert!(stats.parts > 36_000 && stats.parts <= 4 * 36_000, "{stats:?}");
+    assert!(stats.bytes as f64 <= 90.0 * (stats.triangles + stats.parts) as f64, "{stats:?}");
+    for threads in [2, 3, 7] {
+        assert!(one.bytes() == with(threads).bytes(), "{threads} threads build another tree");
+    }
+}
+
+#[test]
 fn answers_are_the_same_in_any_batch_and_order() {
     let mut random = Random::new(2);
     let mesh = Mesh::soup(4000, 0.1, &mut random);

@@ -362,6 +362,8 @@ pub struct Tree {
     pub nodes: u64,
     /// Leaves.
     pub leaves: u64,
+    /// Parts that triangles have been cut into.
+    pub parts: u64,
     /// Nodes on the longest way down.
     pub depth: u32,
     /// Bytes.

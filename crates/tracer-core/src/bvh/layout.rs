@@ -1,4 +1,4 @@
-//! The bytes of the tree: nodes of eight boxes, leaves of four triangles or four spheres, instance records.
+//! The bytes of the tree: nodes of eight boxes, leaves of four triangles, parts of triangles or spheres, instance records.
 //!
 //! Everything lies in one arena of 32-byte units (see [`arena`](super::arena)) and is referred to by [`Ref`], a word
 //! that says what it points to and where. Kernels read the arena through raw pointers, so the layout is `repr(C)`.
@@ -34,6 +34,18 @@ pub(crate) struct Triangles4 {
     pub vertices: [[[f32; 4]; 3]; 3],
     /// Primitive ids.
     pub ids: [u32; 4],
+}
+
+/// Four parts of triangles, or triangles that are not cut, 256 bytes.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Parts4 {
+    /// The triangles; the same one may be there more than once.
+    pub triangles: Triangles4,
+    /// The parts' boxes, padded: axis, part. A triangle that is not cut has its own box with the planes of x exchanged:
+    /// it is tested as anywhere else.
+    pub lower: [[f32; 4]; 3],
+    pub upper: [[f32; 4]; 3],
 }
 
 /// Four spheres, 128 bytes. Places that are not used have the id `NONE` and NaNs, which nothing hits.
@@ -91,16 +103,19 @@ pub(crate) struct ObjectRay {
     pub t0: f32,
 }
 
-/// A typed reference: nodes `0…`, triangle leaves `10…`, sphere leaves `110…`, instances `111…` (in bits), the rest of
-/// the word being the unit (for instances, their index).
+/// A typed reference: nodes `000…`, triangle leaves `100…`, leaves of parts `101…`, sphere leaves `110…`, instances
+/// `111…` (in bits), the rest of the word being the unit (for instances, their index).
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub(crate) struct Ref(pub u32);
 
 impl Ref {
     pub(crate) const TRIANGLES: u32 = 0x8000_0000;
+    pub(crate) const PARTS: u32 = 0xA000_0000;
     pub(crate) const SPHERES: u32 = 0xC000_0000;
     pub(crate) const INSTANCE: u32 = 0xE000_0000;
+    /// The bits of the unit.
+    pub(crate) const UNIT: u32 = 0x1FFF_FFFF;
     /// Units that every kind of reference can reach, and instances that can be told apart from the two marks below.
     pub(crate) const LIMIT: u32 = 0x1FFF_FFFE;
     /// Nothing: the bottom of a stack, the root of an empty tree, a missing child.
@@ -113,9 +128,10 @@ impl Ref {
         match self {
             Self::END | Self::LEAVE => Kind::Nothing,
             Self(word) if word < Self::TRIANGLES => Kind::Node(word as usize),
-            Self(word) if word < Self::SPHERES => Kind::Triangles((word & 0x3FFF_FFFF) as usize),
-            Self(word) if word < Self::INSTANCE => Kind::Spheres((word & 0x1FFF_FFFF) as usize),
-            Self(word) => Kind::Instance(word & 0x1FFF_FFFF),
+            Self(word) if word < Self::PARTS => Kind::Triangles((word & Self::UNIT) as usize),
+            Self(word) if word < Self::SPHERES => Kind::Parts((word & Self::UNIT) as usize),
+            Self(word) if word < Self::INSTANCE => Kind::Spheres((word & Self::UNIT) as usize),
+            Self(word) => Kind::Instance(word & Self::UNIT),
         }
     }
 }
@@ -144,7 +160,7 @@ impl TopBoxes {
                 }
             }
             Kind::Nothing => {}
-            Kind::Triangles(_) | Kind::Spheres(_) | Kind::Instance(_) => {
+            Kind::Triangles(_) | Kind::Parts(_) | Kind::Spheres(_) | Kind::Instance(_) => {
                 for axis in 0..3 {
                     top.planes[2 * axis][0] = everything.lower[axis];
                     top.planes[2 * axis + 1][0] = everything.upper[axis];
@@ -161,6 +177,7 @@ impl TopBoxes {
 pub(crate) enum Kind {
     Node(usize),
     Triangles(usize),
+    Parts(usize),
     Spheres(usize),
     Instance(u32),
     Nothing,
@@ -168,6 +185,7 @@ pub(crate) enum Kind {
 
 pub(crate) const NODE_UNITS: u32 = 8;
 pub(crate) const TRIANGLES_UNITS: u32 = 5;
+pub(crate) const PARTS_UNITS: u32 = 8;
 pub(crate) const SPHERES_UNITS: u32 = 4;
 pub(crate) const INSTANCE_UNITS: u32 = 2;
 /// Nodes start on cache lines.

@@ -5,7 +5,8 @@
 //!
 //! # The same bits, always
 //! A hit is a pure function of the ray and the primitive (and the instance it is in): `triangle` and
-//! [`sphere_hit`] say which, operation by operation. Of all hits with 0 < t the closest wins, and of those
+//! [`sphere_hit`] say which, operation by operation. A triangle that leaves its box empty is cut, and is hit where the first
+//! of its parts is; how it is cut depends on nothing but the geometry. Of all hits with 0 < t the closest wins, and of those
 //! equally far the one with the smaller (primitive, instance). Boxes only leave out what cannot win. So the answer
 //! depends neither on the [`Acceleration`], nor on the [`Level`] of vector instructions, the batch, the order of its
 //! rays, or the threads that built the tree.
@@ -29,8 +30,8 @@ pub use build::BuildError;
 pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, SphereGeometry};
 pub use kernels::{Counters, Level};
 pub use sphere::sphere_hit;
-pub use triangle::triangle_hit;
-pub use validate::Invalid;
+pub use triangle::{part_hit, triangle_hit};
+pub use validate::{Invalid, TrianglePart};
 
 pub(crate) use layout::TopBoxes;
 pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
@@ -122,13 +123,15 @@ pub struct Accel {
 pub struct AccelStats {
     /// Triangles in the trees (each mesh counted once), without those that are not finite.
     pub triangles: u64,
+    /// Parts that some of them have been cut into, for boxes that are less empty.
+    pub parts: u64,
     /// Spheres in the tree.
     pub spheres: u64,
     /// Placed instances in the tree.
     pub instances: u64,
     /// Nodes of eight boxes.
     pub nodes: u64,
-    /// Leaves of up to four triangles or spheres.
+    /// Leaves of up to four triangles, parts or spheres.
     pub leaves: u64,
     /// Nodes on the longest way down, through an instance if there is one.
     pub depth: u32,

@@ -4,8 +4,8 @@
 //! A slab test answers with the interval of t in which the ray is inside a box. Here it is computed as
 //! `plane * rd − (o * rd ± pad * |rd|)`, one fma: a *monotone* function of the plane. So the interval of a box lies
 //! within the interval of any box around it, exactly, in floating point. A triangle's hit is clamped into the interval
-//! of the triangle's own box (see [`triangle`](super::triangle)), hence into the interval of every box of the tree
-//! that holds it: a traversal, in whatever order, finds what testing every triangle finds, to the last bit.
+//! of the triangle's own box, or that of its part (see [`triangle`](super::triangle)), hence into the interval of every
+//! box of the tree that holds it: a traversal, in whatever order, finds what testing every triangle finds, to the last bit.
 //!
 //! `pad` only keeps true hits from being clamped or thrown away. With u = 2^-24 and M = max|o| + max|v|, over the
 //! coordinates of origin and triangle: the sheared vertices are off by at most 5uM, t times the direction by 8uM, and

@@ -1,7 +1,9 @@
 //! Checks a built tree against the geometry it was built from.
 
+use super::build::Polygon;
 use super::geometry::Geometry;
-use super::layout::{InstanceRecord, Kind, Node, Ref, Spheres4, Triangles4, Unit};
+use super::layout::{InstanceRecord, Kind, Node, Parts4, Ref, Spheres4, Triangles4, Unit};
+use super::triangle::padded_box;
 use super::{Accel, NONE};
 
 /// What is wrong with a tree.
@@ -29,6 +31,12 @@ pub enum Invalid {
         /// How often it is there.
         times: u32,
     },
+    /// Some of a triangle that is cut is in none of its parts, or one of these sticks out of its box.
+    #[error("the parts of primitive {primitive} are not the whole of it")]
+    Parts {
+        /// The primitive.
+        primitive: u32,
+    },
     /// A leaf holds other numbers than the geometry.
     #[error("primitive {primitive} is not what the geometry says")]
     Content {
@@ -43,22 +51,38 @@ pub enum Invalid {
     },
 }
 
+/// A part of a triangle that has been cut: what of it is in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrianglePart {
+    /// The triangle.
+    pub primitive: u32,
+    /// Lower and upper corner, padded, in the space of the triangle's mesh.
+    pub bounds: [[f32; 3]; 2],
+}
+
 /// Lower and upper corners.
 type Box3 = [[f32; 3]; 2];
 
 const EVERYTHING: Box3 = [[f32::NEG_INFINITY; 3], [f32::INFINITY; 3]];
 
 impl Accel {
-    /// Walks the whole structure: every primitive is there once, inside every box above it, as the geometry has it.
+    /// Walks the whole structure: every primitive is there once, or in parts that together are the whole of it, inside
+    /// every box above it, as the geometry has it. Returns the parts, those of a triangle together, triangles in order
+    /// within their tree.
     ///
     /// # Errors
     /// The first thing found wrong.
-    pub fn validate(&self, geometry: &Geometry) -> Result<(), Invalid> {
+    pub fn validate(&self, geometry: &Geometry) -> Result<Vec<TrianglePart>, Invalid> {
         let end =
             geometry.meshes.last().map_or(self.spheres, |mesh| mesh.first_primitive + mesh.triangles.len() as u32);
-        let mut walk =
-            Walk { accel: self, geometry, seen: vec![0; end as usize], instances: vec![0; self.records().len()] };
-        walk.visit(self.root, &EVERYTHING)?;
+        let mut walk = Walk {
+            accel: self,
+            geometry,
+            seen: vec![0; end as usize],
+            instances: vec![0; self.records().len()],
+            parts: Vec::new(),
+        };
+        walk.tree(self.root)?;
         for (index, sphere) in (0u32..).zip(geometry.spheres) {
             let finite = sphere.lower.iter().chain(&sphere.upper).all(|x| x.is_finite());
             walk.expect(index, NONE, u32::from(finite))?;
@@ -77,10 +101,10 @@ impl Accel {
         }
         for (mesh, record) in (0u32..).zip(&self.meshes) {
             walk.seen.fill(0);
-            walk.visit(Ref(record.root), &EVERYTHING)?;
+            walk.tree(Ref(record.root))?;
             walk.expect_mesh(mesh, u32::from(Ref(record.root) != Ref::END))?;
         }
-        Ok(())
+        Ok(walk.parts)
     }
 }
 
@@ -90,9 +114,36 @@ struct Walk<'a> {
     /// How often each primitive was met.
     seen: Vec<u32>,
     instances: Vec<u32>,
+    parts: Vec<TrianglePart>,
 }
 
 impl Walk<'_> {
+    fn tree(&mut self, root: Ref) -> Result<(), Invalid> {
+        let before = self.parts.len();
+        self.visit(root, &EVERYTHING)?;
+        let parts = &mut self.parts[before..];
+        parts.sort_by_key(|part| part.primitive);
+        for parts in parts.chunk_by(|a, b| a.primitive == b.primitive) {
+            let primitive = parts[0].primitive;
+            let corners = corners_of(self.geometry, primitive).ok_or(Invalid::Content { primitive })?;
+            let whole = padded_box(corners);
+            let mut left = vec![Polygon::of(corners)];
+            for part in parts {
+                inside(primitive, &whole, &part.bounds).map_err(|_| Invalid::Parts { primitive })?;
+                let mut rest = Vec::new();
+                for polygon in left {
+                    outside(polygon, &part.bounds, &mut rest).ok_or(Invalid::Parts { primitive })?;
+                }
+                left = rest;
+            }
+            if !left.is_empty() {
+                return Err(Invalid::Parts { primitive });
+            }
+            self.seen[primitive as usize] += 1;
+        }
+        Ok(())
+    }
+
     fn visit(&mut self, reference: Ref, bounds: &Box3) -> Result<(), Invalid> {
         match reference.kind() {
             Kind::Nothing => Ok(()),
@@ -100,9 +151,14 @@ impl Walk<'_> {
             Kind::Triangles(unit) => {
                 let leaf: Triangles4 = self.read(reference, unit)?;
                 for place in (0..4).filter(|&place| leaf.ids[place] != NONE) {
-                    let vertices =
-                        [0, 1, 2].map(|v| [0, 1, 2].map(|axis: usize| leaf.vertices[v as usize][axis][place]));
-                    self.triangle(leaf.ids[place], vertices, bounds)?;
+                    self.triangle(&leaf, place, bounds)?;
+                }
+                Ok(())
+            }
+            Kind::Parts(unit) => {
+                let leaf: Parts4 = self.read(reference, unit)?;
+                for place in (0..4).filter(|&place| leaf.triangles.ids[place] != NONE) {
+                    self.part(&leaf, place, bounds)?;
                 }
                 Ok(())
             }
@@ -120,7 +176,7 @@ impl Walk<'_> {
                     if !same {
                         return Err(content);
                     }
-                    self.inside(id, bounds, &[sphere.lower, sphere.upper])?;
+                    inside(id, bounds, &[sphere.lower, sphere.upper])?;
                     self.seen[id as usize] += 1;
                 }
                 Ok(())
@@ -160,23 +216,36 @@ impl Walk<'_> {
         Ok(())
     }
 
-    fn triangle(&mut self, id: u32, vertices: [[f32; 3]; 3], bounds: &Box3) -> Result<(), Invalid> {
-        let content = Invalid::Content { primitive: id };
-        let mesh = self.geometry.meshes.iter().rfind(|mesh| mesh.first_primitive <= id).ok_or(content.clone())?;
-        let triangle = mesh.triangles.get((id - mesh.first_primitive) as usize).ok_or(content.clone())?;
-        if triangle.map(|vertex| mesh.positions[vertex as usize]) != vertices {
-            return Err(content);
-        }
-        for vertex in vertices {
-            self.inside(id, bounds, &[vertex, vertex])?;
+    fn triangle(&mut self, leaf: &Triangles4, place: usize, bounds: &Box3) -> Result<(), Invalid> {
+        let id = leaf.ids[place];
+        for vertex in self.vertices(leaf, place)? {
+            inside(id, bounds, &[vertex, vertex])?;
         }
         self.seen[id as usize] += 1;
         Ok(())
     }
 
-    fn inside(&self, primitive: u32, outer: &Box3, inner: &Box3) -> Result<(), Invalid> {
-        let holds = (0..3).all(|axis| outer[0][axis] <= inner[0][axis] && inner[1][axis] <= outer[1][axis]);
-        if holds { Ok(()) } else { Err(Invalid::Outside { primitive }) }
+    fn part(&mut self, leaf: &Parts4, place: usize, bounds: &Box3) -> Result<(), Invalid> {
+        let (primitive, vertices) = (leaf.triangles.ids[place], self.vertices(&leaf.triangles, place)?);
+        let mut own = [&leaf.lower, &leaf.upper].map(|corner| [0, 1, 2].map(|axis: usize| corner[axis][place]));
+        if own[0][0] <= own[1][0] {
+            self.parts.push(TrianglePart { primitive, bounds: own });
+            return inside(primitive, bounds, &own);
+        }
+        // Whole, which is said by exchanging two planes.
+        (own[0][0], own[1][0]) = (own[1][0], own[0][0]);
+        if own != padded_box(vertices) {
+            return Err(Invalid::Content { primitive });
+        }
+        self.triangle(&leaf.triangles, place, bounds)
+    }
+
+    /// The corners of a triangle in a leaf, which are those of the geometry.
+    fn vertices(&self, leaf: &Triangles4, place: usize) -> Result<[[f32; 3]; 3], Invalid> {
+        let primitive = leaf.ids[place];
+        let vertices = [0, 1, 2].map(|v: usize| [0, 1, 2].map(|axis: usize| leaf.vertices[v][axis][place]));
+        let same = corners_of(self.geometry, primitive) == Some(vertices);
+        if same { Ok(vertices) } else { Err(Invalid::Content { primitive }) }
     }
 
     fn expect_mesh(&self, mesh: u32, times: u32) -> Result<(), Invalid> {
@@ -200,4 +269,32 @@ impl Walk<'_> {
         let item = self.accel.arena.units().get(unit..unit + units);
         item.map(|item| bytemuck::cast_slice::<Unit, T>(item)[0]).ok_or(Invalid::Reference { reference: reference.0 })
     }
+}
+
+fn corners_of(geometry: &Geometry, primitive: u32) -> Option<[[f32; 3]; 3]> {
+    let mesh = geometry.meshes.iter().rfind(|mesh| mesh.first_primitive <= primitive)?;
+    let triangle = mesh.triangles.get((primitive - mesh.first_primitive) as usize)?;
+    Some(triangle.map(|vertex| mesh.positions[vertex as usize]))
+}
+
+fn inside(primitive: u32, outer: &Box3, inner: &Box3) -> Result<(), Invalid> {
+    let holds = (0..3).all(|axis| outer[0][axis] <= inner[0][axis] && inner[1][axis] <= outer[1][axis]);
+    if holds { Ok(()) } else { Err(Invalid::Outside { primitive }) }
+}
+
+/// What of a polygon is outside a box. (All planes are across axes, so the pieces are what of it is in some box too.)
+fn outside(mut polygon: Polygon, bounds: &Box3, pieces: &mut Vec<Polygon>) -> Option<()> {
+    for axis in 0..3 {
+        for (side, corner) in bounds.iter().enumerate() {
+            let plane = f64::from(corner[axis]);
+            let [below, above] = polygon.halves(axis, plane)?;
+            let (beyond, rest) = if side == 0 { (below, above) } else { (above, below) };
+            // What only touches the box is in it.
+            if beyond.points().iter().any(|p| p[axis] != plane) {
+                pieces.push(beyond);
+            }
+            polygon = rest;
+        }
+    }
+    Some(())
 }

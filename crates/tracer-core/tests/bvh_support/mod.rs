@@ -87,6 +87,28 @@ impl Mesh {
         mesh
     }
 
+    /// Closed square beams, up to two long and `width` wide, aslant in [−1, 1]³: eight vertices and twelve triangles each.
+    pub fn aslant(count: usize, width: f32, random: &mut Random) -> Self {
+        let mut mesh = Self::default();
+        for _ in 0..count {
+            let ends = [random.cube(), random.cube()];
+            let along = [0, 1, 2].map(|k: usize| ends[1][k] - ends[0][k]);
+            let side = unit(cross(along, random.cube()), width);
+            let other = unit(cross(along, side), width);
+            let first = mesh.positions.len() as u32;
+            for end in ends {
+                for (a, b) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
+                    mesh.positions.push([0, 1, 2].map(|k: usize| end[k] + a * side[k] + b * other[k]));
+                }
+            }
+            let quads = [[0, 1, 2, 3], [7, 6, 5, 4], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
+            for [a, b, c, d] in quads.map(|quad: [u32; 4]| quad.map(|vertex| first + vertex)) {
+                mesh.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        mesh
+    }
+
     pub fn scaled(mut self, factor: f32) -> Self {
         self.positions.iter_mut().flatten().for_each(|x| *x *= factor);
         self
@@ -99,6 +121,15 @@ impl Mesh {
     pub fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(a: [f32; 3], length: f32) -> [f32; 3] {
+    let norm = a.iter().map(|x| x * x).sum::<f32>().sqrt();
+    a.map(|x| x * length / norm)
 }
 
 /// A mesh placed where it is.
@@ -182,6 +213,18 @@ impl Batch {
             }
         }
         batch
+    }
+
+    pub fn append(&mut self, other: &Self) {
+        for ray in 0..other.len() {
+            let (origin, direction) = other.ray(ray);
+            self.push_from(origin, direction, other.from_primitive[ray], other.from_instance[ray]);
+        }
+    }
+
+    pub fn scaled(mut self, factor: f32) -> Self {
+        self.origin.iter_mut().chain(&mut self.direction).flatten().for_each(|x| *x *= factor);
+        self
     }
 
     pub fn closest(&self, accel: &Accel, coherence: Coherence) -> Vec<Hit> {

@@ -138,6 +138,7 @@ impl Facts {
             "tree": s.tree.map(|tree| json!({
                 "nodes": tree.nodes,
                 "leaves": tree.leaves,
+                "parts": tree.parts,
                 "depth": tree.depth,
                 "bytes": tree.bytes,
             })),

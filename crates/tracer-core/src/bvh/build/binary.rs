@@ -5,6 +5,7 @@
 //! and what threads merge are minima, maxima and counts, which are exact in any order.
 
 use super::super::bounds::Bounds;
+use super::contents::TriangleList;
 use glam::Vec4;
 use rayon::prelude::*;
 
@@ -46,6 +47,8 @@ impl Item {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Triangles,
+    /// Triangles of which at least one is a part of one.
+    Parts,
     Spheres,
     Instance,
 }
@@ -111,6 +114,20 @@ impl BinaryTree {
         for node in &mut self.nodes {
             if let Content::Leaf { first, .. } = &mut node.content {
                 *first += start;
+            }
+        }
+    }
+
+    /// Makes leaves of parts of those that hold one.
+    pub(crate) fn mark_parts(&mut self, triangles: &TriangleList) {
+        if triangles.parts() == 0 {
+            return;
+        }
+        for node in &mut self.nodes {
+            if let Content::Leaf { kind, first, count } = &mut node.content
+                && self.order[*first as usize..(*first + *count) as usize].iter().any(|&index| triangles.is_part(index))
+            {
+                *kind = Kind::Parts;
             }
         }
     }

@@ -2,10 +2,11 @@
 
 use super::super::bounds::Bounds;
 use super::super::geometry::{Geometry, MeshGeometry, NONE, SphereGeometry};
-use super::super::layout::{Ref, Spheres4, Triangles4, Unit};
+use super::super::layout::{Parts4, Ref, Spheres4, Triangles4, Unit};
 use super::super::ray_space::{PAD, RANGE};
 use super::BuildError;
 use super::binary::Item;
+use super::parts::Part;
 use super::wide::WriteLeaves;
 use glam::{Affine3A, DMat3, DVec3, Mat3A, Vec3A, Vec4};
 use rayon::prelude::*;
@@ -37,15 +38,20 @@ pub(crate) struct Instances {
     pub order: Vec<u32>,
 }
 
-impl WriteLeaves for Contents<'_> {
-    fn triangles(&self, first: u32, count: u32, units: &mut [Unit]) {
-        let order = &self.triangles.order[first as usize..(first + count) as usize];
+impl Triangles<'_> {
+    /// How many triangles are in the tree, each counted once.
+    pub(crate) fn count(&self) -> u64 {
+        (self.order.len() + self.list.cut - self.list.parts()) as u64
+    }
+
+    fn leaf(&self, first: u32, count: u32) -> Triangles4 {
+        let order = &self.order[first as usize..(first + count) as usize];
         let mut leaf = Triangles4 { vertices: [[[0.0; 4]; 3]; 3], ids: [NONE; 4] };
         for place in 0..4 {
             // What is left over is one point of the first triangle three times: without area, never hit.
             let (vertices, id) = match order.get(place) {
-                Some(&index) => self.triangles.list.triangle(index),
-                None => ([self.triangles.list.triangle(order[0]).0[0]; 3], NONE),
+                Some(&index) => self.list.triangle(index),
+                None => ([self.list.triangle(order[0]).0[0]; 3], NONE),
             };
             for (vertex, position) in vertices.into_iter().enumerate() {
                 for (axis, coordinate) in position.into_iter().enumerate() {
@@ -54,7 +60,34 @@ impl WriteLeaves for Contents<'_> {
             }
             leaf.ids[place] = id;
         }
-        units.copy_from_slice(bytemuck::cast_slice(&[leaf]));
+        leaf
+    }
+
+    fn leaf_of_parts(&self, first: u32, count: u32) -> Parts4 {
+        let order = &self.order[first as usize..(first + count) as usize];
+        let (lower, upper) = ([[f32::INFINITY; 4]; 3], [[f32::NEG_INFINITY; 4]; 3]);
+        let mut leaf = Parts4 { triangles: self.leaf(first, count), lower, upper };
+        for (place, &index) in order.iter().enumerate() {
+            let bounds = self.list.bounds(index).unwrap_or(Bounds::EMPTY);
+            for axis in 0..3 {
+                leaf.lower[axis][place] = bounds.lower[axis];
+                leaf.upper[axis][place] = bounds.upper[axis];
+            }
+            if !self.list.is_part(index) {
+                std::mem::swap(&mut leaf.lower[0][place], &mut leaf.upper[0][place]);
+            }
+        }
+        leaf
+    }
+}
+
+impl WriteLeaves for Contents<'_> {
+    fn triangles(&self, first: u32, count: u32, units: &mut [Unit]) {
+        units.copy_from_slice(bytemuck::cast_slice(&[self.triangles.leaf(first, count)]));
+    }
+
+    fn parts(&self, first: u32, count: u32, units: &mut [Unit]) {
+        units.copy_from_slice(bytemuck::cast_slice(&[self.triangles.leaf_of_parts(first, count)]));
     }
 
     fn spheres(&self, first: u32, count: u32, units: &mut [Unit]) {
@@ -87,6 +120,10 @@ pub(crate) struct TriangleList<'a> {
     /// The number of each mesh's first triangle.
     starts: Vec<u32>,
     count: u32,
+    /// Parts of triangles that have been cut; numbered on from the triangles.
+    parts: Vec<Part>,
+    /// How many triangles these are the parts of.
+    pub cut: usize,
 }
 
 impl<'a> TriangleList<'a> {
@@ -101,22 +138,45 @@ impl<'a> TriangleList<'a> {
                 count - mesh.triangles.len() as u32
             })
             .collect();
-        Self { meshes, indices: indices.to_vec(), starts, count }
+        Self { meshes, indices: indices.to_vec(), starts, count, parts: Vec::new(), cut: 0 }
     }
 
-    pub(crate) fn start_of(&self, part: usize) -> u32 {
-        self.starts[part]
+    /// How many parts there are.
+    pub(crate) fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Whether a number is that of a part.
+    pub(crate) fn is_part(&self, index: u32) -> bool {
+        index >= self.count
+    }
+
+    /// Returns the part's number.
+    pub(crate) fn add(&mut self, part: Part) -> u32 {
+        self.parts.push(part);
+        self.count + self.parts.len() as u32 - 1
+    }
+
+    /// Which of the meshes a triangle, or a part of one, belongs to.
+    pub(crate) fn mesh_of(&self, index: u32) -> usize {
+        self.place(index).0
     }
 
     fn place(&self, index: u32) -> (usize, usize) {
-        let part = self.starts.partition_point(|&start| start <= index) - 1;
-        (part, (index - self.starts[part]) as usize)
+        let index = if self.is_part(index) { self.parts[(index - self.count) as usize].triangle } else { index };
+        let mesh = self.starts.partition_point(|&start| start <= index) - 1;
+        (mesh, (index - self.starts[mesh]) as usize)
     }
 
-    /// The corners and the primitive id of a triangle whose indices have been checked.
+    /// The corners of a triangle whose indices have been checked.
+    pub(crate) fn corners(&self, index: u32) -> [[f32; 3]; 3] {
+        self.triangle(index).0
+    }
+
+    /// The corners and the primitive id of a triangle, or of the triangle of a part, whose indices have been checked.
     fn triangle(&self, index: u32) -> ([[f32; 3]; 3], u32) {
-        let (part, triangle) = self.place(index);
-        let mesh = &self.meshes[part];
+        let (mesh, triangle) = self.place(index);
+        let mesh = &self.meshes[mesh];
         let vertices = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize]);
         (vertices, mesh.first_primitive + triangle as u32)
     }
@@ -154,8 +214,11 @@ impl<'a> TriangleList<'a> {
         Ok(())
     }
 
-    /// The box of a triangle whose indices have been checked, if it can be hit.
+    /// The box of a part, or of a triangle whose indices have been checked, if it can be hit.
     fn bounds(&self, index: u32) -> Option<Bounds> {
+        if self.is_part(index) {
+            return Some(self.parts[(index - self.count) as usize].bounds);
+        }
         let (corners, _) = self.triangle(index);
         let mut bounds = Bounds::EMPTY;
         for [x, y, z] in corners {

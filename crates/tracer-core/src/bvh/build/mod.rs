@@ -6,6 +6,7 @@
 mod binary;
 mod collapse;
 mod contents;
+mod parts;
 mod wide;
 
 use super::arena::Arena;
@@ -16,6 +17,7 @@ use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, TopBoxes};
 use super::{Accel, AccelStats, Acceleration};
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
 use contents::{Contents, TriangleList, instance_bounds, object_from_world};
+pub(crate) use parts::Polygon;
 use rayon::prelude::*;
 use std::time::Instant;
 use wide::Plan;
@@ -156,7 +158,8 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
     assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
     let table_bytes = meshes.len() * size_of::<MeshRecord>();
     let stats = AccelStats {
-        triangles: trees.iter().map(|tree| tree.contents.triangles.order.len() as u64).sum(),
+        triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
+        parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),
         spheres: world.contents.spheres.order.len() as u64,
         instances: world.contents.instances.order.len() as u64,
         nodes: plans.iter().map(|plan| plan.nodes).sum(),
@@ -211,12 +214,14 @@ fn rows_of(geometry: &Geometry, direct: &[u32], index: usize) -> Option<[[f32; 4
 }
 
 /// The tree over the triangles of some meshes.
-fn triangle_tree(triangles: TriangleList, acceleration: Acceleration) -> Result<Tree, BuildError> {
-    let (items, bounds) = triangles.items()?;
-    let tree = match acceleration {
+fn triangle_tree(mut triangles: TriangleList, acceleration: Acceleration) -> Result<Tree, BuildError> {
+    let (mut items, bounds) = triangles.items()?;
+    triangles.cut(&mut items, &bounds);
+    let mut tree = match acceleration {
         Acceleration::Bvh => BinaryTree::build(items, Kind::Triangles, 4),
         Acceleration::None | Acceleration::BoundingBox => BinaryTree::in_given_order(&items, Kind::Triangles, 4),
     };
+    tree.mark_parts(&triangles);
     let mut contents = Contents { bounds, ..Contents::default() };
     contents.triangles.list = triangles;
     contents.triangles.order = tree.order;
@@ -268,7 +273,7 @@ fn world_tree<'a>(
     let direct: Vec<u32> = (0..direct.len()).filter(|&mesh| direct[mesh] != NONE).map(|mesh| mesh as u32).collect();
     let triangles = TriangleList::new(geometry, &direct);
     let mut world = match acceleration {
-        Acceleration::BoundingBox => boxed_meshes(geometry, triangles, &direct)?,
+        Acceleration::BoundingBox => boxed_meshes(triangles, direct.len())?,
         _ => triangle_tree(triangles, acceleration)?,
     };
     let sphere_items: Vec<Item> = (0u32..)
@@ -301,21 +306,23 @@ fn world_tree<'a>(
 }
 
 /// A tree of one box for each mesh, with all its triangles in boxes that leave nothing out.
-fn boxed_meshes<'a>(
-    geometry: &Geometry<'a>,
-    triangles: TriangleList<'a>,
-    meshes: &[u32],
-) -> Result<Tree<'a>, BuildError> {
-    let mut trees = Vec::with_capacity(meshes.len());
+fn boxed_meshes(mut triangles: TriangleList, meshes: usize) -> Result<Tree, BuildError> {
+    let (mut items, all) = triangles.items()?;
+    triangles.cut(&mut items, &all);
+    let mut of_meshes = vec![Vec::new(); meshes];
+    for item in items {
+        of_meshes[triangles.mesh_of(item.index())].push(item);
+    }
+    let mut trees = Vec::with_capacity(meshes);
     let mut order = Vec::new();
-    let mut all = Bounds::EMPTY;
-    for (part, &mesh) in meshes.iter().enumerate() {
-        let (items, bounds) = TriangleList::new(geometry, &[mesh]).items()?;
+    for items in of_meshes {
+        let mut bounds = Bounds::EMPTY;
+        items.iter().for_each(|item| bounds.include(&item.bounds()));
         let mut tree = BinaryTree::in_given_order(&items, Kind::Triangles, 4);
+        tree.mark_parts(&triangles);
         tree.start_at(order.len() as u32);
         tree.seal(bounds);
-        all.include(&bounds);
-        order.extend(tree.order.iter().map(|index| index + triangles.start_of(part)));
+        order.append(&mut tree.order);
         trees.push(tree.nodes);
     }
     let mut contents = Contents { bounds: all, ..Contents::default() };

@@ -3,7 +3,7 @@
 //! [`Choices`] says which binary nodes become wide ones. Nodes lie in preorder, the leaves of a node right
 //! behind it. A plan says where everything goes before anything is written, in chunks that threads then fill.
 
-use super::super::layout::{LINE_UNITS, NODE_UNITS, Node, Ref, SPHERES_UNITS, TRIANGLES_UNITS, Unit};
+use super::super::layout::{LINE_UNITS, NODE_UNITS, Node, PARTS_UNITS, Ref, SPHERES_UNITS, TRIANGLES_UNITS, Unit};
 use super::binary::{BinaryNode, Content, Kind};
 use super::collapse::Choices;
 use rayon::prelude::*;
@@ -64,6 +64,7 @@ enum Link {
 /// Writes the leaves of a tree.
 pub(crate) trait WriteLeaves: Sync {
     fn triangles(&self, first: u32, count: u32, units: &mut [Unit]);
+    fn parts(&self, first: u32, count: u32, units: &mut [Unit]);
     fn spheres(&self, first: u32, count: u32, units: &mut [Unit]);
     /// The reference of an instance leaf.
     fn instance(&self, first: u32) -> Ref;
@@ -154,7 +155,7 @@ impl Plan {
                     node.planes[2 * axis + 1][child] = binary.bounds.upper[axis];
                 }
                 if let (Content::Leaf { .. }, Link::Near(reference)) = (binary.content, wide.links[child]) {
-                    write_leaf(binary, leaves, &mut units[(reference & !Ref::SPHERES) as usize..]);
+                    write_leaf(binary, leaves, &mut units[(reference & Ref::UNIT) as usize..]);
                 }
             }
             node.set_order();
@@ -173,6 +174,7 @@ impl Chunk {
 fn leaf_kind(node: &BinaryNode) -> u32 {
     match node.content {
         Content::Leaf { kind: Kind::Spheres, .. } => Ref::SPHERES,
+        Content::Leaf { kind: Kind::Parts, .. } => Ref::PARTS,
         _ => Ref::TRIANGLES,
     }
 }
@@ -181,6 +183,9 @@ fn write_leaf(node: &BinaryNode, leaves: &impl WriteLeaves, units: &mut [Unit]) 
     match node.content {
         Content::Leaf { kind: Kind::Triangles, first, count } => {
             leaves.triangles(first, count, &mut units[..TRIANGLES_UNITS as usize])
+        }
+        Content::Leaf { kind: Kind::Parts, first, count } => {
+            leaves.parts(first, count, &mut units[..PARTS_UNITS as usize])
         }
         Content::Leaf { kind: Kind::Spheres, first, count } => {
             leaves.spheres(first, count, &mut units[..SPHERES_UNITS as usize])
@@ -216,7 +221,11 @@ impl<L: WriteLeaves> Planner<'_, L> {
     fn leaf(&mut self, leaf: u32) -> u32 {
         let kind = leaf_kind(&self.nodes[leaf as usize]);
         let unit = self.chunk.units;
-        self.chunk.units += if kind == Ref::SPHERES { SPHERES_UNITS } else { TRIANGLES_UNITS };
+        self.chunk.units += match kind {
+            Ref::SPHERES => SPHERES_UNITS,
+            Ref::PARTS => PARTS_UNITS,
+            _ => TRIANGLES_UNITS,
+        };
         self.chunk.leaves += 1;
         kind | unit
     }

@@ -18,10 +18,10 @@
 //! nearer hit drops whatever lies behind it, on both levels, without losing an exact tie.
 
 use super::super::geometry::NONE;
-use super::super::layout::{Node, Ref, Spheres4, Triangles4, Unit};
+use super::super::layout::{Node, Parts4, Ref, Spheres4, Triangles4, Unit};
 use super::super::ray_space::RaySpace;
 use super::isa::{Isa, Isa16, WordLanes};
-use super::leaves::{LeafHits, Passage, hits4, passage4, places_of, spheres4};
+use super::leaves::{LeafHits, Passage, hits4, parts_hits4, passage4, places_of, spheres4};
 use super::packet::run_of;
 use super::packet_space::PacketSpace;
 use super::query::{Batch, Goal, TreeView, WORLD};
@@ -137,7 +137,7 @@ impl Flight {
 #[derive(Clone, Copy)]
 struct Candidate<I: Isa> {
     flight: usize,
-    unit: u32,
+    reference: u32,
     mask: u32,
     passage: Passage<I>,
 }
@@ -158,7 +158,7 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
     // What each of them visits next: apart from the rest of their state, for the look at all of them.
     let mut next = WordLanes([Ref::END.0; IN_FLIGHT]);
     let mut waiting = Waiting::new(batch);
-    let mut candidates = [Candidate { flight: 0, unit: 0, mask: 0, passage: Passage::none(isa) }; IN_FLIGHT];
+    let mut candidates = [Candidate { flight: 0, reference: 0, mask: 0, passage: Passage::none(isa) }; IN_FLIGHT];
     // Flights that have a ray, or may still get one.
     let mut live = 0xFFFF;
     while live != 0 {
@@ -181,9 +181,9 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
         while at_triangles != 0 {
             let at = first_of(&mut at_triangles);
             let flight = &mut flights[at];
-            let unit = next.0[at] & 0x3FFF_FFFF;
-            // SAFETY: a reference to a triangle leaf (see `TreeView`).
-            let leaf = unsafe { item::<Triangles4>(tree, unit) };
+            let reference = next.0[at];
+            // SAFETY: a reference to a triangle leaf, or one of parts, which begins like it (see `TreeView`).
+            let leaf = unsafe { item::<Triangles4>(tree, reference & Ref::UNIT) };
             let mut skip = places_of(isa, &leaf.ids, flight.from);
             if G::ANY_HIT {
                 skip |= places_of(isa, &leaf.ids, flight.target);
@@ -191,7 +191,7 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
             let (inside, passage) = passage4(isa, leaf, &flight.space);
             let mask = inside & !skip;
             // Always written and taken up only where it counts; the stack is popped only where the leaf is done with.
-            candidates[passed & 15] = Candidate { flight: at, unit, mask, passage };
+            candidates[passed & 15] = Candidate { flight: at, reference, mask, passage };
             passed += usize::from(mask != 0);
             next.0[at] = flight.pop_if(mask == 0);
             prefetch(tree, next.0[at]);
@@ -199,10 +199,17 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
         for candidate in &candidates[..passed.min(IN_FLIGHT)] {
             let at = candidate.flight & 15;
             let flight = &mut flights[at];
+            let Candidate { reference, passage, mask, .. } = candidate;
             // SAFETY: as above.
-            let leaf = unsafe { item::<Triangles4>(tree, candidate.unit) };
-            let Candidate { passage, mask, .. } = candidate;
-            let hits = hits4(isa, leaf, &flight.space, passage, flight.tmin, flight.t, *mask);
+            let leaf = unsafe { item::<Triangles4>(tree, reference & Ref::UNIT) };
+            // Two loops, triangles and then parts, had as many branches mispredicted.
+            let hits = if *reference < Ref::PARTS {
+                hits4(isa, leaf, &flight.space, passage, flight.tmin, flight.t, *mask)
+            } else {
+                // SAFETY: a reference to a leaf of parts.
+                let leaf = unsafe { item::<Parts4>(tree, reference & Ref::UNIT) };
+                parts_hits4(isa, leaf, &flight.space, passage, flight.tmin, flight.t, *mask)
+            };
             let instance = flight.inside;
             next.0[at] = take::<I, G>(isa, tree, flight, hits, &leaf.ids, instance);
             prefetch(tree, next.0[at]);
@@ -226,7 +233,7 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
                     counters.sphere_leaves += 1;
                 }
                 // SAFETY: a reference to a sphere leaf (see `TreeView`).
-                let leaf = unsafe { item::<Spheres4>(tree, node & 0x1FFF_FFFF) };
+                let leaf = unsafe { item::<Spheres4>(tree, node & Ref::UNIT) };
                 let ray = flight.ray as usize;
                 let (o, d) = (batch.origin(ray), batch.direction(ray));
                 let mut hits = spheres4(isa, leaf, o, d, flight.from, flight.t);
@@ -242,7 +249,7 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
                 if COUNT {
                     counters.instances += 1;
                 }
-                enter_instance(tree, batch, goal, flight, node & 0x1FFF_FFFF)
+                enter_instance(tree, batch, goal, flight, node & Ref::UNIT)
             };
             prefetch(tree, next.0[at]);
         }
@@ -461,7 +468,7 @@ pub(crate) fn prefetch(tree: &TreeView, reference: u32) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let at = tree.base.wrapping_add((reference & 0x3FFF_FFFF) as usize * size_of::<Unit>()).cast::<i8>();
+        let at = tree.base.wrapping_add((reference & Ref::UNIT) as usize * size_of::<Unit>()).cast::<i8>();
         // SAFETY: every x86-64 processor has SSE, and a prefetch never faults.
         unsafe {
             _mm_prefetch::<_MM_HINT_T0>(at);

@@ -1,8 +1,9 @@
 //! Leaf tests: one ray against four triangles or four spheres. The formulas are those of [`triangle`](super::super::triangle)
 //! and [`sphere`](super::super::sphere), operation by operation.
 
-use super::super::layout::{Spheres4, Triangles4};
+use super::super::layout::{Parts4, Spheres4, Triangles4};
 use super::super::ray_space::{PAD, RaySpace};
+use super::super::triangle::{SLACK, SLACK_OF_ZERO};
 use super::isa::Isa;
 
 /// Candidates of a leaf: bit i of `mask` set where `t[i]` is a hit in (0, limit].
@@ -48,6 +49,24 @@ pub(crate) fn triangles4<I: Isa>(
     hits4(isa, leaf, ray, &passage, tmin, limit, mask)
 }
 
+/// As [`triangles4`], of the parts of `leaf`.
+#[inline(always)]
+pub(crate) fn parts4<I: Isa>(
+    isa: I,
+    leaf: &Parts4,
+    ray: &RaySpace,
+    tmin: f32,
+    limit: f32,
+    skip: u32,
+) -> Option<LeafHits> {
+    let (inside, passage) = passage4(isa, &leaf.triangles, ray);
+    let mask = inside & !skip;
+    if mask == 0 {
+        return None;
+    }
+    parts_hits4(isa, leaf, ray, &passage, tmin, limit, mask)
+}
+
 /// The triangles of `leaf` that the ray's line passes through.
 #[inline(always)]
 pub(crate) fn passage4<I: Isa>(isa: I, leaf: &Triangles4, ray: &RaySpace) -> (u32, Passage<I>) {
@@ -86,11 +105,43 @@ pub(crate) fn hits4<I: Isa>(
     limit: f32,
     mask: u32,
 ) -> Option<LeafHits> {
+    let t = distance4(isa, passage, ray);
+    let (near, far) = interval4(isa, ray, &padded_planes(isa, leaf));
+    hits_within4(isa, t, near, far, tmin, limit, mask & isa.le4(near, far))
+}
+
+/// As [`hits4`], of the parts of `leaf`.
+#[inline(always)]
+pub(crate) fn parts_hits4<I: Isa>(
+    isa: I,
+    leaf: &Parts4,
+    ray: &RaySpace,
+    passage: &Passage<I>,
+    tmin: f32,
+    limit: f32,
+    mask: u32,
+) -> Option<LeafHits> {
+    let t = distance4(isa, passage, ray);
+    let lower = [load(isa, &leaf.lower[0]), load(isa, &leaf.lower[1]), load(isa, &leaf.lower[2])];
+    let upper = [load(isa, &leaf.upper[0]), load(isa, &leaf.upper[1]), load(isa, &leaf.upper[2])];
+    let (near, far) = interval4(isa, ray, &(lower, upper));
+    let slack = slack4(isa, &leaf.triangles, ray, passage);
+    let cut = isa.le4(lower[0], upper[0]);
+    let beside = cut & (isa.lt4(t, isa.sub4(near, slack)) | isa.lt4(isa.add4(far, slack), t));
+    hits_within4(isa, t, near, far, tmin, limit, mask & isa.le4(near, far) & !beside)
+}
+
+/// t before it is clamped.
+#[inline(always)]
+fn distance4<I: Isa>(isa: I, passage: &Passage<I>, ray: &RaySpace) -> I::F4 {
     let Passage { u, v, w, det, depths: [az, bz, cz] } = *passage;
-    let zero = isa.splat4(0.0);
     let distance = isa.fmadd4(u, az, isa.fmadd4(v, bz, isa.mul4(w, cz)));
-    let t = isa.mul4(isa.div4(distance, det), isa.splat4(ray.shear[2]));
-    let (lower, upper) = padded_planes(isa, leaf);
+    isa.mul4(isa.div4(distance, det), isa.splat4(ray.shear[2]))
+}
+
+/// Where the ray is inside four boxes.
+#[inline(always)]
+fn interval4<I: Isa>(isa: I, ray: &RaySpace, (lower, upper): &([I::F4; 3], [I::F4; 3])) -> (I::F4, I::F4) {
     let (mut near, mut far) = (isa.splat4(f32::NEG_INFINITY), isa.splat4(f32::INFINITY));
     for axis in 0..3 {
         let (lower, upper) = (lower[axis], upper[axis]);
@@ -99,8 +150,46 @@ pub(crate) fn hits4<I: Isa>(
         near = isa.max4(near, isa.min4(isa.fmsub4(lower, rd, enter), isa.fmsub4(upper, rd, enter)));
         far = isa.min4(far, isa.max4(isa.fmsub4(lower, rd, leave), isa.fmsub4(upper, rd, leave)));
     }
+    (near, far)
+}
+
+/// How far off t may be for the rounding of the edge functions.
+#[inline(always)]
+fn slack4<I: Isa>(isa: I, leaf: &Triangles4, ray: &RaySpace, passage: &Passage<I>) -> I::F4 {
+    let [x, y, _] = ray.axes;
+    let (sx, sy) = (isa.splat4(ray.shear[0]), isa.splat4(ray.shear[1]));
+    let (ox, oy) = (isa.splat4(ray.shear_origin[0]), isa.splat4(ray.shear_origin[1]));
+    let mut size = isa.splat4(0.0);
+    for (vertex, z) in passage.depths.into_iter().enumerate() {
+        let px = isa.fnmadd4(sx, z, isa.sub4(row(isa, leaf, vertex, x), ox));
+        let py = isa.fnmadd4(sy, z, isa.sub4(row(isa, leaf, vertex, y), oy));
+        size = isa.max4(size, isa.max4(absolute4(isa, px), absolute4(isa, py)));
+    }
+    let [az, bz, cz] = passage.depths;
+    let depth = isa.sub4(isa.max4(isa.max4(az, bz), cz), isa.min4(isa.min4(az, bz), cz));
+    let size = isa.fmadd4(size, size, isa.splat4(SLACK_OF_ZERO));
+    let unit = isa.splat4(SLACK * ray.shear[2].abs());
+    isa.mul4(isa.div4(size, absolute4(isa, passage.det)), isa.mul4(depth, unit))
+}
+
+#[inline(always)]
+fn absolute4<I: Isa>(isa: I, a: I::F4) -> I::F4 {
+    isa.max4(a, isa.neg4(a))
+}
+
+/// Those of `mask` whose t, clamped, is in (0, limit].
+#[inline(always)]
+fn hits_within4<I: Isa>(
+    isa: I,
+    t: I::F4,
+    near: I::F4,
+    far: I::F4,
+    tmin: f32,
+    limit: f32,
+    mask: u32,
+) -> Option<LeafHits> {
     let t = isa.sub4(isa.min4(isa.max4(t, near), far), isa.splat4(tmin));
-    let mask = mask & isa.le4(near, far) & isa.lt4(zero, t) & isa.le4(t, isa.splat4(limit));
+    let mask = mask & isa.lt4(isa.splat4(0.0), t) & isa.le4(t, isa.splat4(limit));
     if mask == 0 {
         return None;
     }

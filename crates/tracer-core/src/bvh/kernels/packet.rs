@@ -10,10 +10,10 @@
 //! smaller than the gaps between the rays), the next rays go one by one, and after a while a packet is tried again.
 
 use super::super::geometry::NONE;
-use super::super::layout::{Node, Ref, Spheres4, Triangles4};
+use super::super::layout::{Node, Parts4, Ref, Spheres4, Triangles4};
 use super::interleaved::{self, item, prefetch};
 use super::isa::{Isa16, Lanes, WordLanes};
-use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, places_of, spheres4, triangles4};
+use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, parts4, places_of, spheres4, triangles4};
 use super::packet_space::PacketSpace;
 use super::query::{Batch, Goal, TreeView, WORLD};
 use super::{Counters, STACK};
@@ -255,17 +255,21 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
                 if COUNT {
                     counters.triangle_leaves += 1;
                 }
-                self.visit_triangles::<G>(node & 0x3FFF_FFFF, lanes);
+                if node < Ref::PARTS {
+                    self.visit_triangles::<G, false>(node & Ref::UNIT, lanes);
+                } else {
+                    self.visit_triangles::<G, true>(node & Ref::UNIT, lanes);
+                }
             } else if node < Ref::INSTANCE {
                 if COUNT {
                     counters.sphere_leaves += 1;
                 }
-                self.visit_spheres::<G>(node & 0x1FFF_FFFF, lanes);
+                self.visit_spheres::<G>(node & Ref::UNIT, lanes);
             } else {
                 if COUNT {
                     counters.instances += 1;
                 }
-                self.enter_instance(goal, node & 0x1FFF_FFFF, lanes);
+                self.enter_instance(goal, node & Ref::UNIT, lanes);
             }
         }
         let mut found = self.found;
@@ -320,13 +324,15 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
         }
     }
 
+    /// Visits a leaf of triangles, or one of `PARTS`.
     #[inline(always)]
-    fn visit_triangles<G: Goal>(&mut self, unit: u32, lanes: u32) {
-        // SAFETY: a reference to a triangle leaf (see `TreeView`).
+    fn visit_triangles<G: Goal, const PARTS: bool>(&mut self, unit: u32, lanes: u32) {
+        // SAFETY: a reference to a triangle leaf, or one of parts, which begins like it (see `TreeView`).
         let leaf = unsafe { item::<Triangles4>(self.tree, unit) };
         let axes = self.spaces[usize::from(self.in_object)].axes;
         match axes {
-            Some(axes) if lanes.count_ones() > FEW => {
+            // Parts go one ray at a time: code for whole packets of them made packets of triangles slower.
+            Some(axes) if !PARTS && lanes.count_ones() > FEW => {
                 let boxes = padded_boxes(self.isa, leaf);
                 for place in 0..4 {
                     if leaf.ids[place] == NONE {
@@ -345,7 +351,14 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
                         skip |= places_of(self.isa, &leaf.ids, self.target.0[lane]);
                     }
                     let space = &self.spaces[usize::from(self.in_object)];
-                    let hits = triangles4(self.isa, leaf, &space.lane(lane), space.tmin.0[lane], self.t.0[lane], skip);
+                    let (ray, tmin, limit) = (space.lane(lane), space.tmin.0[lane], self.t.0[lane]);
+                    let hits = if PARTS {
+                        // SAFETY: a reference to a leaf of parts.
+                        let parts = unsafe { item::<Parts4>(self.tree, unit) };
+                        parts4(self.isa, parts, &ray, tmin, limit, skip)
+                    } else {
+                        triangles4(self.isa, leaf, &ray, tmin, limit, skip)
+                    };
                     self.take_one::<G>(lane, hits, &leaf.ids);
                 }
             }

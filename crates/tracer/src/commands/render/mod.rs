@@ -278,6 +278,7 @@ fn report(
         tree: statistics.tree.map(|tree| Tree {
             nodes: tree.nodes,
             leaves: tree.leaves,
+            parts: tree.parts,
             depth: tree.depth,
             bytes: tree.bytes,
         }),

@@ -1,12 +1,11 @@
-"""What spatial splits in the tree could bring: interiors of large triangles, as they are and with their triangles cut.
+"""What cutting triangles for the tree brings (spatial splits): triangles that are long, large or aslant, by two builds.
 
-Those whose boxes are emptiest are cut first, halfway along their longest edge, until there are twice, four and eight times as many. Prints the
-time over that of the triangles as they are, medians of ROUNDS. Needs `cargo build --release` in the root.
+Prints how many parts there are, how much larger the tree is, and the time over that of OTHER, a build of another commit, medians of ROUNDS
+taken in turns. Needs `cargo build --release` in the root.
 
-    python cut_triangles.py [ROUNDS]
+    python splits.py OTHER [ROUNDS]
 """
 
-import heapq
 import json
 import math
 import random
@@ -17,7 +16,6 @@ import tempfile
 from pathlib import Path
 
 TRACER = Path(__file__).parent.parent / "target/release/tracer"
-FACTORS = [1, 2, 4, 8]
 SCENE = """Scene(
     camera: Camera(position: (0, 0, 26), look_at: (0, 0, 0), fov: 50),
     image: Image(width: 256, height: 256),
@@ -62,28 +60,37 @@ def building(angles):
     return [tuple(turned(p, angles) for p in t) for b in boxes for t in box(*b)]
 
 
-def emptiness(t):
-    """Half the surface of a triangle's box less the triangle's area."""
-    x, y, z = (max(p[k] for p in t) - min(p[k] for p in t) for k in range(3))
-    u, v = ([b - a for a, b in zip(t[0], q)] for q in t[1:])
-    normal = [u[i] * v[j] - u[j] * v[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    return x * y + y * z + z * x - math.hypot(*normal) / 2
+def cylinders(count):
+    """Of 24 facets and one lid, leaning all ways."""
+    rng = random.Random(5)
+    triangles = []
+    for _ in range(count):
+        center = [rng.uniform(-8, 8) for _ in range(3)]
+        angles = [rng.uniform(-8, 8) for _ in range(3)]
+        radius, half = rng.uniform(0.3, 1), rng.uniform(2, 6)
+
+        def place(p):
+            return tuple(a + b for a, b in zip(turned(p, angles), center))
+
+        rims = [
+            [place((side * half, radius * math.cos(k * math.pi / 12), radius * math.sin(k * math.pi / 12))) for k in range(25)]
+            for side in (-1, 1)
+        ]
+        lid = place((half, 0, 0))
+        for k in range(24):
+            (a, b), (c, d) = (rim[k : k + 2] for rim in rims)
+            triangles += [(a, b, c), (b, d, c), (c, d, lid)]
+    return triangles
 
 
-def cut(triangles, factor):
-    """So many times as many triangles."""
-    heap = [(-emptiness(t), k, t) for k, t in enumerate(triangles)]
-    heapq.heapify(heap)
-    made = len(heap)
-    while len(heap) < factor * len(triangles):
-        t = heapq.heappop(heap)[2]
-        edge = max(range(3), key=lambda k: math.dist(t[k], t[(k + 1) % 3]))
-        a, b, c = t[edge], t[(edge + 1) % 3], t[(edge + 2) % 3]
-        middle = tuple((x + y) / 2 for x, y in zip(a, b))
-        for half in ((a, middle, c), (middle, b, c)):
-            made += 1
-            heapq.heappush(heap, (-emptiness(half), made, half))
-    return [t for *_, t in heap]
+def soup(count):
+    """Large triangles of all shapes."""
+    rng = random.Random(3)
+    triangles = []
+    for _ in range(count):
+        center = [rng.uniform(-8, 8) for _ in range(3)]
+        triangles.append(tuple(tuple(a + rng.uniform(-3, 3) for a in center) for _ in range(3)))
+    return triangles
 
 
 def write(triangles, folder):
@@ -96,32 +103,36 @@ def write(triangles, folder):
     (folder / "scene.ron").write_text(SCENE)
 
 
-def seconds(folder):
-    """Of rendering the scene there."""
+def render(program, folder):
+    """The report of rendering the scene there."""
     report = folder / "report.json"
-    command = [TRACER, "render", folder / "scene.ron", "-o", folder / "out.png", "--threads", "1", "-q", "--report", report]
+    command = [program, "render", folder / "scene.ron", "-o", folder / "out.png", "--threads", "1", "-q", "--report", report]
     subprocess.run(command, check=True)
-    return json.loads(report.read_text())["seconds"]["render"]
+    return json.loads(report.read_text())
 
 
 def main():
-    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 3
+    other = Path(sys.argv[1]).resolve()
+    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 5
     scenes = {
         "3000 thin beams": beams(3000),
+        "300 thin beams": beams(300),
+        "60 leaning cylinders": cylinders(60),
         "a building": building((0, 0, 0)),
         "a building, turned": building((0.5, 0.4, 0.3)),
+        "5000 large triangles": soup(5000),
     }
-    print("| scene | triangles |", " | ".join(f"x{factor}" for factor in FACTORS), "|")
+    print("| scene | triangles | parts | tree | time |")
     for name, triangles in scenes.items():
         with tempfile.TemporaryDirectory() as place:
-            folders = [Path(place) / str(factor) for factor in FACTORS]
-            for factor, folder in zip(FACTORS, folders):
-                write(cut(triangles, factor), folder)
-            # In turns, so that what slows the machine slows all of them.
-            times = zip(*([seconds(folder) for folder in folders] for _ in range(rounds)))
-            medians = [statistics.median(t) for t in times]
-        ratios = " | ".join(f"{t / medians[0]:.2f}" for t in medians)
-        print("|", name, "|", len(triangles), "|", ratios, "|", flush=True)
+            folder = Path(place) / "scene"
+            write(triangles, folder)
+            # In turns, so that what slows the machine slows both.
+            pairs = [[render(program, folder) for program in (other, TRACER)] for _ in range(rounds)]
+        before, after = (statistics.median(r["seconds"]["render"] for r in reports) for reports in zip(*pairs))
+        trees = [report["tree"] for report in pairs[0]]
+        growth = trees[1]["bytes"] / trees[0]["bytes"]
+        print(f"| {name} | {len(triangles)} | {trees[1]['parts']} | {growth:.2f} | {after / before:.2f} |", flush=True)
 
 
 if __name__ == "__main__":
