@@ -378,6 +378,25 @@ fn triangles_that_are_cut() {
 }
 
 #[test]
+fn triangles_beside_those_that_are_cut_are_tested_as_anywhere_else() {
+    // So small that products of their coordinates vanish and t is the clamp's; in leaves with parts.
+    let mut random = Random::new(19);
+    let mut mesh = Mesh::aslant(60, 0.03, &mut random);
+    let small = Mesh::soup(40, 1.0, &mut random).scaled(1e-18);
+    let mut triangles = Vec::new();
+    for (at, triangle) in small.triangles.iter().enumerate() {
+        triangles.extend_from_slice(&mesh.triangles[18 * at..18 * (at + 1)]);
+        triangles.push(triangle.map(|vertex| vertex + mesh.positions.len() as u32));
+    }
+    mesh.positions.extend(&small.positions);
+    mesh.triangles = triangles;
+    let mut batch = at_triangles(&small.clone().scaled(1e18), 400, &mut random);
+    batch.origin.iter_mut().flatten().for_each(|x| *x *= 1e-18);
+    let hits = check(&mesh, &batch);
+    assert!(hits.iter().filter(|hit| hit.primitive % 19 == 18).count() > 100);
+}
+
+#[test]
 fn a_cut_takes_no_hit_away_and_adds_none() {
     let mut random = Random::new(16);
     for width in [0.03, 1e-3, 1e-5, 0.3] {
