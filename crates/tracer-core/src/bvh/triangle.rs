@@ -52,13 +52,17 @@ pub fn triangle_hit(triangle: [[f32; 3]; 3], origin: [f32; 3], direction: [f32; 
     hit(&RaySpace::new(origin, direction)?, 0.0, triangle)
 }
 
-/// The box of a triangle, padded by [`PAD`]: lower and upper corner.
+/// How far the boxes of a triangle and of its parts are padded.
+pub(crate) fn padding(triangle: [[f32; 3]; 3]) -> f32 {
+    PAD * triangle.as_flattened().iter().fold(0.0, |largest: f32, x| largest.max(x.abs()))
+}
+
+/// The box of a triangle, padded: lower and upper corner.
 pub(crate) fn padded_box(triangle: [[f32; 3]; 3]) -> [[f32; 3]; 2] {
     let [a, b, c] = triangle;
     let lower = [0, 1, 2].map(|i: usize| a[i].min(b[i]).min(c[i]));
     let upper = [0, 1, 2].map(|i: usize| a[i].max(b[i]).max(c[i]));
-    let largest = [0, 1, 2].map(|i: usize| upper[i].max(-lower[i]));
-    let pad = PAD * largest[0].max(largest[1]).max(largest[2]);
+    let pad = padding(triangle);
     [lower.map(|x| x - pad), upper.map(|x| x + pad)]
 }
 

@@ -285,8 +285,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "parts-without-padding",
         file: "crates/tracer-core/src/bvh/build/parts.rs",
-        find: "let pad = Vec4::splat(PAD * largest);",
-        replace: "let pad = Vec4::splat(0.0 * PAD * largest);",
+        find: "let pad = Vec4::splat(padding(self.corners(triangle)));",
+        replace: "let pad = Vec4::splat(0.0 * padding(self.corners(triangle)));",
         caught_by: suite("bvh_watertight", &["closed_meshes_of_triangles_that_are_cut_do_not_leak"]),
     },
     Mutant {

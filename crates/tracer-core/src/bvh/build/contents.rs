@@ -68,6 +68,7 @@ impl Triangles<'_> {
         let (lower, upper) = ([[f32::INFINITY; 4]; 3], [[f32::NEG_INFINITY; 4]; 3]);
         let mut leaf = Parts4 { triangles: self.leaf(first, count), lower, upper };
         for (place, &index) in order.iter().enumerate() {
+            // What is in the tree has a box.
             let bounds = self.list.bounds(index).unwrap_or(Bounds::EMPTY);
             for axis in 0..3 {
                 leaf.lower[axis][place] = bounds.lower[axis];

@@ -16,7 +16,7 @@
 //! What the constants were chosen by is in `docs/performance.md`.
 
 use super::super::bounds::Bounds;
-use super::super::ray_space::PAD;
+use super::super::triangle::padding;
 use super::binary::Item;
 use super::contents::TriangleList;
 use glam::{DVec3, Vec3A, Vec4};
@@ -44,7 +44,7 @@ const SHARE: f64 = 0.4;
 const PAYS: f64 = 0.1;
 /// Cuts for each triangle of a tree.
 const MOST: f64 = 3.0;
-/// Cuts of a tree: some 20 MB.
+/// Cuts of a tree, at about 100 bytes each.
 const LIMIT: f64 = 262_144.0;
 
 impl TriangleList<'_> {
@@ -77,8 +77,11 @@ impl TriangleList<'_> {
             .into_par_iter()
             .filter(|(_, gain)| *gain > least)
             .map(|(at, _)| {
+                let triangle = items[at].index();
+                let pad = Vec4::splat(padding(self.corners(triangle)));
                 let mut parts = Vec::new();
-                self.polygon(items[at].index()).cut(least, &mut parts);
+                self.polygon(triangle).cut(least, &mut parts);
+                parts.iter_mut().for_each(|part| *part = Bounds { lower: part.lower - pad, upper: part.upper + pad });
                 (at, parts)
             })
             .filter(|(_, parts)| parts.len() > 1)
@@ -90,10 +93,7 @@ impl TriangleList<'_> {
         self.cut = cut.len();
         for (at, parts) in cut {
             let triangle = items[at].index();
-            let largest = self.corners(triangle).as_flattened().iter().fold(0.0, |m: f32, x| m.max(x.abs()));
-            let pad = Vec4::splat(PAD * largest);
-            for (k, part) in parts.into_iter().enumerate() {
-                let bounds = Bounds { lower: part.lower - pad, upper: part.upper + pad };
+            for (k, bounds) in parts.into_iter().enumerate() {
                 let item = Item::new(&bounds, self.add(Part { triangle, bounds }));
                 if k == 0 {
                     items[at] = item;
@@ -186,7 +186,7 @@ impl Polygon {
         Some(halves)
     }
 
-    /// Cuts it, and its halves, as long as a cut gains so much; adds the boxes.
+    /// Cuts it, and its halves, as long as a cut gains so much; adds the boxes, which are not padded.
     fn cut(&self, least: f64, parts: &mut Vec<Bounds>) {
         let area = self.half_area();
         let (lower, upper) = self.extent();
