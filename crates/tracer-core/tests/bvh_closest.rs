@@ -405,7 +405,7 @@ fn slack(corners: [[f32; 3]; 3], direction: [f32; 3]) -> f64 {
     let size = (b - a).length().max((c - b).length()).max((a - c).length());
     // |det| is |n . d / dz|, here without its roundings, which are 10 u m^2.
     let det = ((b - a).cross(c - a).dot(d) / d.abs().max_element()).abs() - 40.0 * size * size / 16_777_216.0;
-    if det <= 0.0 { f64::INFINITY } else { 4.0 * size.powi(3) / (1_048_576.0 * det * d.abs().max_element()) }
+    if det <= 0.0 { f64::INFINITY } else { 4.0 * size * size * size / (1_048_576.0 * det * d.abs().max_element()) }
 }
 
 #[test]
