@@ -197,10 +197,8 @@ pub struct Film {
     pub costs: Costs,
     /// Pixels shared what they found.
     pub reuse: bool,
-    /// Photons carried light over mirrors and glass: the picture is right in the limit of many samples rather than on average.
+    /// Photons told where rays were aimed.
     pub caustics: bool,
-    /// A map brought the indirect light of second vertices.
-    pub indirect: bool,
     /// The most that the largest channel of a sample counts, where samples are clamped: the picture is then too dark where they were.
     pub clamp: Option<f32>,
     /// Lane type that was used.
@@ -232,7 +230,6 @@ impl Film {
             costs: Costs::default(),
             reuse: false,
             caustics: false,
-            indirect: false,
             clamp,
             level: Level::best(),
             threads: 1,

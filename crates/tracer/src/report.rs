@@ -102,16 +102,14 @@ pub struct Transport {
     pub integrator: String,
     /// The pixels of a block shared what they found (`render.reuse`).
     pub reuse: bool,
-    /// Photons carried light over mirrors and glass (`render.caustics`): asked for, and worth it in this scene.
+    /// Photons told where rays were aimed (`render.caustics`): asked for, and the scene has lights and what they may shine over.
     pub caustics: bool,
-    /// A map brought the indirect light of second vertices (`render.indirect`).
-    pub indirect: bool,
     /// What all switches together make of the picture.
     pub estimate: Estimate,
     /// Seconds of rendering, summed over threads: what the shares of the switches are of.
     pub seconds: f64,
     /// Each switch.
-    pub switches: [Switch; 4],
+    pub switches: [Switch; 3],
     /// What clamping took; null where samples are not clamped.
     pub clamped: Option<ClampedReport>,
 }
@@ -122,8 +120,6 @@ pub struct Transport {
 pub enum Estimate {
     /// Right on average, with any number of samples.
     Unbiased,
-    /// Right in the limit of many samples.
-    Consistent,
     /// Wrong, however many samples there are.
     Biased,
 }
@@ -133,7 +129,6 @@ impl Estimate {
     pub fn name(self) -> &'static str {
         match self {
             Estimate::Unbiased => "unbiased",
-            Estimate::Consistent => "consistent",
             Estimate::Biased => "biased",
         }
     }
@@ -191,15 +186,13 @@ impl Transport {
         let limit = asked.clamp.as_ref().map_or_else(|| "None".to_owned(), |limit| limit.value.to_string());
         let switches = [
             switch("reuse", format!("{:?}", asked.reuse), film.reuse, Estimate::Unbiased, costs.reuse),
-            switch("caustics", format!("{:?}", asked.caustics), film.caustics, Estimate::Consistent, costs.caustics),
-            switch("indirect", format!("{:?}", asked.indirect), film.indirect, Estimate::Consistent, costs.indirect),
+            switch("caustics", format!("{:?}", asked.caustics), film.caustics, Estimate::Unbiased, costs.caustics),
             switch("clamp", limit, film.clamp.is_some(), Estimate::Biased, costs.clamp),
         ];
         Transport {
             integrator: format!("{:?}", asked.integrator),
             reuse: film.reuse,
             caustics: film.caustics,
-            indirect: film.indirect,
             estimate: switches.iter().map(|switch| switch.estimate).fold(Estimate::Unbiased, Estimate::max),
             seconds: costs.total,
             switches,
@@ -245,8 +238,6 @@ pub struct Rays {
     pub photons: u64,
     /// Rays of glint chains and of the pilot that tells where they are followed.
     pub chains: u64,
-    /// Rays of the records of the indirect map.
-    pub records: u64,
     /// All.
     pub total: u64,
     /// All, per second of `seconds.render`.

@@ -12,9 +12,7 @@ use crate::scene::{
 };
 use glam::DVec3;
 use materials::MaterialBuilder;
-use scene_format::desc::{
-    Acceleration, Caustics, Emission, Indirect, Integrator, Object, PixelFilter, Reuse, SphereLight,
-};
+use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::time::Instant;
@@ -107,7 +105,6 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
             _ => Sharing::Never,
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
-        indirect: full && desc.render.indirect == Indirect::Map,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         background: desc.background.map(|x| x as f32),
         spheres,

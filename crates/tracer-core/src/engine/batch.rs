@@ -19,9 +19,10 @@ pub const BLOCK_PIXELS: usize = 64;
 pub const ITEMS: usize = 16;
 /// Paths in a batch.
 pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
-/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`), an aimed ray for each (`stages::aim`), and
-/// behind every array for one vector more: a compressing store writes whole registers.
-pub const CAPACITY: usize = (2 + BRANCHING as usize) * PATHS + 64;
+/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed wherever they may
+/// (`stages::aim`), and behind every array for one vector more: a compressing store writes whole registers. A path's own ray has one
+/// more at each of its first vertices, at glass or at a rough surface, and so have those from glass, and aimed ones after a mirror: seven.
+pub const CAPACITY: usize = (1 + 2 * BRANCHING as usize) * PATHS + 64;
 
 /// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
 pub type Column<T> = Box<[T; CAPACITY]>;
@@ -108,17 +109,12 @@ pub mod path {
     /// The path has been past that, or scattered where nothing is shared: it carries light to its own pixel only. None of the three: only
     /// mirrors and glass so far.
     pub const OWN: u32 = 4 * SHARED;
-    /// The last scattering that was neither by mirror nor glass nor a narrow glossy lobe was by a Lambert lobe: photons bring the
-    /// light of lamps seen from there over such things (see `engine::caustics`).
-    pub const MAPPED: u32 = 8 * SHARED;
-    /// And since then there was a mirror, glass or narrow lobe.
-    pub const CAUSTIC: u32 = 16 * SHARED;
+    /// The path's ray leaves a surface from which rays were aimed ([`super::super::stages::aim`]).
+    pub const AIMS: u32 = 8 * SHARED;
     /// The fainter of both ways at glass: it goes both ways no more, and shares nothing.
     pub const BRANCH: u32 = 32 * SHARED;
-    /// The path's ray was aimed at a caster ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy surface only.
-    pub const AIMED: u32 = 64 * SHARED;
-    /// The path's ray has left the second vertex of a record ([`super::super::indirect`]): the lamp that it meets is not indirect light.
-    pub const INDIRECT: u32 = 128 * SHARED;
+    /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy surface only.
+    pub const AIMED: u32 = 16 * SHARED;
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
@@ -245,28 +241,10 @@ pub struct Photons {
     pub len: usize,
     /// Where they are stored.
     pub point: Columns,
-    /// Geometric normal there, on the side that they came from.
-    pub normal: Columns,
-    /// Flux.
-    pub flux: Columns,
-    /// Mirrors and glass on their way.
-    pub events: Column<u32>,
-    /// Which of the photons sent they are.
-    pub slot: Column<u32>,
-}
-
-/// Diffuse vertices that photons are gathered at.
-pub struct Queries {
-    /// Number of vertices.
-    pub len: usize,
-    /// The point.
-    pub point: Columns,
-    /// Geometric normal on the viewer's side.
-    pub normal: Columns,
-    /// What the slot gets of flux per area.
-    pub value: Columns,
-    /// Slot and sum, see [`path`].
-    pub slot: Column<u32>,
+    /// Where they came from: the last mirror, glass or glossy surface.
+    pub from: Columns,
+    /// Flux, the sum of its channels.
+    pub flux: Column<f32>,
 }
 
 /// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
@@ -287,7 +265,7 @@ pub struct Members {
     pub parameter: Column<f32>,
     /// Blinn-Phong: s.
     pub specular: Column<f32>,
-    /// Probability that the path went on from here.
+    /// Probability that the path went on from here; where rays are aimed, what [`Paths::eta2`] holds.
     pub survival: Column<f32>,
     /// One of [`member_kind`].
     pub kind: Column<u32>,
@@ -297,6 +275,26 @@ pub struct Members {
     pub primitive: Column<u32>,
     /// Its instance.
     pub instance: Column<u32>,
+}
+
+impl Members {
+    fn new() -> Self {
+        Members {
+            len: 0,
+            start: columns(),
+            normal: columns(),
+            geometric: columns(),
+            wo: columns(),
+            weight: columns(),
+            parameter: floats(),
+            specular: floats(),
+            survival: floats(),
+            kind: words(),
+            slot: words(),
+            primitive: words(),
+            instance: words(),
+        }
+    }
 }
 
 /// How a member scatters.
@@ -319,8 +317,6 @@ pub struct Suffixes {
     pub point: Columns,
     /// Geometric normal, on the side that light leaves.
     pub normal: Columns,
-    /// The way from the member that found it.
-    pub distance: Column<f32>,
     /// Slot of the path that found it; its radiance is in the upper half of [`Batch::radiance`] there.
     pub slot: Column<u32>,
     /// The surface.
@@ -344,12 +340,8 @@ pub struct Groups {
     pub list: Vec<Group>,
     /// Per suffix: the group that shares it.
     pub of_suffix: Column<u32>,
-    /// Per suffix: the members of its group that were found not to see it, a bit each.
-    pub blocked: Column<u64>,
-    /// Pairs of a suffix and a member to be tested: suffix * 64 + the member's place in the group, and the member.
-    pub pair_tag: Column<u32>,
-    /// See `pair_tag`.
-    pub pair_member: Column<u32>,
+    /// Per suffix: the members of its group that do not see it or do not share it, a bit each.
+    pub hidden: Column<u64>,
     /// Per member: the light that it gets.
     pub gathered: Columns,
 }
@@ -369,8 +361,6 @@ pub struct Counters {
     pub photon_rays: u64,
     /// Rays of glint chains and of their pilot.
     pub chain_rays: u64,
-    /// Rays of the records of the indirect map: from the camera, from surfaces onward and to lights.
-    pub record_rays: u64,
     /// Samples that were not finite.
     pub dropped: u64,
 }
@@ -384,7 +374,6 @@ impl Counters {
         self.segments += other.segments;
         self.photon_rays += other.photon_rays;
         self.chain_rays += other.chain_rays;
-        self.record_rays += other.record_rays;
         self.dropped += other.dropped;
     }
 }
@@ -417,8 +406,8 @@ pub struct Batch {
     pub radiance: Columns,
     /// Photons on their way from the lights.
     pub photons: Photons,
-    /// Where photons are gathered at this bounce.
-    pub queries: Queries,
+    /// Rough vertices of this bounce that rays may be aimed from.
+    pub aimers: Members,
     /// First vertices that share.
     pub members: Members,
     /// Second vertices that are shared.
@@ -452,36 +441,19 @@ impl Batch {
                 index: words(),
                 len: 0,
                 point: columns(),
-                normal: columns(),
-                flux: columns(),
-                events: words(),
-                slot: words(),
+                from: columns(),
+                flux: floats(),
             },
-            queries: Queries { len: 0, point: columns(), normal: columns(), value: columns(), slot: words() },
+            aimers: Members::new(),
             hits: Hits { t: floats(), primitive: words(), instance: words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),
             radiance: columns(),
-            members: Members {
-                len: 0,
-                start: columns(),
-                normal: columns(),
-                geometric: columns(),
-                wo: columns(),
-                weight: columns(),
-                parameter: floats(),
-                specular: floats(),
-                survival: floats(),
-                kind: words(),
-                slot: words(),
-                primitive: words(),
-                instance: words(),
-            },
+            members: Members::new(),
             suffixes: Suffixes {
                 len: 0,
                 point: columns(),
                 normal: columns(),
-                distance: floats(),
                 slot: words(),
                 primitive: words(),
                 instance: words(),
@@ -489,9 +461,7 @@ impl Batch {
             groups: Groups {
                 list: Vec::with_capacity(CAPACITY),
                 of_suffix: words(),
-                blocked: filled(0),
-                pair_tag: words(),
-                pair_member: words(),
+                hidden: filled(0),
                 gathered: columns(),
             },
             active: words(),

@@ -1,12 +1,10 @@
 //! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
 
 use super::batch::Batch;
-use super::caustics::aims::Aims;
-use super::caustics::map::Map;
-use super::caustics::plan::Plan;
-use super::caustics::trace::PhotonPass;
-use super::stages::share::Round;
-use super::stages::{aim, camera, gather, photons, reach, shade, share, spheres};
+use super::guide::Guide;
+use super::guide::plan::Plan;
+use super::guide::trace::PhotonPass;
+use super::stages::{aim, camera, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
@@ -24,12 +22,11 @@ pub struct Kernels {
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
-    aim: unsafe fn(&Aims, u32, usize, &mut Batch),
-    share_segments: unsafe fn(u32, Round, usize, &mut Batch) -> usize,
+    aim: unsafe fn(&Guide, u32, u32, &mut Batch),
+    share_segments: unsafe fn(&Scene, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
     photons_emit: unsafe fn(&Plan, PhotonPass, &mut Batch),
     photons_scatter: unsafe fn(&Scene, &Plan, u32, u32, &mut Batch),
-    gather: unsafe fn(&Map, u32, &mut Batch),
 }
 
 /// The entry functions of a level: the lanes of all stages but those of the spheres, and of those.
@@ -62,12 +59,12 @@ macro_rules! kernels {
                 reach::reach_occluded::<$lanes>(boxes, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn aim_entry(aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
-                aim::aim::<$lanes>(aims, seed, first, batch)
+            fn aim_entry(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+                aim::aim::<$lanes>(guide, seed, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn share_segments_entry(seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
-                share::share_segments::<$lanes>(seed, round, next, batch)
+            fn share_segments_entry(scene: &Scene, next: usize, batch: &mut Batch) -> usize {
+                share::share_segments::<$lanes>(scene, next, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn share_gather_entry(batch: &mut Batch) {
@@ -81,10 +78,6 @@ macro_rules! kernels {
             fn photons_scatter_entry(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
                 photons::photons_scatter::<$lanes>(scene, plan, seed, event, batch)
             }
-            $(#[target_feature(enable = $features)])?
-            fn gather_entry(map: &Map, most_events: u32, batch: &mut Batch) {
-                gather::gather::<$lanes>(map, most_events, batch)
-            }
             pub const KERNELS: Kernels = Kernels {
                 camera: camera_entry,
                 closest: closest_entry,
@@ -97,7 +90,6 @@ macro_rules! kernels {
                 share_gather: share_gather_entry,
                 photons_emit: photons_emit_entry,
                 photons_scatter: photons_scatter_entry,
-                gather: gather_entry,
             };
         }
     };
@@ -154,15 +146,15 @@ impl Kernels {
         // SAFETY: as above.
         unsafe { (self.occluded)(scene, batch) }
     }
-    /// Aimed rays from the members from `first` on.
-    pub fn aim(&self, aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
+    /// Aimed rays from the rough surfaces of vertex `vertex`.
+    pub fn aim(&self, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         // SAFETY: as above.
-        unsafe { (self.aim)(aims, seed, first, batch) }
+        unsafe { (self.aim)(guide, seed, vertex, batch) }
     }
     /// Segments from suffix `next` on; gives the suffix to go on with.
-    pub fn share_segments(&self, seed: u32, round: Round, next: usize, batch: &mut Batch) -> usize {
+    pub fn share_segments(&self, scene: &Scene, next: usize, batch: &mut Batch) -> usize {
         // SAFETY: as above.
-        unsafe { (self.share_segments)(seed, round, next, batch) }
+        unsafe { (self.share_segments)(scene, next, batch) }
     }
     /// Each member's share of each suffix.
     pub fn share_gather(&self, batch: &mut Batch) {
@@ -178,11 +170,6 @@ impl Kernels {
     pub fn photons_scatter(&self, scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
         // SAFETY: as above.
         unsafe { (self.photons_scatter)(scene, plan, seed, event, batch) }
-    }
-    /// Photons around diffuse vertices.
-    pub fn gather(&self, map: &Map, most_events: u32, batch: &mut Batch) {
-        // SAFETY: as above.
-        unsafe { (self.gather)(map, most_events, batch) }
     }
     /// Which paths the tree is asked about.
     pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {

@@ -4,9 +4,8 @@
 //! ([`crate::film`]), so threads take batches in any order and the film is the same.
 
 mod batch;
-mod caustics;
 mod glints;
-mod indirect;
+mod guide;
 mod kernels;
 mod lane_io;
 mod stages;
@@ -18,9 +17,10 @@ pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
 use crate::film::{Crop, Film, Tile};
 use crate::lanes::level::Level;
+use crate::sampling::sampler::hash3;
 use crate::scene::{Scene, Sharing};
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
-use caustics::Caustics;
+use guide::Guides;
 use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::ops::Range;
@@ -43,10 +43,8 @@ pub struct RenderOptions {
     pub level: Option<Level>,
     /// Whether the pixels of a block share what they find.
     pub reuse: Option<bool>,
-    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass.
+    /// Whether photons tell where rays are aimed, so that they find lights over mirrors and glass.
     pub caustics: Option<bool>,
-    /// Whether a map brings the indirect light of second vertices; only where pixels share.
-    pub indirect: Option<bool>,
     /// The most that the largest channel of a sample counts, in W/(sr m^2): what is above is scaled down to it as a whole. A sample is
     /// all that a pixel gets at one sample index, its part of what others have found and of photons included. What is not a finite number
     /// above zero is no limit.
@@ -94,8 +92,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         seed: options.seed.unwrap_or(scene.seed),
         reuse: false,
         lanes: level.lanes(),
-        photons: None,
-        indirect: None,
+        guide: None,
         task: trace::Task::Picture,
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
@@ -115,34 +112,25 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         Some(true) => Sharing::Always,
         Some(false) => Sharing::Never,
     };
-    // A second vertex scatters once more.
-    let may_map = sharing != Sharing::Never && scene.max_bounces > 1 && options.indirect.unwrap_or(scene.indirect);
-    let has_second = if (may_map || sharing == Sharing::Indoors) && !tiles.is_empty() {
-        indirect::trial(scene, &kernels, pass_options, &workers)
+    let has_second = if sharing == Sharing::Indoors && !tiles.is_empty() {
+        second_vertices(scene, &kernels, pass_options, &workers)
     } else {
         0.0
     };
     pass_options.reuse = sharing == Sharing::Always || sharing == Sharing::Indoors && has_second >= INDOORS;
-    let wants_indirect = may_map && pass_options.reuse && has_second >= indirect::WORTH;
-    let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
-    let mut caustics = if wants_photons { Caustics::new(scene, &kernels, pass_options.seed, &workers) } else { None };
-    let glints = match &caustics {
+    let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
+    let mut guides = if wants_guide { Guides::new(scene, pass_options.seed) } else { None };
+    let glints = match &guides {
         Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
         None => vec![false; tiles.len()],
     };
-    let has_maps = caustics.is_some() || wants_indirect;
-    for pass in passes(samples, if has_maps { 4 * SAMPLES } else { 16 * SAMPLES }) {
-        if let Some(caustics) = &mut caustics {
-            caustics.prepare(scene, &kernels, pass.clone(), &workers);
+    for pass in passes(samples, 16 * SAMPLES) {
+        if let Some(guides) = &mut guides {
+            guides.prepare(scene, &kernels, &pass, &workers);
         }
-        let indirect = if wants_indirect {
-            indirect::maps(scene, &kernels, pass_options, caustics.as_ref(), pass.clone(), &workers)
-        } else {
-            Vec::new()
-        };
-        // Whole tiles per batch: a tile's samples of one pass are added by one thread. A batch has one map of photons and one of indirect
-        // light, and each sample index its own.
-        let at_once = if has_maps { 1 } else { (pass.end - pass.start).min(SAMPLES) };
+        let pass_options = trace::Pass { guide: guides.as_ref().map(Guides::guide), ..pass_options };
+        // Whole tiles per batch: a tile's samples of one pass are added by one thread.
+        let at_once = (pass.end - pass.start).min(SAMPLES);
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
         let cells: Vec<Mutex<&mut Tile>> = film.tiles_mut().map(Mutex::new).collect();
@@ -170,9 +158,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                     }
                     batch.watch.start(options.statistics);
                     let start = Instant::now();
-                    let photons = caustics.as_ref().and_then(|c| c.map(sample));
-                    let indirect = indirect.get((sample - pass.start) as usize);
-                    trace::trace(scene, &kernels, trace::Pass { photons, indirect, ..pass_options }, batch);
+                    trace::trace(scene, &kernels, pass_options, batch);
                     let cells = &cells[first..first + mine.len()];
                     if let Some(limit) = clamp {
                         clamp_samples(limit, count, cells, batch);
@@ -206,11 +192,44 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     }
     film.statistics = options.statistics.then_some(statistics);
     film.reuse = pass_options.reuse;
-    film.caustics = caustics.is_some();
-    film.indirect = wants_indirect;
+    film.caustics = guides.is_some();
     film.level = level;
     film.threads = threads;
     film
+}
+
+/// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
+fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, workers: &[Mutex<Worker>]) -> f32 {
+    // Choices of its own: whether pixels share must not depend on the very paths that do.
+    let pass = trace::Pass { reuse: true, seed: hash3(pass.seed, 0, 0x001d_17ee) as u32, ..pass };
+    let [across, down] = scene.size.map(|size| size.div_ceil(TILE));
+    let all = u64::from(across) * u64::from(down) * u64::from(QUARTERS);
+    let count = (ITEMS as u64).min(all);
+    let found = each(workers, 1, |_, worker| {
+        let batch = &mut worker.batch;
+        batch.watch.resume();
+        let start = Instant::now();
+        let before = (batch.counters, batch.watch.costs);
+        batch.items.clear();
+        for k in 0..count {
+            // One of the k-th of equal shares of all quarters.
+            let (first, end) = (all * k / count, all * (k + 1) / count);
+            let quarter = first + hash3(pass.seed, 0x001d_17ed, k as u32) % (end - first);
+            let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
+            batch.items.push(Item::new(tile % across, tile / across, quarter, 0));
+        }
+        batch.glints = 0;
+        batch.start();
+        kernels.camera(scene, pass.seed, u32::MAX, batch);
+        for vertex in 0..=scene.max_bounces {
+            trace::bounce(scene, kernels, pass, vertex, batch);
+        }
+        (batch.counters, batch.watch.costs) = before;
+        batch.watch.costs.reuse += start.elapsed().as_secs_f64();
+        batch.watch.lap(Stage::Share);
+        batch.suffixes.len
+    });
+    found[0] as f32 / (count as usize * batch::BLOCK_PIXELS) as f32
 }
 
 /// The slots of an item's pixels.

@@ -19,12 +19,10 @@ pub enum Stage {
     Occluded,
     /// Light of shadow rays to their pixels.
     Deposit,
-    /// Photons: from the lights, over mirrors and glass, and into a map.
+    /// Photons: from the lights, over mirrors and glass, and into a guide.
     Photons,
-    /// Photons around diffuse vertices.
-    Gather,
-    /// Records into indirect maps. What makes them is in the stages before.
-    Records,
+    /// Which rays are aimed, and where.
+    Aim,
     /// What pixels share: which segments, and each one's part.
     Share,
     /// Samples onto the film.
@@ -33,7 +31,7 @@ pub enum Stage {
 
 impl Stage {
     /// All of them.
-    pub const ALL: [Stage; 12] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Camera,
         Stage::Spheres,
         Stage::Reach,
@@ -42,8 +40,7 @@ impl Stage {
         Stage::Occluded,
         Stage::Deposit,
         Stage::Photons,
-        Stage::Gather,
-        Stage::Records,
+        Stage::Aim,
         Stage::Share,
         Stage::Film,
     ];
@@ -59,8 +56,7 @@ impl Stage {
             Stage::Occluded => "occluded",
             Stage::Deposit => "deposit",
             Stage::Photons => "photons",
-            Stage::Gather => "gather",
-            Stage::Records => "records",
+            Stage::Aim => "aim",
             Stage::Share => "share",
             Stage::Film => "film",
         }
@@ -118,17 +114,15 @@ impl Statistics {
 }
 
 /// What the switches of a rendering cost: seconds summed over threads. Always kept: the clock is looked at twice per batch and step.
-/// What shading does for them (vertices remembered for sharing, lobes left to photons) is not in it.
+/// What shading does for them (vertices remembered for sharing and aiming) is not in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Costs {
     /// All work: paths, their samples onto the film, photons.
     pub total: f64,
-    /// What pixels share: which segments, what blocks them, and each one's part; which rays are aimed, but not their tracing.
+    /// What pixels share: which segments, what blocks them, and each one's part.
     pub reuse: f64,
-    /// Photons from the lights into maps, and those around diffuse vertices; a trial that found them not worth it is in it too. Glint chains.
+    /// Photons from the lights into guides, and which rays are aimed, but not their tracing. Glint chains.
     pub caustics: f64,
-    /// Indirect maps: the paths of their records, and sorting them. To ask a map is part of shading.
-    pub indirect: f64,
     /// Samples scaled down.
     pub clamp: f64,
 }
@@ -139,22 +133,14 @@ impl Costs {
         self.total += other.total;
         self.reuse += other.reuse;
         self.caustics += other.caustics;
-        self.indirect += other.indirect;
         self.clamp += other.clamp;
     }
 
-    /// All time since then was spent on photons and their maps.
+    /// All time since then was spent on photons and their guides.
     pub(crate) fn photons_since(&mut self, start: Instant) {
         let seconds = start.elapsed().as_secs_f64();
         self.total += seconds;
         self.caustics += seconds;
-    }
-
-    /// All time since then was spent on the indirect map.
-    pub(crate) fn indirect_since(&mut self, start: Instant) {
-        let seconds = start.elapsed().as_secs_f64();
-        self.total += seconds;
-        self.indirect += seconds;
     }
 }
 

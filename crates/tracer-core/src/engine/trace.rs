@@ -1,14 +1,11 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
 use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
-use super::caustics::PhotonMap;
-use super::caustics::aims::Aims;
 use super::glints::chains;
-use super::indirect::IndirectMap;
+use super::guide::Guide;
 use super::kernels::Kernels;
+use super::stages::aim::AIMS_UNTIL;
 use super::stages::deposit::deposit;
-use super::stages::shade::ROULETTE_FROM;
-use super::stages::share::Round;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::scene::Scene;
@@ -21,8 +18,6 @@ pub enum Task {
     Picture,
     /// Glint chains: they end at all but mirrors and glass ([`super::glints`]).
     Chains,
-    /// Records of the indirect map ([`super::indirect`]): they count what arrives behind second vertices only.
-    Records,
 }
 
 /// What is the same for all batches of a rendering.
@@ -34,21 +29,10 @@ pub struct Pass<'a> {
     pub reuse: bool,
     /// Lanes of the kernels; for the statistics.
     pub lanes: usize,
-    /// The photons of the batch's sample indices, where the scene is worth them.
-    pub photons: Option<PhotonMap<'a>>,
-    /// The indirect light of second vertices, where their paths need not go on for it.
-    pub indirect: Option<&'a IndirectMap>,
+    /// What rays are aimed at, where the scene has lights and casters.
+    pub guide: Option<&'a Guide>,
     /// What for.
     pub task: Task,
-}
-
-impl<'a> Pass<'a> {
-    /// What rays from members are aimed at, if they are ([`super::stages::aim`]).
-    #[inline(always)]
-    pub fn aims(&self) -> Option<&'a Aims> {
-        let aims = &self.photons.as_ref()?.plan.aims;
-        (self.reuse && !aims.is_empty()).then_some(aims)
-    }
 }
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
@@ -65,19 +49,19 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
             batch.groups.of_suffix[j] = groups_before[(batch.suffixes.slot[j] >> 6) as usize];
         }
         group(members, batch, &mut groups_before);
-        if let Some(aims) = pass.aims()
-            && vertex < ROULETTE_FROM
+        if let Some(guide) = pass.guide
+            && vertex < AIMS_UNTIL
         {
             let start = Instant::now();
-            kernels.aim(aims, pass.seed, members, batch);
-            batch.watch.costs.reuse += start.elapsed().as_secs_f64();
-            batch.watch.lap(Stage::Share);
+            kernels.aim(guide, pass.seed, vertex, batch);
+            batch.watch.costs.caustics += start.elapsed().as_secs_f64();
+            batch.watch.lap(Stage::Aim);
         }
         vertex += 1;
     }
     if batch.suffixes.len > 0 {
         let start = Instant::now();
-        share(scene, kernels, pass.seed, batch);
+        share(scene, kernels, batch);
         batch.watch.costs.reuse += start.elapsed().as_secs_f64();
     }
     if batch.glints != 0 {
@@ -94,19 +78,6 @@ pub fn bounce(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, vertex: u32, bat
     occluded(scene, kernels, Coherence::Incoherent, batch);
     deposit(batch);
     batch.watch.lap(Stage::Deposit);
-    if let Some(photons) = pass.photons {
-        gather(scene, kernels, photons, vertex, batch);
-    }
-}
-
-/// Gives the diffuse vertices of this bounce the photons around them.
-fn gather(scene: &Scene, kernels: &Kernels, photons: PhotonMap<'_>, vertex: u32, batch: &mut Batch) {
-    if batch.queries.len > 0 {
-        let start = Instant::now();
-        kernels.gather(photons.map, scene.max_bounces.saturating_sub(vertex), batch);
-        batch.watch.costs.caustics += start.elapsed().as_secs_f64();
-        batch.watch.lap(Stage::Gather);
-    }
 }
 
 /// Groups the members from `first` on, those of one vertex, by item.
@@ -126,22 +97,24 @@ fn group(first: usize, batch: &mut Batch, group_of_item: &mut [u32; ITEMS]) {
 }
 
 /// Gives the members of each group the light of its suffixes.
-fn share(scene: &Scene, kernels: &Kernels, seed: u32, batch: &mut Batch) {
-    batch.groups.blocked[..batch.suffixes.len].fill(0);
-    for round in [Round::Look, Round::Rest] {
-        let mut next = 0;
-        while next < batch.suffixes.len {
-            next = kernels.share_segments(seed, round, next, batch);
-            batch.watch.lap(Stage::Share);
-            std::mem::swap(&mut batch.shadows, &mut batch.segments);
-            // All rays of the rest go to the same point.
-            let coherence = if round == Round::Rest { Coherence::Coherent } else { Coherence::Incoherent };
-            occluded(scene, kernels, coherence, batch);
-            std::mem::swap(&mut batch.shadows, &mut batch.segments);
-            let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
-            for (&occluded, &tag) in occluded[..*len].iter().zip(tags.iter()) {
-                batch.groups.blocked[(tag >> 6) as usize] |= u64::from(occluded) << (tag & 63);
-            }
+fn share(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
+    let mut next = 0;
+    while next < batch.suffixes.len {
+        next = kernels.share_segments(scene, next, batch);
+        batch.watch.lap(Stage::Share);
+        let Some(accel) = &scene.accel else { continue };
+        std::mem::swap(&mut batch.shadows, &mut batch.segments);
+        batch.active_len = batch.shadows.len;
+        for (k, active) in batch.active[..batch.active_len].iter_mut().enumerate() {
+            *active = k as u32;
+        }
+        batch.shadows.occluded[..batch.active_len].fill(0);
+        // All rays of a suffix go to the same point.
+        occluded_in_tree(accel, Coherence::Coherent, batch);
+        std::mem::swap(&mut batch.shadows, &mut batch.segments);
+        let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
+        for (&occluded, &tag) in occluded[..*len].iter().zip(tags.iter()) {
+            batch.groups.hidden[(tag >> 6) as usize] |= u64::from(occluded) << (tag & 63);
         }
     }
     kernels.share_gather(batch);
@@ -210,6 +183,11 @@ fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut 
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
+    occluded_in_tree(accel, coherence, batch);
+}
+
+/// Which of the shadow rays in `batch.active` something in the tree blocks.
+fn occluded_in_tree(accel: &Accel, coherence: Coherence, batch: &mut Batch) {
     let len = batch.shadows.len;
     let shadows = &mut batch.shadows;
     let mut occlusion = Occlusion {

@@ -36,10 +36,10 @@ pub enum Purpose {
     Choice(u32),
     /// Whether the path goes on (first); not used (second).
     Roulette(u32),
-    /// Whether a ray is aimed at a caster, and at which (first); not used (second).
-    Aim,
+    /// Whether a ray is aimed, and at what (first); not used (second).
+    Aim(u32),
     /// Direction of an aimed ray.
-    AimedDirection,
+    AimedDirection(u32),
 }
 
 impl Purpose {
@@ -48,8 +48,10 @@ impl Purpose {
         match self {
             Purpose::Pixel => 0,
             Purpose::Lens => 1,
-            Purpose::Aim => 2,
-            Purpose::AimedDirection => 3,
+            Purpose::Aim(0) => 2,
+            Purpose::AimedDirection(0) => 3,
+            Purpose::Aim(k) => (1 << 16) + 2 * k,
+            Purpose::AimedDirection(k) => (1 << 16) + 2 * k + 1,
             Purpose::Direction(k) => 4 + 4 * k,
             Purpose::Light(k) => 5 + 4 * k,
             Purpose::Choice(k) => 6 + 4 * k,

@@ -62,8 +62,6 @@ pub struct Scene {
     pub reuse: Sharing,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
     pub caustics: bool,
-    /// Whether a map brings the indirect light of second vertices.
-    pub indirect: bool,
     /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
     pub clamp: Option<f32>,
     /// Radiance of everything that no object covers.

@@ -1,244 +1,257 @@
-//! Rays aimed at mirrors, glass and glossy surfaces from the first diffuse vertices of paths.
+//! Rays aimed at where light comes from over mirrors, glass and glossy surfaces, from the first rough vertices of paths.
 //!
-//! What a member's own ray finds there is the one thing that pixels do not share ([`super::share`]): y is no Lambert surface, or there
-//! is a mirror between. A quarter of the members send one more ray, into the cone around one of the casters' spheres; what it meets
-//! first must be such a surface, else it counts nothing. For the Lambert lobe of a member x the two ways to find a direction w are
+//! From a rough vertex x one more ray is cast, by a chance that goes with the strength of that light, into a cone around one of the
+//! spheres that the guide has for the place ([`crate::engine::guide`]), or around a caster; what it meets first must be a mirror, glass or
+//! glossy surface, else it counts nothing: lamps are found by light samples, and what diffuse surfaces send is shared ([`super::share`]). The two ways to find a direction w
+//! have the densities p(w), that of the surface's own samples, and
 //!
-//! p(w) = P(Lambert lobe) cos / pi,   a(w) = 1/4 sum_k c_k [w in cone k] / (solid angle of k),
+//! a(w) = chance sum_k c_k [w in cone k] / (solid angle of cone k),
 //!
-//! and each counts by the balance heuristic (Veach 1997, 9.2.2), the aimed one f cos / (p + a), the own one by p / (p + a). The chance
-//! c_k of a caster goes with its solid angle and a bound on the cosine. Spheres that x is in or near to are not aimed at: the own ray
-//! meets them anyway.
+//! and each counts by the balance heuristic (Veach 1997, 9.2.2): the aimed ray f cos / (p + a), the own one by p / (p + a). The chance
+//! c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle) and a bound on the cosine. Spheres that x is in
+//! or near to are not aimed at: the own ray meets them anyway.
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
+use super::share::bsdf_of;
 use crate::engine::batch::{Batch, member_kind, path};
-use crate::engine::caustics::aims::{Aims, MOST};
+use crate::engine::guide::cells::{SPHERES, SphereRows};
+use crate::engine::guide::{Guide, MOST_CASTERS};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::Purpose;
 use crate::scene::NONE;
-use std::f32::consts::FRAC_1_PI;
 
-/// Share of the members that aim.
-const CHANCE: f32 = 0.25;
+/// Rays are aimed from this many of a path's first vertices; before roulette, which would have to be reckoned with.
+pub const AIMS_UNTIL: u32 = 3;
+/// Chance that a ray is aimed where the guide has nothing, or knows of faint light only.
+const LEAST_CHANCE: f32 = 0.1;
+/// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance is this times
+/// s / (s + 1), at most one: so rays are spent where the noise is. A ray from every vertex was twice as many in a room of balls, for
+/// a fifth less error.
+const STEEPNESS: f32 = 5.0;
+/// Share of the aimed rays that goes to the casters' own spheres, where the guide knows something.
+const TO_CASTERS: f32 = 0.1;
 /// Cones wider than this are not aimed at: squared sine of half the angle.
 const WIDEST: f32 = 0.75;
-/// Cones narrower than this are not aimed at, by 1 - cos of half the angle: whether a direction lies within one is known to 1e-7 of that only.
-const NARROWEST: f32 = 1e-4;
+/// Cones are not narrower than this, by 1 - cos of half the angle: a thousandth of a radian, whose square single precision tells to 1e-4.
+const NARROWEST: f32 = 5e-7;
 
-/// The cone from a point around a caster.
+/// The cone from a point around a sphere.
+#[derive(Clone, Copy)]
 struct Cone<F: Lanes> {
     axis: V3<F>,
     /// 1 - cos of half its angle.
     width: F,
-    /// Its chance, up to a factor; 0: it is not aimed at.
-    weight: F,
+    /// The largest cosine to the normal of any of its directions, or more; 0: it is not aimed at.
+    highest: F,
 }
 
 impl<F: Lanes> Cone<F> {
     #[inline(always)]
-    fn new(aims: &Aims, k: usize, p: V3<F>, n: V3<F>) -> Self {
+    fn new(center: V3<F>, radius2: F, p: V3<F>, n: V3<F>) -> Self {
         let c = F::splat;
         let one = c(1.0);
-        let center = V3::<F>::splat([aims.center[0][k], aims.center[1][k], aims.center[2][k]]);
         let to = center.sub(p);
         let inverse2 = one / to.dot(to).max(c(1e-30));
         let axis = to.scale(inverse2.sqrt());
-        let sin2 = (c(aims.radius2[k]) * inverse2).min(one);
-        let width = sin2 / (one + (one - sin2).sqrt());
-        let usable = sin2.lt(c(WIDEST)) & c(NARROWEST).lt(width);
-        // No direction of the cone has a larger cosine.
-        let highest = (n.dot(axis) + sin2.sqrt()).max(c(0.0));
-        Cone { axis, width, weight: F::select(usable, width * highest, c(0.0)) }
+        let sin2 = (radius2 * inverse2).min(one);
+        let width = (sin2 / (one + (one - sin2).sqrt())).max(c(NARROWEST));
+        let highest = (n.dot(axis) + sin2.sqrt().max(c(1e-3))).max(c(0.0));
+        Cone { axis, width, highest: F::select(sin2.lt(c(WIDEST)), highest, c(0.0)) }
+    }
+
+    /// Whether a direction lies within: 1 - cos as half the squared way between two unit vectors, which keeps its digits where it is small.
+    #[inline(always)]
+    fn holds(&self, w: V3<F>) -> F::M {
+        let d = w.sub(self.axis);
+        d.dot(d).le(self.width + self.width)
     }
 }
 
-/// Density in solid angle with which a ray from a member at p with shading normal n is aimed along w.
-#[inline(always)]
-pub fn density<F: Lanes>(aims: &Aims, p: V3<F>, n: V3<F>, w: V3<F>) -> F {
-    let c = F::splat;
-    let (zero, one) = (c(0.0), c(1.0));
-    let (mut sum, mut within) = (zero, zero);
-    for k in 0..aims.len() {
-        let cone = Cone::new(aims, k, p, n);
-        let meets = (one - cone.width).le(w.dot(cone.axis)) & zero.lt(cone.weight);
-        sum = sum + cone.weight;
-        within = within + F::select(meets, cone.weight / cone.width, zero);
-    }
-    F::select(zero.lt(sum), within * c(CHANCE / TWO_PI) / sum, zero)
+/// The spheres that rays from some points may be aimed at, lane by lane: those of the guide's cell and the casters.
+struct Targets<'a, F: Lanes> {
+    guide: &'a Guide,
+    p: V3<F>,
+    n: V3<F>,
+    /// First row of the cell.
+    row: F::U,
+    /// Chance that a ray is aimed.
+    chance: F,
 }
 
-/// Adds aimed rays from the members from `first` on to `batch.paths`.
+impl<'a, F: Lanes> Targets<'a, F> {
+    #[inline(always)]
+    fn new(guide: &'a Guide, p: V3<F>, n: V3<F>, mask: F::M) -> Self {
+        let (mut points, mut rows) = ([[0.0; 32]; 3], [0; 32]);
+        p.0.store(&mut points[0]);
+        p.1.store(&mut points[1]);
+        p.2.store(&mut points[2]);
+        let mut bits = mask.bits();
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            rows[lane] = guide.cells.find([points[0][lane], points[1][lane], points[2][lane]]);
+        }
+        let row = F::U::load(&rows);
+        let c = F::splat;
+        let strength = F::gather(&guide.cells.rows.strength, row);
+        let chance = (strength * c(STEEPNESS) / (strength + c(1.0))).max(c(LEAST_CHANCE)).min(c(1.0));
+        Targets { guide, p, n, row, chance }
+    }
+
+    /// Sphere k of the cell, and its weight.
+    #[inline(always)]
+    fn of_cell(&self, k: usize) -> (Cone<F>, F) {
+        let SphereRows { center, radius2, weight, .. } = &self.guide.cells.rows;
+        let row = self.row + F::U::splat(k as u32);
+        let center = V3(F::gather(&center[0], row), F::gather(&center[1], row), F::gather(&center[2], row));
+        let cone = Cone::new(center, F::gather(radius2, row), self.p, self.n);
+        (cone, F::gather(weight, row) * cone.highest)
+    }
+
+    /// Caster k, and its weight.
+    #[inline(always)]
+    fn of_caster(&self, k: usize) -> (Cone<F>, F) {
+        let SphereRows { center, radius2, .. } = &self.guide.casters;
+        let center = V3::<F>::splat([center[0][k], center[1][k], center[2][k]]);
+        let cone = Cone::new(center, F::splat(radius2[k]), self.p, self.n);
+        (cone, cone.width * cone.highest)
+    }
+}
+
+/// The shares of cell and casters in the aimed rays, from the sums of their weights: one goes without the other.
 #[inline(always)]
-pub fn aim<F: Lanes>(aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
+fn shares<F: Lanes>(of_cell: F, of_casters: F) -> (F, F) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let choices = PairPoints::<F>::new(seed, Purpose::Aim, &batch.items, &batch.item_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection, &batch.items, &batch.item_z);
-    let (members, paths) = (&batch.members, &mut batch.paths);
+    let known = zero.lt(of_cell);
+    let casters = F::select(known, c(TO_CASTERS), one);
+    let casters = F::select(zero.lt(of_casters), casters, zero);
+    (F::select(known, one - casters, zero), casters)
+}
+
+#[inline(always)]
+fn over<F: Lanes>(share: F, sum: F) -> F {
+    F::select(F::splat(0.0).lt(sum), share / sum, F::splat(0.0))
+}
+
+/// Density in solid angle with which a ray from a rough vertex at p with shading normal n is aimed along w, for the lanes of the mask.
+#[inline(always)]
+pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M) -> F {
+    let zero = F::splat(0.0);
+    let targets = Targets::new(guide, p, n, mask);
+    let (mut sums, mut within) = ([zero; 2], [zero; 2]);
+    for k in 0..SPHERES {
+        let (cone, weight) = targets.of_cell(k);
+        sums[0] = sums[0] + weight;
+        within[0] = within[0] + F::select(cone.holds(w), weight / cone.width, zero);
+    }
+    for k in 0..guide.casters.len() {
+        let (cone, weight) = targets.of_caster(k);
+        sums[1] = sums[1] + weight;
+        within[1] = within[1] + F::select(cone.holds(w), weight / cone.width, zero);
+    }
+    let (of_cell, of_casters) = shares(sums[0], sums[1]);
+    (within[0] * over(of_cell, sums[0]) + within[1] * over(of_casters, sums[1]))
+        * (targets.chance * F::splat(1.0 / TWO_PI))
+}
+
+/// Adds rays aimed from `batch.aimers` to `batch.paths`.
+#[inline(always)]
+pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+    let c = F::splat;
+    let (zero, one) = (c(0.0), c(1.0));
+    let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items, &batch.item_z);
+    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items, &batch.item_z);
+    let (aimers, paths) = (&batch.aimers, &mut batch.paths);
     let before = paths.len;
-    for i in (first..members.len).step_by(F::N) {
-        let slot = F::U::load(&members.slot[i..]);
+    let casters = guide.casters.len().min(MOST_CASTERS);
+    for i in (0..aimers.len).step_by(F::N) {
+        let slot = F::U::load(&aimers.slot[i..]);
         let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
         let (choice, _) = choices.points(&pixel);
-        let mut aimed = F::first(members.len - i) & choice.lt(c(CHANCE));
+        let mut aimed = F::first(aimers.len - i);
+        let p = V3::<F>::load(&aimers.start, i);
+        let n = V3::<F>::load(&aimers.normal, i);
+        let targets = Targets::new(guide, p, n, aimed);
+        aimed = aimed & choice.lt(targets.chance);
         if !aimed.any() {
             continue;
         }
-        let p = V3::<F>::load(&members.start, i);
-        let n = V3::<F>::load(&members.normal, i);
-        let mut weights = [zero; MOST];
-        let mut sum = zero;
-        for (k, weight) in weights.iter_mut().enumerate().take(aims.len()) {
-            *weight = Cone::new(aims, k, p, n).weight;
-            sum = sum + *weight;
+        let mut weights = [zero; SPHERES + MOST_CASTERS];
+        let mut sums = [zero; 2];
+        for k in 0..SPHERES {
+            weights[k] = targets.of_cell(k).1;
+            sums[0] = sums[0] + weights[k];
         }
+        for k in 0..casters {
+            weights[SPHERES + k] = targets.of_caster(k).1;
+            sums[1] = sums[1] + weights[SPHERES + k];
+        }
+        let (of_cell, of_casters) = shares(sums[0], sums[1]);
+        let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];
         // The last with any weight that begins at or below this.
-        let threshold = choice * c(1.0 / CHANCE) * sum;
+        let threshold = choice / targets.chance * (of_cell + of_casters);
         let mut below = zero;
-        let (mut axis, mut width) = (n, zero);
-        for (k, &weight) in weights.iter().enumerate().take(aims.len()) {
-            let taken = zero.lt(weight) & below.le(threshold);
-            if taken.any() {
-                let cone = Cone::new(aims, k, p, n);
-                axis = V3::select(taken, cone.axis, axis);
-                width = F::select(taken, cone.width, width);
+        let mut taken = Cone { axis: n, width: zero, highest: zero };
+        let mut which = F::U::splat(0);
+        for k in 0..SPHERES + casters {
+            let (own, scale) = if k < SPHERES { (true, scales[0]) } else { (false, scales[1]) };
+            let takes = zero.lt(weights[k]) & below.le(threshold);
+            if takes.any() {
+                let cone = if own { targets.of_cell(k).0 } else { targets.of_caster(k - SPHERES).0 };
+                taken.axis = V3::select(takes, cone.axis, taken.axis);
+                taken.width = F::select(takes, cone.width, taken.width);
+                which = F::U::select(takes, F::U::splat(k as u32), which);
             }
-            below = below + weight;
+            below = below + weights[k] * scale;
         }
         let (u, v) = directions.points(&pixel);
-        let wi = axis.to_world(crate::sampling::warp::cone(u, v, width));
+        let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
         let cos = n.dot(wi);
-        aimed = aimed & zero.lt(sum) & zero.lt(cos);
+        aimed = aimed & zero.lt(sums[0] + sums[1]) & zero.lt(cos);
         if !aimed.any() {
             continue;
         }
-        // Lambert lobe: its f, and the density with which the own ray takes it.
-        let kind = F::U::load(&members.kind[i..]);
-        let specular = F::load(&members.specular[i..]);
-        let conserving = !(kind & F::U::splat(member_kind::CONSERVING)).eq(F::U::splat(0));
-        let glossy = conserving | !(kind & F::U::splat(member_kind::GLOSSY)).eq(F::U::splat(0));
-        let lambert = F::select(glossy, one - specular, one);
-        let lobe = F::select(conserving, specular, specular * c(4.0));
-        let chance = F::select(glossy, lambert / (lobe + lambert), one);
-        let by_itself = chance * cos * c(FRAC_1_PI);
-        let value = lambert * cos * c(FRAC_1_PI) / (by_itself + density(aims, p, n, wi));
-        let throughput = V3::<F>::load(&members.weight, i).scale(value);
+        // The density with which it was aimed: its own cone holds it whatever rounding says.
+        let mut density = zero;
+        for k in 0..SPHERES + casters {
+            let (cone, scale) = if k < SPHERES {
+                (targets.of_cell(k).0, scales[0])
+            } else {
+                (targets.of_caster(k - SPHERES).0, scales[1])
+            };
+            let holds = cone.holds(wi) | which.eq(F::U::splat(k as u32));
+            density = density + F::select(holds, weights[k] * scale / cone.width, zero);
+        }
+        density = density * targets.chance * c(1.0 / TWO_PI);
+        let bsdf = bsdf_of::<F>(aimers, i, aimed);
+        let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
+        // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways are one sum.
+        aimed = aimed & zero.lt(by_itself);
+        let by_itself = F::select(aimed, by_itself, one);
+        let throughput = V3::<F>::load(&aimers.weight, i).scale(f.0 * cos / by_itself);
+        let weight = by_itself / (by_itself + density);
         aimed = aimed & zero.lt(throughput.max_component());
+        let kind = F::U::load(&aimers.kind[i..]);
         let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
-        let sinks = raised & V3::<F>::load(&members.geometric, i).dot(wi).le(zero);
-        let primitive = F::U::select(sinks, F::U::splat(NONE), F::U::load(&members.primitive[i..]));
+        let sinks = raised & V3::<F>::load(&aimers.geometric, i).dot(wi).le(zero);
+        let primitive = F::U::select(sinks, F::U::splat(NONE), F::U::load(&aimers.primitive[i..]));
+        let sum = slot & F::U::splat(path::SUM);
+        let shared = !(slot & F::U::splat(path::SHARED)).eq(F::U::splat(0));
+        let state = F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED);
         let k = paths.len;
         p.compress(aimed, &mut paths.origin, k);
         wi.compress(aimed, &mut paths.direction, k);
         throughput.compress(aimed, &mut paths.throughput, k);
-        one.compress(aimed, &mut paths.eta2[k..]);
+        (F::load(&aimers.survival[i..]) * weight).compress(aimed, &mut paths.eta2[k..]);
         c(-1.0).compress(aimed, &mut paths.pdf[k..]);
-        (slot | F::U::splat(path::OWN | path::MAPPED | path::AIMED)).compress(aimed, &mut paths.slot[k..]);
+        n.compress(aimed, &mut paths.normal, k);
+        state.compress(aimed, &mut paths.slot[k..]);
         primitive.compress(aimed, &mut paths.from_primitive[k..]);
-        F::U::load(&members.instance[i..]).compress(aimed, &mut paths.from_instance[k..]);
+        F::U::load(&aimers.instance[i..]).compress(aimed, &mut paths.from_instance[k..]);
         paths.len += aimed.count();
     }
     batch.counters.scattered_rays += (batch.paths.len - before) as u64;
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::batch::{BLOCK_PIXELS, Item};
-    use crate::lanes::ArrayF;
-    use crate::sampling::sampler::z_order;
-
-    type One = ArrayF<1>;
-
-    /// Two spheres whose cones overlap, one half below the horizon, one that the point is in, one too small and one behind.
-    fn spheres() -> Aims {
-        let list: [([f32; 3], f32); 6] = [
-            ([0.5, 0.3, 0.0], 0.2),
-            ([1.0, 0.5, 0.2], 0.3),
-            ([0.0, 0.05, 0.7], 0.25),
-            ([0.0, 0.1, 0.0], 0.3),
-            ([0.0, 0.9, 0.9], 0.01),
-            ([0.2, -0.5, 0.1], 0.2),
-        ];
-        let mut aims = Aims { center: Default::default(), radius2: Vec::new() };
-        for (center, radius) in list {
-            (0..3).for_each(|k| aims.center[k].push(center[k]));
-            aims.radius2.push(radius * radius);
-        }
-        aims
-    }
-
-    const UP: [f32; 3] = [0.0, 1.0, 0.0];
-
-    fn density_of(w: [f32; 3]) -> f64 {
-        let mut out = [0.0];
-        density(&spheres(), V3::<One>::zero(), V3::splat(UP), V3::splat(w)).store(&mut out);
-        f64::from(out[0])
-    }
-
-    /// Directions over the sphere by equal areas: 400 heights and 800 turns; gives each to `f` with its solid angle.
-    fn over_directions(mut f: impl FnMut([f32; 3], f64)) {
-        for i in 0..400 {
-            for k in 0..800 {
-                let (y, turn) =
-                    ((f64::from(i) + 0.5) / 200.0 - 1.0, std::f64::consts::TAU * (f64::from(k) + 0.5) / 800.0);
-                let r = (1.0 - y * y).sqrt();
-                let w = [r * libm::cos(turn), y, r * libm::sin(turn)].map(|x| x as f32);
-                f(w, 4.0 * std::f64::consts::PI / 320_000.0);
-            }
-        }
-    }
-
-    /// Some sphere is always aimed at here, so the density integrates to the chance to aim. The cones' borders are 6 long in all, the cells
-    /// 0.006 wide: some 1000 of them are cut by a border, each right or wrong by half a cell of 4e-5 at random and a density of 0.25 at most.
-    #[test]
-    fn densities_integrate_to_the_chance_to_aim() {
-        let mut sum = 0.0;
-        over_directions(|w, area| sum += density_of(w) * area);
-        assert!((sum - f64::from(CHANCE)).abs() < 4.0 * 0.5 * 4e-5 * 0.25 * 1000f64.sqrt() + 1e-4, "{sum}");
-    }
-
-    /// Members that all lie at one point: directions come with the density that is reckoned with, and count what the balance heuristic says.
-    #[test]
-    fn directions_have_the_density_that_is_reckoned_with() {
-        let aims = spheres();
-        let mut batch = Batch::new();
-        let (mut area, mut squares, mut members) = (0.0, 0.0, 0.0);
-        for sample in 0..256 {
-            let item = Item::new(1, 2, 1, sample);
-            let (shift, offset) = item.z_of_pixels();
-            batch.items = vec![item];
-            batch.item_z[0] = z_order(item.tile_x, item.tile_y) << 8 | offset;
-            batch.item_scale[0] = 1 << shift;
-            batch.paths.len = 0;
-            batch.members.len = BLOCK_PIXELS;
-            for k in 0..BLOCK_PIXELS {
-                (0..3).for_each(|axis| batch.members.normal[axis][k] = UP[axis]);
-                (0..3).for_each(|axis| batch.members.weight[axis][k] = 1.0);
-                batch.members.kind[k] = member_kind::DIFFUSE;
-                batch.members.slot[k] = k as u32;
-            }
-            aim::<One>(&aims, 5, 0, &mut batch);
-            members += BLOCK_PIXELS as f64;
-            for i in 0..batch.paths.len {
-                let w = batch.paths.direction.each_ref().map(|column| column[i]);
-                let a = density_of(w);
-                let cos = f64::from(w[1]) / std::f64::consts::PI;
-                assert!(a > 0.0 && cos > 0.0, "{w:?}: {a}");
-                let counts = f64::from(batch.paths.throughput[0][i]);
-                assert!((counts - cos / (cos + a)).abs() < 1e-5, "{w:?}: {counts}");
-                area += 1.0 / a;
-                squares += 1.0 / (a * a);
-            }
-        }
-        // The mean of 1/density over all members is the area that may be aimed at. Stratified points spread less than independent ones, whose
-        // standard error this is.
-        let (mean, variance) = (area / members, (squares / members - (area / members).powi(2)) / members);
-        let mut expected = 0.0;
-        over_directions(|w, area| expected += if density_of(w) > 0.0 && w[1] > 0.0 { area } else { 0.0 });
-        let rounding = 4.0 * 0.5 * 4e-5 * 1000f64.sqrt();
-        assert!((mean - expected).abs() < 4.0 * variance.sqrt() + rounding, "{mean} {expected} {}", variance.sqrt());
-    }
 }

@@ -3,7 +3,7 @@
 
 use super::surface::Surface;
 use super::textures::texture_color;
-use crate::engine::caustics::casters::LEAST_EXPONENT;
+use crate::engine::guide::casters::LEAST_EXPONENT;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, exp, ln1p};
 use crate::sampling::warp;
@@ -128,36 +128,30 @@ impl<F: Lanes> Bsdf<F> {
     }
 
     /// A direction for the diffuse and glossy lanes: cosine-weighted, or the reflection in a half vector of the lobe. The weight
-    /// f cos / pdf and the density; the density is 0 where sampling failed. Both are those of the sum of the lobes or, where they are
-    /// to be told `apart`, of the one that was taken.
+    /// f cos / pdf and the density are those of both lobes together; the density is 0 where sampling failed.
     #[inline(always)]
-    pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F, apart: bool) -> RoughSample<F> {
+    pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> RoughSample<F> {
         let c = F::splat;
         let local = warp::cosine_hemisphere(u, v);
         let mut wi = ns.to_world(local);
         let mut weight = self.color;
         let mut pdf = local.2 * c(FRAC_1_PI);
-        let mut from_lobe = F::M::from_bits(0);
         if self.glossy.any() {
             let p = self.glossy_probability();
-            from_lobe = self.glossy & lobe.lt(p);
+            let from_lobe = self.glossy & lobe.lt(p);
             if from_lobe.any() {
                 wi = V3::select(from_lobe, self.reflect_in_lobe(ns, wo, u, v), wi);
             }
             let cos_i = ns.dot(wi);
             let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
-            let (from_glossy, from_lambert) = (p * lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
-            let (value, density) = if apart {
-                (F::select(from_lobe, lobes.glossy, lobes.lambert), F::select(from_lobe, from_glossy, from_lambert))
-            } else {
-                (lobes.lambert + lobes.glossy, p.fma(lobes.glossy_pdf, from_lambert))
-            };
+            let value = lobes.lambert + lobes.glossy;
+            let density = p.fma(lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
             let usable = c(0.0).lt(cos_i) & c(0.0).lt(density);
             let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
             weight = V3::select(self.glossy, self.color.scale(scale), weight);
             pdf = F::select(self.glossy, F::select(usable, density, c(0.0)), pdf);
         }
-        RoughSample { wi, weight, pdf, from_lobe }
+        RoughSample { wi, weight, pdf }
     }
 
     /// wo reflected in a half vector of the glossy lobe.
@@ -168,7 +162,7 @@ impl<F: Lanes> Bsdf<F> {
         h.scale(d + d).sub(wo)
     }
 
-    /// Glossy lanes whose lobe is so narrow that photons carry what it reflects (see `engine::caustics`).
+    /// Glossy lanes whose lobe is so narrow that photons go on by it (see `engine::guide`).
     #[inline(always)]
     pub fn narrow(&self) -> F::M {
         self.glossy & F::splat(LEAST_EXPONENT).le(self.parameter)
@@ -195,8 +189,6 @@ pub struct RoughSample<F: Lanes> {
     pub weight: V3<F>,
     /// Density; 0: no direction.
     pub pdf: F,
-    /// The glossy lobe was taken.
-    pub from_lobe: F::M,
 }
 
 /// wo reflected in the shading normal, bent so that it leaves the geometric surface: where it would start inside, the reflected

@@ -3,7 +3,6 @@
 pub mod aim;
 pub mod camera;
 pub mod deposit;
-pub mod gather;
 pub mod lights;
 pub mod materials;
 pub mod photons;

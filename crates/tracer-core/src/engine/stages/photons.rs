@@ -1,21 +1,17 @@
-//! Photons: from the lights, over mirrors, glass and narrow lobes, to Lambert lobes (see `engine::caustics`).
+//! Photons: from the lights, over mirrors, glass and narrow lobes, to rough surfaces (see `engine::guide`).
 
 use super::materials::{Bsdf, Dielectric, reflect_bent};
 use super::shade::leaves;
-use super::surface::{Surface, surface};
+use super::surface::surface;
 use crate::engine::batch::Batch;
-use crate::engine::caustics::plan::{Plan, aim};
-use crate::engine::caustics::trace::PhotonPass;
+use crate::engine::guide::plan::{Plan, aim};
+use crate::engine::guide::trace::PhotonPass;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{hash3, unit};
 use crate::sampling::sobol::{owen, pascal_upper, shuffle_indices};
 use crate::sampling::warp;
 use crate::scene::{NONE, Scene};
-
-/// The ratio of cosines to shading and geometric normals is held below this at the surfaces of smooth meshes: it has no bound at
-/// their outlines.
-const MOST_BENT: f32 = 10.0;
 
 /// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each pair with an
 /// order of its own.
@@ -103,7 +99,7 @@ fn lane_numbers<F: Lanes>(i: usize) -> F::U {
     F::U::load(&numbers)
 }
 
-/// What becomes of the photons in `batch.paths` where they hit: over mirrors, glass and narrow glossy lobes they go on, at Lambert lobes
+/// What becomes of the photons in `batch.paths` where they hit: over mirrors, glass and narrow glossy lobes they go on, at rough surfaces
 /// they are stored if they have come over `event` > 0 of these, all others end. The first thing that a photon meets must belong to the caster
 /// that it was aimed at: so each way from a light over its first mirror or glass is taken by the photons of one caster only.
 #[inline(always)]
@@ -141,16 +137,12 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let bsdf = Bsdf::<F>::at(tables, &s, surfaces);
         let wo = direction.neg();
         if event > 0 {
-            let facing = wo.dot(s.ng).max(c(1e-6));
-            let bent = (wo.dot(s.ns) / facing).min(c(MOST_BENT));
-            let stored = (bsdf.diffuse | bsdf.glossy) & zero.lt(bent);
+            let stored = bsdf.diffuse | bsdf.glossy;
             if stored.any() {
                 let k = photons.len;
                 s.p.compress(stored, &mut photons.point, k);
-                s.ng.compress(stored, &mut photons.normal, k);
-                flux.scale(bent).compress(stored, &mut photons.flux, k);
-                F::U::splat(event).compress(stored, &mut photons.events[k..]);
-                slot.compress(stored, &mut photons.slot[k..]);
+                origin.compress(stored, &mut photons.from, k);
+                (flux.0 + flux.1 + flux.2).compress(stored, &mut photons.flux[k..]);
                 photons.len += stored.count();
             }
         }
@@ -175,7 +167,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         }
         let mut leaving = primitive;
         if narrow.any() {
-            // Always on by the lobe: what the Lambert lobe scatters is gathered.
+            // Always on by the lobe.
             let (u, v) = numbers.pair(salt ^ 0x6c0b_b1e5);
             let in_lobe = bsdf.reflect_in_lobe(s.ns, wo, u, v);
             let cos_i = s.ns.dot(in_lobe);
@@ -187,7 +179,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
             start = V3::select(narrow, s.start, start);
             leaving = F::U::select(narrow, leaves(&s, wi, primitive), leaving);
         }
-        let carried = flux.mul(weight).scale(adjoint(&s, wo, wi));
+        let carried = flux.mul(weight);
         let alive = passes & zero.lt(carried.max_component());
         let k = next.len;
         start.compress(alive, &mut next.origin, k);
@@ -200,19 +192,4 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
     }
     std::mem::swap(&mut batch.paths, &mut batch.next);
     batch.counters.photon_rays += batch.paths.len as u64;
-}
-
-/// What light that goes from `wo` to `wi` is scaled by at a mirror or glass whose shading normal is not the geometric one, so that
-/// photons carry what paths find: |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|) (Veach 1997, 5.3.2). The bent normals of paths that would enter
-/// the surface ([`reflect_bent`]) have no such rule; there the scale is held within its bounds.
-#[inline(always)]
-fn adjoint<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>) -> F {
-    let c = F::splat;
-    if !s.smooth.any() {
-        return c(1.0);
-    }
-    let least = c(1e-6);
-    let from = wo.dot(s.ns).abs() / wo.dot(s.ng).abs().max(least);
-    let to = wi.dot(s.ng).abs() / wi.dot(s.ns).abs().max(least);
-    F::select(s.smooth, (from * to).min(c(MOST_BENT)), c(1.0))
 }

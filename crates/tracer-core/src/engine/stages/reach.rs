@@ -14,7 +14,7 @@ pub fn reach_closest<F: Lanes>(boxes: &TopBoxes, batch: &mut Batch) {
     let paths = &batch.paths;
     let mut count = 0;
     for i in (0..paths.len).step_by(F::N) {
-        let slabs = Slabs::<F>::new(&paths.origin, &paths.direction, i);
+        let slabs = Slabs::<F>::load(&paths.origin, &paths.direction, i);
         let limit = F::load(&batch.hits.t[i..]);
         let reaches = slabs.pass(boxes, limit) & F::first(paths.len - i);
         indices::<F>(i).compress(reaches, &mut batch.active[count..]);
@@ -29,7 +29,7 @@ pub fn reach_occluded<F: Lanes>(boxes: &TopBoxes, batch: &mut Batch) {
     let shadows = &batch.shadows;
     let mut count = 0;
     for i in (0..shadows.len).step_by(F::N) {
-        let slabs = Slabs::<F>::new(&shadows.origin, &shadows.direction, i);
+        let slabs = Slabs::<F>::load(&shadows.origin, &shadows.direction, i);
         let free = F::U::load(&shadows.occluded[i..]).eq(F::U::splat(0));
         let reaches = slabs.pass(boxes, F::load(&shadows.t_max[i..])) & free & F::first(shadows.len - i);
         indices::<F>(i).compress(reaches, &mut batch.active[count..]);
@@ -54,7 +54,7 @@ fn indices<F: Lanes>(i: usize) -> F::U {
 }
 
 /// Rays, ready for slab tests; per axis.
-struct Slabs<F: Lanes> {
+pub struct Slabs<F: Lanes> {
     negative: [F::M; 3],
     inverse: [F; 3],
     near_offset: [F; 3],
@@ -63,9 +63,14 @@ struct Slabs<F: Lanes> {
 
 impl<F: Lanes> Slabs<F> {
     #[inline(always)]
-    fn new(origin: &Columns, direction: &Columns, i: usize) -> Self {
+    fn load(origin: &Columns, direction: &Columns, i: usize) -> Self {
+        Self::new(V3::<F>::load(origin, i), V3::<F>::load(direction, i))
+    }
+
+    /// Rays from o along d.
+    #[inline(always)]
+    pub fn new(o: V3<F>, d: V3<F>) -> Self {
         let c = F::splat;
-        let (o, d) = (V3::<F>::load(origin, i), V3::<F>::load(direction, i));
         let pad = o.abs().max_component() * c(crate::bvh::PAD);
         let least = d.abs().max_component() * c(crate::bvh::SMALLEST_COMPONENT);
         let (o, d) = ([o.0, o.1, o.2], [d.0, d.1, d.2]);
@@ -86,7 +91,7 @@ impl<F: Lanes> Slabs<F> {
 
     /// Whether the rays are inside a box somewhere between 0 and `limit`.
     #[inline(always)]
-    fn pass(&self, boxes: &TopBoxes, limit: F) -> F::M {
+    pub fn pass(&self, boxes: &TopBoxes, limit: F) -> F::M {
         let mut any = F::M::from_bits(0);
         for k in 0..boxes.len {
             let (mut near, mut far) = (F::splat(0.0), limit);

@@ -10,7 +10,6 @@ use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
 use crate::engine::batch::{Batch, Columns, path};
-use crate::engine::indirect::IndirectMap;
 use crate::engine::trace::{Pass, Task};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -20,9 +19,6 @@ use crate::scene::{NONE, Scene};
 /// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier, roulette throws
 /// away the stratification that the sampler pays for.
 pub const ROULETTE_FROM: u32 = 3;
-
-/// Share of the diffuse vertices after a path's first at which photons are gathered.
-const GATHER_LATER: f32 = 0.25;
 
 /// At so many of its first vertices a path from the camera that has met mirrors and glass only goes both ways at glass: what one of them
 /// shows, often the lamp, is far brighter than what the other does.
@@ -47,8 +43,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     let several = tables.lights.len > 1;
-    let aims = pass.aims();
-    let records = pass.task == Task::Records;
+    let guide = pass.guide;
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
@@ -57,11 +52,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
     // A member's second vertex needs a scattering of its own.
     let joins = pass.reuse && vertex < scene.max_bounces;
-    let (queries, branches) = (&mut batch.queries, &mut batch.branches);
+    // What a ray aimed from the last vertex met could not scatter.
+    let aims_here = guide.is_some() && vertex < aim::AIMS_UNTIL && vertex < scene.max_bounces;
+    let (aimers, branches) = (&mut batch.aimers, &mut batch.branches);
     next.len = 0;
     branches.len = 0;
     shadows.len = 0;
-    queries.len = 0;
+    aimers.len = 0;
     for i in (0..paths.len).step_by(F::N) {
         let valid = F::first(paths.len - i);
         let origin = V3::<F>::load(&paths.origin, i);
@@ -73,7 +70,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let instance = F::U::load(&batch.hits.instance[i..]);
         let hit = valid & !primitive.eq(F::U::splat(NONE));
         // What an aimed ray finds other than mirrors, glass and glossy surfaces, its path's own ray finds.
-        let aimed = if aims.is_some() { valid & has(slot, path::AIMED) } else { F::M::from_bits(0) };
+        let aimed = if guide.is_some() { valid & has(slot, path::AIMED) } else { F::M::from_bits(0) };
         let left = if open { valid & !hit & !aimed } else { F::M::from_bits(0) };
         let mut shown = eta2;
         if batch.glints != 0 {
@@ -91,22 +88,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass have one slot, and the
         // order of a sum must not depend on the number of lanes.
         let lamp = hit & !s.light.eq(F::U::splat(0));
-        let mut emits = lamp & !aimed;
-        if records {
-            // The light sample at the second vertex stands for the lamp that the ray from there meets.
-            emits = emits & !has(slot, path::INDIRECT);
-            slot = slot & F::U::splat(!path::INDIRECT);
-        }
+        let emits = lamp & !aimed;
         if emits.any() {
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
             let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
             let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal });
-            let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
-            if let Some(photons) = pass.photons {
-                let by_photons = has(slot, path::CAUSTIC) & photons.brings::<F>(light);
-                weight = F::select(by_photons, zero, weight);
-            }
+            let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(shown * weight);
             seen = V3::select(emits, shines, seen);
         }
@@ -127,75 +115,47 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             }
         }
         let wo = direction.neg();
-        if let Some(aims) = aims
+        if let Some(guide) = guide
             && vertex > 0
         {
             surfaces = surfaces & !(aimed & bsdf.diffuse);
             bsdf.diffuse = bsdf.diffuse & surfaces;
-            slot = F::U::select(aimed, slot & F::U::splat(!path::AIMED), slot);
-            let both_find = surfaces & !bsdf.diffuse & has(slot, path::MAKER) & has(slot, path::MAPPED);
-            if vertex <= ROULETTE_FROM && both_find.any() {
+            let both_find = surfaces & !bsdf.diffuse & has(slot, path::AIMS);
+            slot = slot & F::U::splat(!(path::AIMED | path::AIMS));
+            if both_find.any() {
                 let by_itself = F::load(&paths.pdf[i..]);
-                let by_aiming = aim::density(aims, origin, V3::<F>::load(&paths.normal, i), direction);
+                let normal = V3::<F>::load(&paths.normal, i);
+                let by_aiming = aim::density(guide, origin, normal, direction, both_find);
                 let weight = by_itself / (by_itself + by_aiming);
-                throughput = V3::select(both_find, throughput.scale(weight), throughput);
+                // Not in the throughput: roulette would undo it.
+                eta2 = F::select(both_find, eta2 * weight, eta2);
             }
         }
         let rough = bsdf.diffuse | bsdf.glossy;
-        // Second vertices, and those whose indirect light the map knows.
-        let (mut second, mut known) = (F::M::from_bits(0), F::M::from_bits(0));
         if pass.reuse && vertex > 0 {
             let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
             // Light leaves a diffuse vertex alike in all directions: what comes from here on is any member's.
             let shared = found & bsdf.diffuse;
             if shared.any() {
-                let distance = F::load(&batch.hits.t[i..]);
-                add_suffixes(suffixes, &s, distance, slot, primitive, instance, shared);
+                add_suffixes(suffixes, &s, slot, primitive, instance, shared);
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
-                second = shared;
-                if let Some(map) = pass.indirect
-                    && !last
-                {
-                    known = add_known(map, vertex, &s, bsdf.color, distance, slot, shared, &mut batch.radiance);
-                }
             }
-            let bare = slot & F::U::splat(path::SLOT | path::MAPPED | path::CAUSTIC);
+            let bare = slot & F::U::splat(path::SLOT);
             let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
             slot = F::U::select(found, own, slot);
         }
-        // What records are of comes from behind a second vertex.
-        let of_use = if records { has(slot, path::SHARED) & !second } else { valid };
-        if records {
-            surfaces = surfaces & !has(slot, path::OWN);
-        }
-        let lit_here = rough & of_use;
+        let lit_here = rough & valid;
         // Diffuse surfaces go on at the last vertex only to see a background.
-        let goes_on = if last && !open { !bsdf.diffuse } else { valid & !known };
+        let goes_on = if last && !open { !bsdf.diffuse } else { valid };
         let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
         let (mut of_choice, mut of_roulette) = ((zero, zero), (zero, zero));
         if several {
             [of_choice, of_roulette] = PairPoints::points_of([&choices, &roulettes], &pixel);
-        } else if lobes_or_end || pass.photons.is_some() {
+        } else if lobes_or_end {
             of_roulette = roulettes.points(&pixel);
-        }
-
-        // Light that photons have brought here; to look for it costs as much as all else at a vertex, so after the first diffuse vertex
-        // of a path only one in so many does.
-        if pass.photons.is_some() && !last && lit_here.any() {
-            let (_, choice) = of_roulette;
-            let chance = F::select(has(slot, path::MAPPED), c(GATHER_LATER), one);
-            let lambert = one - bsdf.specular;
-            let value = bsdf.color.mul(throughput).scale(lambert * eta2 * c(std::f32::consts::FRAC_1_PI) / chance);
-            let asks = lit_here & choice.lt(chance) & zero.lt(value.max_component());
-            let k = queries.len;
-            s.p.compress(asks, &mut queries.point, k);
-            s.ng.compress(asks, &mut queries.normal, k);
-            value.compress(asks, &mut queries.value, k);
-            (slot & F::U::splat(path::SUM)).compress(asks, &mut queries.slot[k..]);
-            queries.len += asks.count();
         }
 
         // Light sampled from here.
@@ -208,20 +168,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let lit = lit_here & zero.lt(cos_i) & zero.lt(l.distance);
             if lit.any() {
                 let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
-                let (mut f, pdf) = bsdf.both(&lobes);
-                let mut weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), one);
-                if let Some(photons) = pass.photons
-                    && bsdf.glossy.any()
-                {
-                    // Each lobe against its own samples; what a narrow one would bring to a diffuse vertex is the photons'.
-                    let p = bsdf.glossy_probability();
-                    let lambert = lobes.lambert * weight_of_ratio((one - p) * lobes.lambert_pdf * l.inverse_pdf);
-                    let glossy = lobes.glossy * weight_of_ratio(p * lobes.glossy_pdf * l.inverse_pdf);
-                    let by_photons = has(slot, path::MAPPED) & bsdf.narrow() & photons.brings::<F>(choice.light);
-                    let sum = lambert + F::select(by_photons, zero, glossy);
-                    f = V3::select(bsdf.glossy, bsdf.color.scale(sum), f);
-                    weight = F::select(bsdf.glossy, one, weight);
-                }
+                let (f, pdf) = bsdf.both(&lobes);
+                let weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), one);
                 let value = f.mul(throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * eta2));
                 let cast = lit & zero.lt(value.max_component());
                 let k = shadows.len;
@@ -245,11 +193,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let mut start = s.start;
         let mut new_eta2 = eta2;
         let mut alive = surfaces & goes_on;
-        let mut from_lobe = F::M::from_bits(0);
         if (rough & goes_on).any() {
             let (u, v) = of_direction;
-            let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe, pass.photons.is_some());
-            from_lobe = sample.from_lobe;
+            let sample = bsdf.sample_rough(s.ns, wo, u, v, lobe);
             wi = V3::select(rough, sample.wi, wi);
             weight = V3::select(rough, sample.weight, weight);
             pdf = F::select(rough, sample.pdf, pdf);
@@ -264,7 +210,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let d = Dielectric::new(&s, wo, bsdf.parameter);
             let mut refracted = d.reflectance.le(lobe);
             let mut share = one;
-            if vertex < BRANCHING && !records {
+            if vertex < BRANCHING {
                 // The path goes on where more of the light goes; the rest is a path of its own, and shares nothing. Roulette must not
                 // see their shares: they make a whole.
                 let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
@@ -297,11 +243,6 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2 * share, eta2);
         }
         let mut carried = throughput.mul(weight);
-        if records {
-            // The albedo is that of the vertex that asks.
-            carried = V3::select(second, V3::grey(one), carried);
-            slot = F::U::select(second, slot | F::U::splat(path::INDIRECT), slot);
-        }
         let mut survival = one;
         let mut member = F::M::from_bits(0);
         let colored = throughput.mul(bsdf.color);
@@ -322,13 +263,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         let untouched = rough & !has(slot, path::SHARED | path::MAKER | path::OWN);
         slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
-        if pass.photons.is_some() {
-            let lambert = rough & !from_lobe;
-            let wide = from_lobe & !bsdf.narrow();
-            let on_the_way = surfaces & !lambert & has(slot, path::MAPPED);
-            slot = F::U::select(on_the_way, slot | F::U::splat(path::CAUSTIC), slot);
-            slot = F::U::select(lambert | wide, slot & F::U::splat(!(path::CAUSTIC | path::MAPPED)), slot);
-            slot = F::U::select(lambert, slot | F::U::splat(path::MAPPED), slot);
+        if aims_here {
+            let aims = surfaces & rough & zero.lt(colored.max_component());
+            add_members(aimers, &bsdf, &s, wo, colored, eta2, slot, primitive, instance, aims);
+            slot = F::U::select(aims, slot | F::U::splat(path::AIMS), slot);
         }
         let alive = alive & zero.lt(carried.max_component());
         let k = next.len;
@@ -337,7 +275,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         carried.compress(alive, &mut next.throughput, k);
         new_eta2.compress(alive, &mut next.eta2[k..]);
         pdf.compress(alive, &mut next.pdf[k..]);
-        if several || aims.is_some() {
+        if several || guide.is_some() {
             s.ns.compress(alive, &mut next.normal, k);
         }
         slot.compress(alive, &mut next.slot[k..]);
@@ -376,44 +314,6 @@ fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
 #[inline(always)]
 fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
-}
-
-/// Adds the indirect light that leaves these second vertices to their sums, where the map knows it; gives the lanes where it does.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn add_known<F: Lanes>(
-    map: &IndirectMap,
-    vertex: u32,
-    s: &Surface<F>,
-    color: V3<F>,
-    distance: F,
-    slot: F::U,
-    mask: F::M,
-    radiance: &mut Columns,
-) -> F::M {
-    let (mut points, mut normals, mut colors) = ([[0.0; 32]; 3], [[0.0; 32]; 3], [[0.0; 32]; 3]);
-    for (columns, V3(x, y, z)) in [(&mut points, s.p), (&mut normals, s.ng), (&mut colors, color)] {
-        x.store(&mut columns[0]);
-        y.store(&mut columns[1]);
-        z.store(&mut columns[2]);
-    }
-    let (mut slots, mut distances) = ([0; 32], [0.0; 32]);
-    slot.store(&mut slots);
-    distance.store(&mut distances);
-    let (mut bits, mut known) = (mask.bits(), 0);
-    while bits != 0 {
-        let lane = bits.trailing_zeros() as usize;
-        bits &= bits - 1;
-        let at = |columns: &[[f32; 32]; 3]| [columns[0][lane], columns[1][lane], columns[2][lane]];
-        if let Some(light) = map.find(at(&points), at(&normals), vertex, distances[lane]) {
-            known |= 1 << lane;
-            let to = (slots[lane] & path::SLOT | path::SHARED) as usize;
-            for channel in 0..3 {
-                radiance[channel][to] += colors[channel][lane] * light[channel];
-            }
-        }
-    }
-    F::M::from_bits(known)
 }
 
 /// Adds the lanes of the mask to their slots' radiance, one after the other.

@@ -8,9 +8,9 @@ use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{LargeSphere, NONE, SmallSphere, SphereTable};
 
-/// A ray, with what the lifted form shares between spheres.
+/// A ray, with what the lifted form shares between spheres; `from` is the primitive that it leaves.
 #[derive(Clone, Copy)]
-struct Ray<F: Lanes> {
+pub struct Ray<F: Lanes> {
     o: V3<F>,
     d: V3<F>,
     oo: F,
@@ -19,8 +19,9 @@ struct Ray<F: Lanes> {
 }
 
 impl<F: Lanes> Ray<F> {
+    /// From a point along a unit vector.
     #[inline(always)]
-    fn new(o: V3<F>, d: V3<F>, from: F::U) -> Self {
+    pub fn new(o: V3<F>, d: V3<F>, from: F::U) -> Self {
         Ray { o, d, oo: o.dot(o), od: o.dot(d), from }
     }
     #[inline(always)]
@@ -102,12 +103,10 @@ pub fn spheres_closest<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
     }
 }
 
-/// Sets `batch.shadows.occluded` for the shadow rays that a linear sphere blocks: no square root and no division, only the signs of
-/// the quadratic at both ends of the segment and, where both are outside, at its vertex.
+/// Sets `batch.shadows.occluded` for the shadow rays that a linear sphere blocks.
 #[inline(always)]
 pub fn spheres_occluded<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
     let shadows = &mut batch.shadows;
-    let zero = F::splat(0.0);
     for i in (0..shadows.len).step_by(F::N) {
         let ray = Ray::<F>::new(
             V3::load(&shadows.origin, i),
@@ -116,35 +115,44 @@ pub fn spheres_occluded<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
         );
         let t_max = F::load(&shadows.t_max[i..]);
         let target = F::U::load(&shadows.target_primitive[i..]);
-        let mut occluded = F::M::from_bits(0);
-        for s in &spheres.large {
-            let own = ray.leaves(s.id);
-            let (beta, gamma) = lifted(s, &ray, own);
-            let k = F::splat(s.k);
-            let kt = k * t_max;
-            let at_end = (kt + beta + beta).fma(t_max, gamma);
-            let disc = beta.fma(beta, -(k * gamma));
-            // On its own sphere the ray starts inside when it heads inwards: there the sign is beta's.
-            let starts_inside = F::select(own, beta, gamma).lt(zero);
-            let ends_inside = at_end.lt(zero);
-            let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);
-            let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-            occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
-        }
-        for s in &spheres.small {
-            let own = ray.leaves(s.id);
-            let (middle, disc) = centred(s, &ray, own);
-            let end = t_max - middle;
-            // On its own sphere, where both squares are the same, the ray starts inside when it heads inwards.
-            let inwards = zero.lt(middle);
-            let starts_inside = (middle * middle).lt(disc) | (own & inwards);
-            let ends_inside = (end * end).lt(disc);
-            let dips = inwards & zero.lt(end) & zero.lt(disc);
-            let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-            occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
-        }
+        let occluded = blocked(spheres, &ray, t_max, target);
         F::U::select(occluded, F::U::splat(1), F::U::splat(0)).store(&mut shadows.occluded[i..]);
     }
+}
+
+/// Whether a linear sphere other than the target blocks the way up to `t_max`: no square root and no division, only the signs of the
+/// quadratic at both ends of the segment and, where both are outside, at its vertex.
+#[inline(always)]
+pub fn blocked<F: Lanes>(spheres: &SphereTable, ray: &Ray<F>, t_max: F, target: F::U) -> F::M {
+    let zero = F::splat(0.0);
+    let mut occluded = F::M::from_bits(0);
+    for s in &spheres.large {
+        let own = ray.leaves(s.id);
+        let (beta, gamma) = lifted(s, ray, own);
+        let k = F::splat(s.k);
+        let kt = k * t_max;
+        let at_end = (kt + beta + beta).fma(t_max, gamma);
+        let disc = beta.fma(beta, -(k * gamma));
+        // On its own sphere the ray starts inside when it heads inwards: there the sign is beta's.
+        let starts_inside = F::select(own, beta, gamma).lt(zero);
+        let ends_inside = at_end.lt(zero);
+        let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);
+        let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
+        occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
+    }
+    for s in &spheres.small {
+        let own = ray.leaves(s.id);
+        let (middle, disc) = centred(s, ray, own);
+        let end = t_max - middle;
+        // On its own sphere, where both squares are the same, the ray starts inside when it heads inwards.
+        let inwards = zero.lt(middle);
+        let starts_inside = (middle * middle).lt(disc) | (own & inwards);
+        let ends_inside = (end * end).lt(disc);
+        let dips = inwards & zero.lt(end) & zero.lt(disc);
+        let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
+        occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
+    }
+    occluded
 }
 
 #[cfg(test)]

@@ -225,8 +225,7 @@ fn report(
         + counters.shadow_rays
         + counters.segments
         + counters.photon_rays
-        + counters.chain_rays
-        + counters.record_rays;
+        + counters.chain_rays;
     let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
@@ -256,7 +255,6 @@ fn report(
             segments: counters.segments,
             photons: counters.photon_rays,
             chains: counters.chain_rays,
-            records: counters.record_rays,
             total: rays,
             per_second: per_second(rays),
         },

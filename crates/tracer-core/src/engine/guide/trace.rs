@@ -1,6 +1,6 @@
 //! Photons from the lights to where they are stored.
 
-use super::map::Photon;
+use super::cells::Photon;
 use super::plan::{Plan, Share};
 use crate::engine::batch::{Batch, Columns, PATHS, Photons};
 use crate::engine::kernels::Kernels;
@@ -20,25 +20,25 @@ pub struct PhotonPass {
     pub count: usize,
 }
 
-/// Sends the photons of these shares; what was stored, in an order that depends on nothing else.
+/// Sends so many photons; what was stored, in an order that depends on nothing else.
 pub fn photons(
     scene: &Scene,
     kernels: &Kernels,
     plan: &Plan,
     seed: u32,
-    shares: &[Share],
+    count: u32,
     workers: &[Mutex<Worker>],
 ) -> Vec<Photon> {
-    let batches = batches(shares);
+    let batches = batches(plan.shares(count));
     let trace = |k: usize, worker: &mut Worker| trace(scene, kernels, plan, seed, &batches[k], &mut worker.batch);
     each(workers, batches.len(), trace).into_iter().flatten().collect()
 }
 
 /// Cuts the shares into batches of at most [`PATHS`] photons.
-fn batches(shares: &[Share]) -> Vec<Vec<Share>> {
+fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
     let mut batches = vec![Vec::new()];
     let mut room = PATHS as u32;
-    for &share in shares {
+    for share in shares {
         let mut rest = share;
         while rest.count > 0 {
             if room == 0 {
@@ -88,9 +88,7 @@ fn store(photons: &Photons, stored: &mut Vec<Photon>) {
     let at = |columns: &Columns, k: usize| [columns[0][k], columns[1][k], columns[2][k]];
     stored.extend((0..photons.len).map(|k| Photon {
         point: at(&photons.point, k),
-        normal: at(&photons.normal, k),
-        flux: at(&photons.flux, k),
-        events: photons.events[k],
-        pair: photons.pair[photons.slot[k] as usize],
+        from: at(&photons.from, k),
+        flux: photons.flux[k],
     }));
 }

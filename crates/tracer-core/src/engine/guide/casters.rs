@@ -15,8 +15,6 @@ pub struct Caster {
     pub radius: f64,
     /// The largest share of light that it passes on.
     pub reflectance: f64,
-    /// Mean size of its objects: the detail of what they cast.
-    pub size: f64,
 }
 
 /// The casters, and which objects belong to them.
@@ -46,8 +44,7 @@ impl Casters {
                 let reflectance = passes_on(scene, sphere.material);
                 if reflectance > 0.0 {
                     let (center, radius) = (sphere.center, sphere.radius);
-                    objects
-                        .push(Object { caster: Caster { center, radius, reflectance, size: radius }, id: id as u32 });
+                    objects.push(Object { caster: Caster { center, radius, reflectance }, id: id as u32 });
                 }
             }
         }
@@ -58,7 +55,7 @@ impl Casters {
                     None => (center, radius),
                     Some(rows) => placed(rows, center, radius),
                 };
-                let caster = Caster { center, radius, reflectance, size: radius };
+                let caster = Caster { center, radius, reflectance };
                 objects.push(Object { caster, id: (spheres + id) as u32 });
             }
         }
@@ -176,14 +173,13 @@ fn cluster(objects: &mut [Object], most: usize, list: &mut Vec<Caster>, of_objec
         return;
     }
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (mut reflectance, mut size) = (0.0f64, 0.0);
+    let mut reflectance = 0.0f64;
     for Object { caster, id } in objects.iter() {
         (low, high) = (low.min(caster.center - caster.radius), high.max(caster.center + caster.radius));
         reflectance = reflectance.max(caster.reflectance);
-        size += caster.size / objects.len() as f64;
         of_object[*id as usize] = list.len() as u32;
     }
     let center = (low + high) * 0.5;
     let radius = objects.iter().map(|o| o.caster.center.distance(center) + o.caster.radius).fold(0.0, f64::max);
-    list.push(Caster { center, radius, reflectance, size });
+    list.push(Caster { center, radius, reflectance });
 }

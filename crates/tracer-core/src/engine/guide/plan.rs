@@ -1,26 +1,11 @@
-//! Which photons are sent from which light at which caster, how far they are told apart, and whether it is worth it.
+//! Which photons are sent from which light at which caster.
 
-use super::aims::Aims;
 use super::casters::{Caster, Casters};
 use crate::sampling::sampler::hash3;
 use crate::scene::{Light, Scene, Sphere};
 
 /// Pairs of a light and a caster; more casters than this allows are taken together: each pair needs several photons.
 const MOST_PAIRS: usize = 256;
-/// A light that fills more of a caster's sky than this (squared sine of half the angle) is found well enough by scattered rays.
-const WIDE_LIGHT: f64 = 0.4;
-/// The smallest and the largest radius within which photons are gathered in the first map, in sizes of their caster: what lies around it
-/// is hardly larger.
-const DETAIL: [f64; 2] = [0.01, 0.5];
-/// The largest such radius, in render space, where scenes are about one in size. Four times as much made half the noise where photons
-/// are few, and took 1 % of the light from a floor along a mirror wall.
-const LARGEST_RADIUS: f64 = 1.0 / 64.0;
-/// Photons are gathered within one of so many radii, each half the one before.
-pub const LEVELS: usize = 10;
-/// Share of the photons that goes to the pairs by size and distance alone, whatever the trial says.
-const UNTRIED: f64 = 0.25;
-/// A scene whose casters pass on less of its light than this to diffuse surfaces does without a map.
-const LEAST_SHARE: f64 = 4e-5;
 
 /// How the light's surface and the caster's sphere lie to each other.
 pub mod aim {
@@ -53,12 +38,8 @@ pub struct PairTable {
     pub caster: Vec<u32>,
     /// One of [`aim`].
     pub aim: Vec<u32>,
-    /// Flux of a photon per cosine and solid angle of the cone it was chosen from ([`aim::EVERYWHERE`]: the flux).
+    /// Flux of a photon, were it the only one, per cosine and solid angle of the cone it was chosen from ([`aim::EVERYWHERE`]: the flux).
     pub flux: [Vec<f32>; 3],
-    /// The smallest radius, below [`LEVELS`].
-    pub finest: Vec<u32>,
-    /// The largest radius, at most `finest`.
-    pub coarsest: Vec<u32>,
     /// A number of its own, for its photons' random choices.
     pub key: Vec<u32>,
 }
@@ -69,63 +50,42 @@ struct Pair {
     caster: usize,
     aim: u32,
     cap: f64,
-    finest: u32,
-    coarsest: u32,
     /// By size and distance alone: what may arrive, but for a factor.
     weight: f64,
     /// Probability that a photon is of this pair.
     probability: f64,
 }
 
-/// What does not change from map to map.
+/// What does not change from guide to guide.
 pub struct Plan {
     /// The pairs.
     pub pairs: PairTable,
     /// Probability of each pair, and where its count starts (a number in 0 .. 1).
     chances: Vec<(f64, f64)>,
-    /// Photons of a map, about.
-    pub photons: u32,
     /// Which casters the objects are.
     pub casters: Casters,
-    /// Per light: photons carry its light to diffuse surfaces over mirrors and glass, so scattered rays do not.
-    pub mapped: Vec<u32>,
-    /// Radii of the first map.
-    pub radii: [f32; LEVELS],
-    /// What rays from diffuse surfaces are aimed at.
-    pub aims: Aims,
+    /// Flux of all lights, the sum of the channels.
+    pub power: f32,
 }
 
 impl Plan {
-    /// By size and distance alone; `None` where no light is to be carried.
+    /// By size and distance; `None` where no light can reach anything over a caster.
     pub fn new(scene: &Scene, seed: u32) -> Option<Plan> {
         if scene.max_bounces == 0 || scene.lights.is_empty() {
             return None;
         }
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
-        let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
-        let photons = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
         let mut pairs = Vec::new();
-        let mut mapped = vec![0; scene.lights.len().max(1)];
+        let mut all = 0.0;
         for (k, Light::Sphere { sphere, radiance }) in scene.lights.iter().enumerate() {
             let light = scene.spheres.get(*sphere as usize)?;
             let power = radiance.iter().sum::<f64>() * light.radius * light.radius;
-            let first = pairs.len();
-            // How much of the casters' sky it fills, by what they get.
-            let (mut filled, mut sum) = (0.0, 0.0);
+            all += power * 4.0 * std::f64::consts::PI * std::f64::consts::PI;
             for (c, caster) in casters.list.iter().enumerate() {
                 let mut pair = Pair::new(light, caster);
                 pair.weight *= power;
                 (pair.light, pair.caster) = (k, c);
-                let distance = caster.center.distance(light.center).max(caster.radius);
-                let sine = light.radius / distance;
-                filled += pair.weight * (sine * sine).min(1.0);
-                sum += pair.weight;
                 pairs.push(pair);
-            }
-            if sum > 0.0 && filled < WIDE_LIGHT * sum {
-                mapped[k] = 1;
-            } else {
-                pairs.truncate(first);
             }
         }
         let sum: f64 = pairs.iter().map(|p| p.weight).sum();
@@ -136,61 +96,25 @@ impl Plan {
         for pair in &mut pairs {
             pair.probability = pair.weight / sum;
         }
-        Some(Plan::of_pairs(scene, seed, &pairs, photons, casters, mapped))
-    }
-
-    fn of_pairs(scene: &Scene, seed: u32, pairs: &[Pair], photons: u32, casters: Casters, mapped: Vec<u32>) -> Plan {
         let unit = |k: usize, c: u32| (hash3(seed, k as u32, c) >> 40) as f64 / f64::from(1u32 << 24);
-        Plan {
-            pairs: PairTable::new(scene, seed, pairs, &casters, photons),
+        Some(Plan {
+            pairs: PairTable::new(scene, seed, &pairs, &casters),
             chances: pairs.iter().enumerate().map(|(k, p)| (p.probability, unit(k, 0x0ff5_e700))).collect(),
-            photons,
             casters,
-            mapped,
-            aims: Aims::new(scene),
-            radii: std::array::from_fn(|l| (LARGEST_RADIUS / f64::from(1u32 << l)) as f32),
-        }
+            power: all as f32,
+        })
     }
 
-    /// The plan after a trial that stored so much flux of each pair, summed over channels: photons go where they arrived. `None`:
-    /// it is not worth it.
-    pub fn after(mut self, scene: &Scene, stored_of_pairs: &[f64]) -> Option<Plan> {
-        let stored: f64 = stored_of_pairs.iter().sum();
-        let emitted: f64 = scene
-            .lights
-            .iter()
-            .filter_map(|Light::Sphere { sphere, radiance }| {
-                let radius = scene.spheres.get(*sphere as usize)?.radius;
-                let area = 4.0 * std::f64::consts::PI * radius * radius;
-                Some(std::f64::consts::PI * area * radiance.iter().sum::<f64>())
-            })
-            .sum();
-        let worth = stored.is_finite() && stored > LEAST_SHARE * emitted;
-        if !worth {
-            return None;
-        }
-        for (k, (probability, _)) in self.chances.iter_mut().enumerate() {
-            let new = UNTRIED.mul_add(*probability, (1.0 - UNTRIED) * stored_of_pairs[k] / stored);
-            let scale = (*probability / new) as f32;
-            self.pairs.flux.iter_mut().for_each(|channel| channel[k] *= scale);
-            *probability = new;
-        }
-        Some(self)
-    }
-
-    /// The photons of map `map`: per pair that has any, its first index among the pair's photons of all maps, and how many. On
-    /// average a pair gets its probability times `photons`, without drawing lots: its count so far is never off by one.
-    pub fn shares(&self, map: u32, photons: u32) -> impl Iterator<Item = Share> + '_ {
-        let photons = f64::from(photons);
+    /// Which of so many photons each pair has, without drawing lots.
+    pub fn shares(&self, photons: u32) -> impl Iterator<Item = Share> + '_ {
         self.chances.iter().enumerate().filter_map(move |(pair, &(probability, start))| {
-            let until = |map: u32| (f64::from(map) * photons).mul_add(probability, start).floor() as u64;
-            let (first, end) = (until(map), until(map + 1));
-            (end > first).then_some(Share { pair: pair as u32, first: first as u32, count: (end - first) as u32 })
+            let count = f64::from(photons).mul_add(probability, start).floor() as u32;
+            (count > 0).then_some(Share { pair: pair as u32, first: 0, count })
         })
     }
 }
 
-/// Photons of a pair in a map.
+/// Photons of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Share {
     /// The pair.
@@ -216,26 +140,12 @@ impl Pair {
         let sine = (caster.radius / distance.max(caster.radius)).min(1.0);
         let sin2 = sine * sine;
         let cone = sin2 / (1.0 + (1.0 - sin2).sqrt());
-        let last = LEVELS as u32 - 1;
-        let level = |detail: f64| {
-            let fits = |level: &u32| LARGEST_RADIUS <= detail * caster.size * f64::from(1u32 << level);
-            (0..last).find(fits).unwrap_or(last)
-        };
-        Pair {
-            light: 0,
-            caster: 0,
-            aim,
-            cap: cap.clamp(0.0, 2.0),
-            finest: level(DETAIL[0]),
-            coarsest: level(DETAIL[1]),
-            weight: cone * caster.reflectance,
-            probability: 0.0,
-        }
+        Pair { light: 0, caster: 0, aim, cap: cap.clamp(0.0, 2.0), weight: cone * caster.reflectance, probability: 0.0 }
     }
 }
 
 impl PairTable {
-    fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters, photons: u32) -> PairTable {
+    fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters) -> PairTable {
         let mut table = PairTable::default();
         for (k, pair) in pairs.iter().enumerate() {
             let Light::Sphere { sphere, radiance } = scene.lights[pair.light];
@@ -246,7 +156,7 @@ impl PairTable {
             let area = two_pi * light.radius * light.radius * pair.cap;
             // Over all directions about the normal with a cosine, on both sides: 2 pi in all.
             let directions = if pair.aim == aim::EVERYWHERE { two_pi } else { 1.0 };
-            let density = f64::from(photons) * pair.probability;
+            let density = pair.probability;
             for axis_index in 0..3 {
                 table.light_center[axis_index].push(light.center[axis_index] as f32);
                 table.caster_center[axis_index].push(caster.center[axis_index] as f32);
@@ -259,8 +169,6 @@ impl PairTable {
             table.caster_radius2.push((caster.radius * caster.radius * 1.000_01) as f32);
             table.caster.push(pair.caster as u32);
             table.aim.push(pair.aim);
-            table.finest.push(pair.finest);
-            table.coarsest.push(pair.coarsest);
             table.key.push(hash3(seed, k as u32, 0xca05_71c5) as u32);
         }
         table
