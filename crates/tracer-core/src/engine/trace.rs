@@ -11,6 +11,7 @@ use super::stages::shade::ROULETTE_FROM;
 use super::stages::share::Round;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
+use crate::level::Level;
 use crate::scene::Scene;
 use std::time::Instant;
 
@@ -180,12 +181,12 @@ pub fn closest(scene: &Scene, kernels: &Kernels, camera: bool, batch: &mut Batch
     let Some(accel) = &scene.accel else { return };
     kernels.reach_closest(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
-    closest_in_tree(accel, camera, batch);
+    closest_in_tree(accel, kernels.level(), camera, batch);
     batch.watch.lap(Stage::Closest);
 }
 
 /// What the tree holds nearer than the spheres that every ray tests, for the paths in `batch.active`.
-fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
+fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch) {
     let (paths, len) = (&batch.paths, batch.paths.len);
     let mut hits = Hits {
         t: &mut batch.hits.t[..len],
@@ -196,10 +197,10 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
-        let counters = accel.closest_counted(&rays, active, &mut hits, coherence);
+        let counters = accel.closest_at::<true>(level, &rays, active, &mut hits, coherence);
         batch.watch.statistics.closest.add(active.len(), &counters);
     } else {
-        accel.closest(&rays, active, &mut hits, coherence);
+        accel.closest_at::<false>(level, &rays, active, &mut hits, coherence);
     }
 }
 
@@ -221,10 +222,10 @@ fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut 
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive[..], &shadows.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
-        let counters = accel.occluded_counted(&rays, active, &mut occlusion, coherence);
+        let counters = accel.occluded_at::<true>(kernels.level(), &rays, active, &mut occlusion, coherence);
         batch.watch.statistics.occluded.add(active.len(), &counters);
     } else {
-        accel.occluded(&rays, active, &mut occlusion, coherence);
+        accel.occluded_at::<false>(kernels.level(), &rays, active, &mut occlusion, coherence);
     }
     batch.watch.lap(Stage::Occluded);
 }

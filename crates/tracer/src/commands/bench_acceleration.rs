@@ -52,7 +52,7 @@ pub(super) fn run(args: &BenchAccelerationArgs, shell: &Shell) -> Result<ExitCod
     let mut hashes = Vec::new();
     for way in &WAYS {
         desc.render.acceleration = way.acceleration;
-        let scene = compile(&desc, args.scene.diagnostics, shell)?.with_level(level);
+        let scene = compile(&desc, args.scene.diagnostics, shell)?;
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let watch = Watch::new(shell, pixels * u64::from(scene.samples));
         let options = RenderOptions {

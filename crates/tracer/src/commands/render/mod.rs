@@ -35,7 +35,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     check_memory(crop, desc.render.clamp.is_some())?;
     let read = clock.lap();
 
-    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?.with_level(level));
+    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
     let compiled = clock.lap();
 
     interrupt::listen(*shell)?;
