@@ -12,7 +12,7 @@ fn check(text: &str, syntax: Syntax, faults: &[(&str, &str, &str)]) {
         assert!(text.contains(right), "{right} is not in the scene");
         let broken = text.replacen(right, fault, 1);
         let found = errors(&broken, syntax);
-        let codes: Vec<&str> = found.iter().map(|fault| fault.code).collect();
+        let codes: Vec<&str> = found.iter().map(|fault| fault.code.as_str()).collect();
         if codes != [*code] {
             let messages: Vec<String> = found.iter().map(|fault| format!("{} {}", fault.code, fault.message)).collect();
             wrong.push(format!("{right} -> {fault}: expected {code}, found {messages:#?}"));

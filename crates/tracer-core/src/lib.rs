@@ -48,7 +48,7 @@ pub mod sampling;
 pub mod scene;
 pub mod texture;
 
-pub use compile::{CompileError, CompileTimes, compile};
+pub use compile::{CompileError, CompileTimes, check_files, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{Costs, Counters, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render};
 pub use film::{Clamped, Crop, Film};

@@ -12,7 +12,7 @@ const EXAMPLES: &str = "\
 Examples:
   tracer new ball.ron && tracer render ball.ron -o ball.png
   tracer render scenes/fig4.ron -o fig4.png --samples 100
-Exit codes: 0 done, 1 failed, 2 wrong scene or command line, 130 interrupted";
+Exit codes: 0 done, 1 failed, 2 wrong input, 130 interrupted (TERM 143, HUP 129)";
 
 /// No headings and no empty lines but these: help fits a screen of 24 lines.
 const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n\n{subcommands}\n\n{options}{after-help}";
@@ -242,6 +242,9 @@ pub struct ConvertArgs {
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
     /// How to print what is wrong: text or json
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]

@@ -84,7 +84,7 @@ impl Shell {
                 0 => String::new(),
                 n => format!(", {}", counted(n, "warning")),
             };
-            let code = shown.iter().find(|d| d.severity == Severity::Error).map_or("", |d| d.code);
+            let code = shown.iter().find(|d| d.severity == Severity::Error).map_or("", |d| d.code.as_str());
             self.error(&anyhow::anyhow!(
                 "{name}: {}{warnings}; `tracer explain {code}` tells more",
                 counted(errors, "error")

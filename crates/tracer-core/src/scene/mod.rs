@@ -30,6 +30,7 @@ pub(crate) use texture::{TextureTable, TextureUse};
 
 use scene_format::Diagnostic;
 use scene_format::desc::Acceleration;
+use std::path::PathBuf;
 
 /// No primitive, no instance.
 pub const NONE: u32 = u32::MAX;
@@ -85,6 +86,9 @@ pub struct Scene {
     pub acceleration: Acceleration,
     /// How the film is developed unless the caller says otherwise.
     pub look: crate::develop::Look,
+    /// All files that were read for it, as they were opened: meshes, their MTL files, placements, textures. The scene's own is not among
+    /// them.
+    pub files: Vec<PathBuf>,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,
     /// How long compiling took.

@@ -65,7 +65,7 @@ pub(super) fn run(args: &BenchAccelerationArgs, shell: &Shell) -> Result<ExitCod
         let seconds = start.elapsed().as_secs_f64();
         watch.finish();
         if *film.samples().start() < scene.samples {
-            return Ok(ExitCode::from(exit::INTERRUPTED));
+            return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
         }
         let image = develop(&film, &scene.look);
         hashes.push(sha256(&encode(&image, Encoding::Png(Bits::Sixteen), &Provenance::default())?));
