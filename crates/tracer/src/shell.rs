@@ -40,6 +40,11 @@ impl Shell {
         Shell { color, terminal: terminal && !dumb, verbosity }
     }
 
+    /// The same, but silent about warnings.
+    pub fn without_warnings(&self) -> Self {
+        Shell { verbosity: Verbosity::Quiet, ..*self }
+    }
+
     /// Whether somebody watches: progress is for them alone.
     pub fn is_watched(&self) -> bool {
         self.terminal && self.verbosity > Verbosity::Quiet
