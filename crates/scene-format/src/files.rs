@@ -1,7 +1,8 @@
 //! The files that a text names, as far as it could be read: they can be looked at even where the text itself is wrong.
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span};
 use std::collections::HashSet;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -45,7 +46,27 @@ impl Files {
         }
     }
 
-    pub fn into_list(self) -> Vec<NamedFile> {
-        self.list
+    /// Those that stand on none of these lines.
+    pub fn outside(self, lines: &[Range<u32>]) -> Vec<NamedFile> {
+        let mut list = self.list;
+        list.retain(|file| file.span.source != 0 || !lines.iter().any(|line| line.contains(&file.span.start)));
+        list
     }
+}
+
+/// The lines on which the syntax is broken: where a quote is missing, what stands between two others is no name.
+pub(crate) fn broken_lines(text: &str, faults: &[Diagnostic]) -> Vec<Range<u32>> {
+    let bytes = text.as_bytes();
+    let mut lines: Vec<Range<u32>> = Vec::new();
+    for fault in faults.iter().filter(|fault| fault.code.is_syntax() && fault.span.source == 0) {
+        let at = (fault.span.start as usize).min(bytes.len());
+        // A long line with many faults is looked for once.
+        if lines.iter().any(|line| line.contains(&(at as u32))) {
+            continue;
+        }
+        let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+        let end = bytes[at..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |newline| at + newline + 1);
+        lines.push(start as u32..end as u32);
+    }
+    lines
 }

@@ -3,7 +3,7 @@
 use crate::codes;
 use crate::desc::{Scene, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
-use crate::files::NamedFile;
+use crate::files::{self, NamedFile};
 use crate::follow_ups;
 use crate::overrides::{self, Override};
 use crate::read;
@@ -123,8 +123,7 @@ fn load_string(
     // What could be read of a wrong scene is of no use any more, and may be large.
     let scene = scene.filter(|_| sink.errors == 0);
     let mut diagnostics = sink.diagnostics;
-    // Where a quote is missing, what stands between two others is no name.
-    let quotes = diagnostics.iter().any(|fault| fault.code == codes::UNCLOSED_TEXT);
+    let broken = files::broken_lines(&sources[0].text, &diagnostics);
     if sink.errors > 1 {
         follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
             let mut sink = Sink::default();
@@ -152,7 +151,7 @@ fn load_string(
             Ok(Loaded { scene, warnings: diagnostics })
         }
         None => {
-            let files = if quotes { Vec::new() } else { sink.files.into_list() };
+            let files = sink.files.outside(&broken);
             Err(LoadError::Invalid { diagnostics, sources, files })
         }
     }

@@ -65,10 +65,11 @@ mod tests {
         let faults = check_files(&files, folder.path(), &sources);
         let codes: Vec<&str> = faults.iter().map(|fault| fault.code.as_str()).collect();
         assert_eq!(codes, ["E0510", "E0501", "E0501", "E0501"]);
-        // Where a quote is missing, nobody knows what is a name.
+        // Where a quote is missing, nobody knows what on that line is a name.
         let Err(LoadError::Invalid { files, .. }) = load(&text.replacen("broken.obj\"", "broken.obj", 1)) else {
             panic!("a quote is missing")
         };
-        assert!(files.is_empty(), "{files:?}");
+        let left: Vec<&Path> = files.iter().map(|file| &*file.path).collect();
+        assert_eq!(left, [Path::new("none.png")]);
     }
 }

@@ -1,4 +1,4 @@
-//! Where random choices come from ([`sampler`]) and how they become directions and points ([`warp`]).
+//! Where random choices come from ([`sampler`]) and how they become directions and points (`warp`).
 
 pub mod sampler;
 pub(crate) mod sobol;

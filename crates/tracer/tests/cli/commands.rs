@@ -155,31 +155,6 @@ fn codes_are_explained() {
     sandbox.run(&["explain", "E9999"]).ends(2).says(&["E9999", "lists all codes"]);
 }
 
-/// Every code that the engine can give is explained.
-#[test]
-fn codes_of_the_engine_are_known() {
-    let mut folders = vec![repository().join("crates/tracer-core/src")];
-    let mut codes = std::collections::BTreeSet::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let text = std::fs::read_to_string(&path).expect("text");
-                codes.extend(text.split('"').filter(|word| is_code(word)).map(str::to_owned));
-            }
-        }
-    }
-    assert!(codes.len() > 5, "{codes:?}");
-    let unknown: Vec<&String> = codes.iter().filter(|code| scene_format::explain(code).is_none()).collect();
-    assert!(unknown.is_empty(), "{unknown:?}");
-}
-
-fn is_code(word: &str) -> bool {
-    word.len() == 5 && word.starts_with(['E', 'W']) && word[1..].bytes().all(|byte| byte.is_ascii_digit())
-}
-
 #[test]
 fn schema_completions_and_man_pages() {
     let sandbox = Sandbox::new();
