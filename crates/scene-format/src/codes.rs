@@ -389,9 +389,10 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BLACK_PICTURE "W0301" "the picture will be black";
-    /// A Blinn-Phong material, as the formula of the report has it, reflects more light than it gets: under light from everywhere up to
-    /// albedo * (1 + 3 * specular) times as much, along its normal. The picture is what the formula says, but no real surface looks
-    /// like it, and rooms full of it get too bright. `energy_conserving: true` takes the lobe that never does.
+    /// A Blinn-Phong material, as the formula of the report has it, reflects more light than it gets: under light from
+    /// everywhere up to albedo * (1 + 3 * specular) times as much, along its normal. The picture is what the formula
+    /// says, but no real surface looks like it, and rooms full of it get too bright. `energy_conserving: true` takes
+    /// the lobe that never does.
     ///
     /// ```text
     /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5)                              // up to 2.24 times

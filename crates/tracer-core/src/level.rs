@@ -1,9 +1,11 @@
-//! Which vector instructions the stages and the tree are run with: found once, at run time. The picture is the same for all of them.
+//! Which vector instructions the stages and the tree are run with: found once, at run time. The picture is the same
+//! for all of them.
 
 use std::fmt;
 
-/// A way of running the stages and the tree that this CPU was seen to support. Values come from [`Level::available`], [`Level::best`],
-/// [`Level::from_lanes`], [`Level::from_name`] and [`Level::PORTABLE`] only: that one exists proves that the CPU has its instructions.
+/// A way of running the stages and the tree that this CPU was seen to support. Values come from [`Level::available`],
+/// [`Level::best`], [`Level::from_lanes`], [`Level::from_name`] and [`Level::PORTABLE`] only: that one exists proves
+/// that the CPU has its instructions.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Level(Set);
 

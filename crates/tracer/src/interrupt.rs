@@ -1,5 +1,5 @@
-//! Ctrl-C and the signals that end a program (SIGTERM of `docker stop`, Slurm or systemd, SIGHUP of a lost ssh): the first one is a wish that
-//! the rendering heeds, the second one ends the program.
+//! Ctrl-C and the signals that end a program (SIGTERM of `docker stop`, Slurm or systemd, SIGHUP of a lost ssh): the
+//! first one is a wish that the rendering heeds, the second one ends the program.
 
 use crate::failure::{Failure, exit};
 use crate::shell::{Shell, Verbosity};

@@ -41,7 +41,8 @@ fn all_scenes_compile() {
             Ok(scene) => scene,
             Err(error) => panic!("{}: {error}", path.display()),
         };
-        // The report's Blinn-Phong reflects more than it gets, which is said of its figures; nothing else is odd anywhere.
+        // The report's Blinn-Phong reflects more than it gets, which is said of its figures; nothing else is odd
+        // anywhere.
         let figure = path.parent().is_some_and(|folder| folder.ends_with("scenes"));
         let odd: Vec<_> = scene.warnings.iter().filter(|w| !figure || w.code != codes::REFLECTS_MORE).collect();
         assert!(odd.is_empty(), "{}: {odd:?}", path.display());

@@ -36,8 +36,8 @@ scene_enum! {
         };
         /// A smooth dielectric: exact Fresnel reflection and refraction.
         Transparent as "a transparent material" {
-            /// Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air bubble in water
-            /// is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
+            /// Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air
+            /// bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
             ior: Spanned<f64> => Rule::within("an index of refraction", 0.01, 100.0);
             /// Share of refracted light that passes each surface, per channel.
             transmittance: Box<Spanned<Color>> = Spanned::from([1.0; 3]) => Rule::share();

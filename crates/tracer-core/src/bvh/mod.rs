@@ -151,8 +151,8 @@ impl Accel {
         build::build(geometry, acceleration)
     }
 
-    /// The same structure, asked by itself with another level of vector instructions. The answers are the same. A rendering asks
-    /// with its own level ([`RenderOptions::level`](crate::RenderOptions::level)).
+    /// The same structure, asked by itself with another level of vector instructions. The answers are the same. A
+    /// rendering asks with its own level ([`RenderOptions::level`](crate::RenderOptions::level)).
     #[must_use]
     pub fn with_level(mut self, level: Level) -> Self {
         self.level = level;
@@ -185,7 +185,8 @@ impl Accel {
         self.closest_at::<true>(self.level, rays, active, hits, coherence)
     }
 
-    /// As [`closest`](Self::closest) with the instructions of a level, whatever the structure's own; says what it did where `COUNT`.
+    /// As [`closest`](Self::closest) with the instructions of a level, whatever the structure's own; says what it did
+    /// where `COUNT`.
     pub(crate) fn closest_at<const COUNT: bool>(
         &self,
         level: Level,
@@ -221,7 +222,8 @@ impl Accel {
         self.occluded_at::<true>(self.level, rays, active, occlusion, coherence)
     }
 
-    /// As [`occluded`](Self::occluded) with the instructions of a level, whatever the structure's own; says what it did where `COUNT`.
+    /// As [`occluded`](Self::occluded) with the instructions of a level, whatever the structure's own; says what it
+    /// did where `COUNT`.
     pub(crate) fn occluded_at<const COUNT: bool>(
         &self,
         level: Level,

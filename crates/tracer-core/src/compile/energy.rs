@@ -1,7 +1,7 @@
 //! Materials that reflect more than they get: Blinn-Phong as the report has it.
 //!
-//! With f = albedo ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h) under light of radiance one from everywhere, what goes back along
-//! wo is albedo ((1 - s) + s G(wo)). G is largest along the normal, where the integral is closed:
+//! With f = albedo ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h) under light of radiance one from everywhere,
+//! what goes back along wo is albedo ((1 - s) + s G(wo)). G is largest along the normal, where the integral is closed:
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
@@ -34,7 +34,8 @@ struct Loud<'d> {
     span: Span,
 }
 
-/// Warns of the materials of the scene that reflect more than they get: once, with the loudest first. `texture`: a picture by its path.
+/// Warns of the materials of the scene that reflect more than they get: once, with the loudest first. `texture`: a
+/// picture by its path.
 pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>, diagnostics: &mut Diagnostics) {
     let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
     let inline = desc.objects.iter().filter_map(|object| {
@@ -96,8 +97,8 @@ fn digits(times: f64) -> String {
 mod tests {
     use super::*;
 
-    /// The glossy lobe's integral over half vectors, at an angle of the viewer: h is drawn by (alpha + 2)/(2 pi) cos^(alpha+1) theta_h, and
-    /// dw_i = 4 (wo.h) dw_h.
+    /// The glossy lobe's integral over half vectors, at an angle of the viewer: h is drawn by (alpha + 2)/(2 pi)
+    /// cos^(alpha+1) theta_h, and dw_i = 4 (wo.h) dw_h.
     fn integrated(exponent: f64, cos_o: f64) -> f64 {
         const STEPS: usize = 400;
         let sin_o = libm::sqrt(1.0 - cos_o * cos_o);
@@ -141,8 +142,11 @@ mod tests {
                 "kept": BlinnPhong(albedo: 1, exponent: 1000, specular: 0.5, energy_conserving: true),
             },
             objects: [
-                Sphere(center: (0, 0, 0), radius: 1, material: "loud"), Sphere(center: (3, 0, 0), radius: 1, material: "loud"),
-                Sphere(center: (0, 3, 0), radius: 1, material: "meek"), Sphere(center: (0, 9, 0), radius: 1, material: "high"), Sphere(center: (3, 3, 0), radius: 1, material: "kept"),
+                Sphere(center: (0, 0, 0), radius: 1, material: "loud"),
+                Sphere(center: (3, 0, 0), radius: 1, material: "loud"),
+                Sphere(center: (0, 3, 0), radius: 1, material: "meek"),
+                Sphere(center: (0, 9, 0), radius: 1, material: "high"),
+                Sphere(center: (3, 3, 0), radius: 1, material: "kept"),
             ],
         )"#;
         let loaded = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, Path::new("."), &[]);

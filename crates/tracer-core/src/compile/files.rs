@@ -10,9 +10,9 @@ use scene_format::{Diagnostics, FileKind, NamedFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it, and its faults come
-/// back in order of their places in the scene. Warnings are left out, as the scene is going to be mended first. Paths start from
-/// `base_dir`; `sources` are the texts that the places point into.
+/// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it,
+/// and its faults come back in order of their places in the scene. Warnings are left out, as the scene is going to be
+/// mended first. Paths start from `base_dir`; `sources` are the texts that the places point into.
 pub fn check_files(files: &[NamedFile], base_dir: &Path, sources: &[Source]) -> Diagnostics {
     let faults: Vec<Diagnostics> = files.par_iter().map(|file| faults_of(file, &base_dir.join(&file.path))).collect();
     let mut faults: Diagnostics = faults.into_iter().flatten().collect();

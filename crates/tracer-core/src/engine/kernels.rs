@@ -145,7 +145,8 @@ impl Kernels {
 
     /// Camera rays for those items of the batch that have a bit set in `items`.
     pub fn camera(&self, scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
-        // SAFETY: `new` took the entry of a `Level`, which exists only where the CPU has the features that the entry was compiled for.
+        // SAFETY: `new` took the entry of a `Level`, which exists only where the CPU has the features that the entry
+        // was compiled for.
         unsafe { (self.camera)(scene, seed, items, batch) }
     }
     /// The nearest of the spheres that every ray tests.

@@ -1,8 +1,8 @@
 //! Eight lanes in a 256-bit register (AVX2, FMA).
 //!
-//! Why the instructions are there: these functions are inlined into the entry functions of `engine/kernels.rs`, which are compiled for the
-//! features and called only for a [`Level`](crate::Level), and a `Level` exists only where the CPU was seen to have them. No code
-//! outside this crate can name the types. That is "the CPU" in the comments below.
+//! Why the instructions are there: these functions are inlined into the entry functions of `engine/kernels.rs`, which
+//! are compiled for the features and called only for a [`Level`](crate::Level), and a `Level` exists only where the
+//! CPU was seen to have them. No code outside this crate can name the types. That is "the CPU" in the comments below.
 
 use super::{Bits, Lanes, Mask};
 use std::arch::x86_64::*;

@@ -5,8 +5,9 @@
 //! `min` and `max` are defined as `a < b ? a : b` and `a > b ? a : b` (what MINPS and MAXPS do).
 //!
 //! Every generic function over lanes carries `#[inline(always)]`: it has to end up inside an entry function with
-//! `#[target_feature]` (see `engine/kernels.rs`), because only there do the `std::arch` intrinsics become instructions. One forgotten
-//! attribute costs a factor of 20 and changes no bit; `tests/vector_code.rs` looks at the disassembly for it.
+//! `#[target_feature]` (see `engine/kernels.rs`), because only there do the `std::arch` intrinsics become
+//! instructions. One forgotten attribute costs a factor of 20 and changes no bit; `tests/vector_code.rs` looks at the
+//! disassembly for it.
 
 mod array;
 #[cfg(target_arch = "x86_64")]

@@ -13,7 +13,7 @@
 //! the points of each Z-ordered group of 2^k pixels is stratified in 2^(n + k) strata per dimension, for every n at once: the
 //! picture after N samples does not depend on how many were asked for. Two pairs that belong together are four dimensions of
 //! one sequence (over samples; over pixels they are padded): the directions of the first two bounces the first four of Sobol', pixel and
-//! lens, which move the same edges and are often used alone, a pair and its companion ([`companion_index`]). For the
+//! lens, which move the same edges and are often used alone, a pair and its companion (`companion_index`). For the
 //! directions that was tried, too: in a furnace three bounces had 1.5 times the error.
 //!
 //! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per tile.

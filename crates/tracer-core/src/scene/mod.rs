@@ -1,5 +1,6 @@
-//! The compiled scene: `Sync`, in render space, made by [`crate::compile`] and only read afterwards. Rendering it cannot fail. Its public fields
-//! are for looking at: the engine reads the tables beside them, which are not built anew when a field is changed.
+//! The compiled scene: `Sync`, in render space, made by [`crate::compile`] and only read afterwards. Rendering it
+//! cannot fail. Its public fields are for looking at: the engine reads the tables beside them, which are not built
+//! anew when a field is changed.
 //!
 //! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of two so
 //! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
@@ -86,8 +87,8 @@ pub struct Scene {
     pub acceleration: Acceleration,
     /// How the film is developed unless the caller says otherwise.
     pub look: crate::develop::Look,
-    /// All files that were read for it, as they were opened: meshes, their MTL files, placements, textures. The scene's own is not among
-    /// them.
+    /// All files that were read for it, as they were opened: meshes, their MTL files, placements, textures. The
+    /// scene's own is not among them.
     pub files: Vec<PathBuf>,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,

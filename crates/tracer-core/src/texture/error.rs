@@ -62,7 +62,9 @@ impl TextureError {
                     Some(name) => format!("{self}, but looks like `{name}`"),
                     None => self.to_string(),
                 };
-                Diagnostic::error(codes::BROKEN_TEXTURE, span, what).expected("a PNG or JPEG file").hint("convert the picture to PNG")
+                Diagnostic::error(codes::BROKEN_TEXTURE, span, what)
+                    .expected("a PNG or JPEG file")
+                    .hint("convert the picture to PNG")
             }
             TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
                 let message = match self {

@@ -9,7 +9,8 @@ use tracer_core::bvh::{
     Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
 };
 
-/// The levels of this processor whose code for the tree differs: hardware fma alone runs the portable code, only sooner.
+/// The levels of this processor whose code for the tree differs: hardware fma alone runs the portable code, only
+/// sooner.
 pub fn levels() -> Vec<Level> {
     let mut levels = Level::available();
     levels.dedup_by_key(|level| level.lanes());

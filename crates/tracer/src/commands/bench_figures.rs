@@ -1,5 +1,5 @@
-//! `tracer bench-figures`: the nine figures of the report at its own settings, by the plain path tracer as there; its times beside ours.
-//! The scenes themselves ask for the engine at its best.
+//! `tracer bench-figures`: the nine figures of the report at its own settings, by the plain path tracer as there; its
+//! times beside ours. The scenes themselves ask for the engine at its best.
 
 use crate::args::{BenchFiguresArgs, DiagnosticsForm, SceneArgs};
 use crate::failure::{Failure, exit};

@@ -79,7 +79,8 @@ pub fn is_one_file(a: &Path, b: &Path) -> bool {
     a == b || matches!((real_place(a), real_place(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Sees that nothing is replaced by what is not a picture or a report of one: those are made anew again and again, a scene is written once.
+/// Sees that nothing is replaced by what is not a picture or a report of one: those are made anew again and again, a
+/// scene is written once.
 ///
 /// # Errors
 /// When something of that name is there, and `force` does not allow to replace it.

@@ -129,9 +129,10 @@ fn a_material_that_adds_light_is_told() {
     let sandbox = Sandbox::new();
     let scene = |more: &str| {
         format!(
-            "Scene(background: 1, render: Render(samples: 1), image: Image(width: 8, height: 8), materials: {{ \"loud\": \
-             BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5{more}) }}, objects: [Sphere(center: (0, 0, 0), radius: 1, \
-             material: \"loud\"), Sphere(center: (3, 0, 0), radius: 1, material: \"loud\")])"
+            "Scene(background: 1, render: Render(samples: 1), image: Image(width: 8, height: 8), materials: {{ \
+             \"loud\": BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5{more}) }}, objects: [\
+             Sphere(center: (0, 0, 0), radius: 1, material: \"loud\"), \
+             Sphere(center: (3, 0, 0), radius: 1, material: \"loud\")])"
         )
     };
     sandbox.write("loud.ron", scene(""));

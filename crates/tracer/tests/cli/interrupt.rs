@@ -75,7 +75,8 @@ fn the_second_leaves_at_once() {
     assert_eq!(sandbox.files(), ["a.png", "scene.ron", "slow.ron"]);
 }
 
-/// What `docker stop`, Slurm and systemd send, and what a lost ssh does: the picture so far is written, and the exit code tells which it was.
+/// What `docker stop`, Slurm and systemd send, and what a lost ssh does: the picture so far is written, and the exit
+/// code tells which it was.
 #[test]
 fn the_system_may_end_it_too() {
     for (signal, code) in [("TERM", 143), ("HUP", 129)] {

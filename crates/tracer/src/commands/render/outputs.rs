@@ -52,7 +52,8 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     Ok(outputs)
 }
 
-/// Sees that nothing that is written would replace what the scene was made of: its own file, meshes, materials, placements, pictures.
+/// Sees that nothing that is written would replace what the scene was made of: its own file, meshes, materials,
+/// placements, pictures.
 ///
 /// # Errors
 /// The first place that would.
