@@ -17,7 +17,7 @@ fn main() -> ExitCode {
             println!("{} objects, {} lights", loaded.scene.objects.len(), loaded.scene.lights.len());
             ExitCode::SUCCESS
         }
-        Err(LoadError::Invalid { diagnostics, sources }) => {
+        Err(LoadError::Invalid { diagnostics, sources, .. }) => {
             eprint!("{}", render::text(&diagnostics, &sources, render::Style::default()));
             ExitCode::from(2)
         }

@@ -3,11 +3,60 @@
 //! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never changes its
 //! meaning and is never given twice.
 
+use std::fmt;
+
+/// The code of a diagnostic: one of the constants of this module.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Code(&'static str);
+
+impl Code {
+    /// `E0301`
+    pub const fn as_str(self) -> &'static str {
+        self.0
+    }
+
+    /// Whether it is one of the syntax: brackets, quotes, commas.
+    pub fn is_syntax(self) -> bool {
+        self.0.starts_with("E01")
+    }
+
+    /// Whether it is one of a value that is of the right kind but out of its range.
+    pub fn is_value(self) -> bool {
+        self.0.starts_with("E03")
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.0)
+    }
+}
+
+impl fmt::Debug for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self.0, f)
+    }
+}
+
+/// As it is written: for tests and scripts.
+impl PartialEq<str> for Code {
+    fn eq(&self, other: &str) -> bool {
+        self.0 == other
+    }
+}
+
+/// As it is written: for tests and scripts.
+impl PartialEq<&str> for Code {
+    fn eq(&self, other: &&str) -> bool {
+        self.0 == *other
+    }
+}
+
 /// A code with its documentation.
 #[derive(Clone, Copy, Debug)]
-pub struct Code {
+pub struct Entry {
     /// `E0301`
-    pub code: &'static str,
+    pub code: Code,
     /// What is wrong, in general.
     pub title: &'static str,
     /// Why it is wrong and how to mend it; Markdown, with an example of the fault where one helps.
@@ -19,12 +68,12 @@ macro_rules! codes {
         $(
             #[doc = concat!($code, ": ", $title, ".\n")]
             $(#[doc = $doc])+
-            pub const $NAME: &str = $code;
+            pub const $NAME: Code = Code($code);
         )+
 
         /// All codes in order.
-        pub const CODES: &[Code] = &[
-            $( Code { code: $code, title: $title, text: concat!($($doc, "\n"),+) }, )+
+        pub const CODES: &[Entry] = &[
+            $( Entry { code: $NAME, title: $title, text: concat!($($doc, "\n"),+) }, )+
         ];
     };
 }
@@ -35,8 +84,8 @@ pub fn explain(code: &str) -> Option<&'static str> {
 }
 
 /// The entry of a code.
-pub fn find(code: &str) -> Option<&'static Code> {
-    CODES.iter().find(|known| known.code.eq_ignore_ascii_case(code.trim()))
+pub fn find(code: &str) -> Option<&'static Entry> {
+    CODES.iter().find(|known| known.code.as_str().eq_ignore_ascii_case(code.trim()))
 }
 
 codes! {
@@ -340,6 +389,16 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BLACK_PICTURE "W0301" "the picture will be black";
+    /// A Blinn-Phong material, as the formula of the report has it, reflects more light than it gets: under light from
+    /// everywhere up to albedo * (1 + 3 * specular) times as much, along its normal. The picture is what the formula
+    /// says, but no real surface looks like it, and rooms full of it get too bright. `energy_conserving: true` takes
+    /// the lobe that never does.
+    ///
+    /// ```text
+    /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5)                              // up to 2.24 times
+    /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5, energy_conserving: true)
+    /// ```
+    REFLECTS_MORE "W0302" "a material reflects more than it gets";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -1,6 +1,6 @@
 //! Diagnostics as data: what is wrong, where, what was expected, and how to mend it.
 
-use crate::codes;
+use crate::codes::{self, Code};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -119,7 +119,7 @@ pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
     /// Stable, documented code (`E0102`).
-    pub code: &'static str,
+    pub code: Code,
     /// One sentence: what is wrong.
     pub message: String,
     /// The very value, in the scene file.
@@ -140,7 +140,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error with code, place and message; the rest empty.
-    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn error(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             severity: Severity::Error,
             code,
@@ -156,7 +156,7 @@ impl Diagnostic {
     }
 
     /// A warning with code, place and message; the rest empty.
-    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn warning(code: Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
     }
 

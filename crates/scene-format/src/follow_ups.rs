@@ -140,7 +140,7 @@ impl Repair {
 fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
     const CLOSERS: [&str; 3] = [")", "]", "}"];
     const OPENERS: [&str; 3] = ["(", "[", "{"];
-    let syntax = |fault: &&Diagnostic| fault.code.starts_with("E01") && fault.span.source == 0;
+    let syntax = |fault: &&Diagnostic| fault.code.is_syntax() && fault.span.source == 0;
     let mut lines: Vec<Range<usize>> = Vec::new();
     let mut places: Vec<Span> = errors
         .iter()

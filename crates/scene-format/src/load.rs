@@ -3,6 +3,7 @@
 use crate::codes;
 use crate::desc::{Scene, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::files::{self, NamedFile};
 use crate::follow_ups;
 use crate::overrides::{self, Override};
 use crate::read;
@@ -41,6 +42,8 @@ pub enum LoadError {
         diagnostics: Diagnostics,
         /// The texts that their spans point into.
         sources: Vec<Source>,
+        /// The files that the text names, as far as it could be read, for whoever looks at them in the same run.
+        files: Vec<NamedFile>,
     },
 }
 
@@ -120,6 +123,7 @@ fn load_string(
     // What could be read of a wrong scene is of no use any more, and may be large.
     let scene = scene.filter(|_| sink.errors == 0);
     let mut diagnostics = sink.diagnostics;
+    let broken = files::broken_lines(&sources[0].text, &diagnostics);
     if sink.errors > 1 {
         follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
             let mut sink = Sink::default();
@@ -146,7 +150,10 @@ fn load_string(
             };
             Ok(Loaded { scene, warnings: diagnostics })
         }
-        None => Err(LoadError::Invalid { diagnostics, sources }),
+        None => {
+            let files = sink.files.outside(&broken);
+            Err(LoadError::Invalid { diagnostics, sources, files })
+        }
     }
 }
 
@@ -174,7 +181,11 @@ fn too_large(name: String) -> LoadError {
         Diagnostic::error(codes::TOO_LARGE, Span { source: 0, start: 0, end: 0 }, "the scene file is too large")
             .expected(format!("at most {gib} GiB"))
             .hint("put many copies of a mesh into a placements file beside the scene");
-    LoadError::Invalid { diagnostics: vec![diagnostic], sources: vec![Source { name, text: String::new() }] }
+    LoadError::Invalid {
+        diagnostics: vec![diagnostic],
+        sources: vec![Source { name, text: String::new() }],
+        files: Vec::new(),
+    }
 }
 
 fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
@@ -189,7 +200,11 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
     )
     .expected("a text file in UTF-8")
     .hint("save it as UTF-8 in your editor");
-    LoadError::Invalid { diagnostics: vec![diagnostic], sources: vec![Source { name: name.to_owned(), text }] }
+    LoadError::Invalid {
+        diagnostics: vec![diagnostic],
+        sources: vec![Source { name: name.to_owned(), text }],
+        files: Vec::new(),
+    }
 }
 
 #[cfg(test)]

@@ -416,7 +416,7 @@ impl Setter {
         .hint("set it as a whole")
     }
 
-    fn fault(&self, code: &'static str, step: &Step<'_>, message: impl Into<String>) -> Diagnostic {
+    fn fault(&self, code: codes::Code, step: &Step<'_>, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(code, span(self.source, step.start, step.end), message)
     }
 }

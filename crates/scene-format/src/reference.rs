@@ -42,7 +42,7 @@ Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }
 - Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML; kinds without fields are `Name` and `\"Name\"`.
 - Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
 - Comments: `//` and `/* */` in RON, `#` in TOML.
-- The words `include`, `vars`, `repeat` and `keyframes` are kept for later versions.
+- The words `include`, `vars`, `repeat`, `keyframes`, `for` and `let` are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`.
 

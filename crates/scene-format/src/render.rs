@@ -172,7 +172,7 @@ fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>]) -> Group<'g> {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code));
+    let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code.as_str()));
     if let Some(source) = lines.get(diagnostic.span.source as usize) {
         for element in snippets(diagnostic, source) {
             group = match element {
@@ -324,7 +324,7 @@ pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
                 Severity::Error => "error",
                 Severity::Warning => "warning",
             },
-            code: diagnostic.code,
+            code: diagnostic.code.as_str(),
             message: &diagnostic.message,
             path: &diagnostic.path,
             place: place(diagnostic.span),
@@ -378,7 +378,7 @@ mod tests {
 
     fn faults(source: &str) -> (Vec<Diagnostic>, Vec<Source>) {
         match load_str("s.ron", source, Syntax::Ron, Path::new(""), &[]) {
-            Err(LoadError::Invalid { diagnostics, sources }) => (diagnostics, sources),
+            Err(LoadError::Invalid { diagnostics, sources, .. }) => (diagnostics, sources),
             other => panic!("the scene is wrong: {other:?}"),
         }
     }

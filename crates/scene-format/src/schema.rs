@@ -1,6 +1,7 @@
 //! The schema: types, fields, defaults, units and ranges as data. The macros of `words` make it from the Rust types and their doc
 //! comments; the reader, the writer, the JSON Schema and the reference all go by it.
 
+use crate::files::FileKind;
 use crate::form::Form;
 use crate::tree::{Item, Kind};
 
@@ -103,6 +104,52 @@ impl StructDef {
     }
 }
 
+impl Type {
+    /// The most fields that a struct within it has.
+    const fn most_fields(&self) -> usize {
+        match self {
+            Type::List(inner) | Type::Map(inner) | Type::Optional(inner) => inner.most_fields(),
+            Type::Struct(def) => def.most_fields(),
+            Type::Enum(def) => {
+                let (mut most, mut k) = (0, 0);
+                while k < def.variants.len() {
+                    let of_variant = match &def.variants[k].content {
+                        Content::Unit => 0,
+                        Content::Value(field) => field.kind.most_fields(),
+                        Content::Struct(def) => def.most_fields(),
+                    };
+                    most = if of_variant > most { of_variant } else { most };
+                    k += 1;
+                }
+                most
+            }
+            Type::OneOf(kinds) => {
+                let (mut most, mut k) = (0, 0);
+                while k < kinds.len() {
+                    let of_kind = kinds[k].most_fields();
+                    most = if of_kind > most { of_kind } else { most };
+                    k += 1;
+                }
+                most
+            }
+            _ => 0,
+        }
+    }
+}
+
+impl StructDef {
+    /// The most fields that it or a struct within it has. A `const fn`, so without iterators.
+    pub const fn most_fields(&self) -> usize {
+        let (mut most, mut k) = (self.fields.len(), 0);
+        while k < self.fields.len() {
+            let of_field = self.fields[k].kind.most_fields();
+            most = if of_field > most { of_field } else { most };
+            k += 1;
+        }
+        most
+    }
+}
+
 impl EnumDef {
     pub fn variant(&self, name: &str) -> Option<&'static VariantDef> {
         self.variants.iter().find(|variant| variant.name == name)
@@ -132,6 +179,8 @@ pub(crate) struct Rule {
     pub direction: bool,
     /// Three numbers that are a colour, and so may be written in other ways.
     pub color: bool,
+    /// What a file that is named here holds.
+    pub file: Option<FileKind>,
 }
 
 /// Coordinates and lengths beyond this are refused: products of them would leave the range of 32-bit floats.
@@ -148,7 +197,13 @@ impl Rule {
         unit: "",
         direction: false,
         color: false,
+        file: None,
     };
+
+    /// The name of a file.
+    pub const fn file(kind: FileKind) -> Rule {
+        Rule { file: Some(kind), ..Rule::ANY }
+    }
 
     /// A value from `low` to `high`, both allowed.
     pub const fn within(what: &'static str, low: f64, high: f64) -> Rule {

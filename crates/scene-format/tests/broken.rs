@@ -21,7 +21,7 @@ fn output(path: &Path, syntax: Syntax) -> String {
             assert!(!loaded.warnings.is_empty(), "nothing is wrong with {name}");
             render::text(&loaded.warnings, &loaded.scene.sources, render::Style::default())
         }
-        Err(LoadError::Invalid { diagnostics, sources }) => {
+        Err(LoadError::Invalid { diagnostics, sources, .. }) => {
             render::text(&diagnostics, &sources, render::Style::default())
         }
         Err(error) => panic!("{name}: {error}"),
@@ -75,7 +75,7 @@ fn seven_faults_are_exactly_seven_diagnostics() {
         else {
             panic!("seven faults")
         };
-        let mut codes: Vec<&str> = diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
+        let mut codes: Vec<&str> = diagnostics.iter().map(|diagnostic| diagnostic.code.as_str()).collect();
         codes.sort_unstable();
         assert_eq!(codes, ["E0104", "E0201", "E0202", "E0203", "E0204", "E0301", "E0401"], "{extension}");
     }

@@ -98,7 +98,7 @@ fn exercise(bytes: Vec<u8>, syntax: Syntax, overrides: &[Override]) -> bool {
             }
             true
         }
-        Err(LoadError::Invalid { diagnostics, sources }) => {
+        Err(LoadError::Invalid { diagnostics, sources, .. }) => {
             assert!(!diagnostics.is_empty());
             for fault in &diagnostics {
                 let source = &sources[fault.span.source as usize];

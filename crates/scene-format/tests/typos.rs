@@ -73,7 +73,7 @@ fn suggested(text: &str, syntax: Syntax, edits: usize, random: &mut Random) -> (
             }) else {
                 continue;
             };
-            if !matches!(fault.code, "E0201" | "E0204") {
+            if !matches!(fault.code.as_str(), "E0201" | "E0204") {
                 continue;
             }
             typos += 1;

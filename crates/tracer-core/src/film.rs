@@ -5,7 +5,7 @@
 //! (Demmel and Nguyen: Fast Reproducible Floating-Point Summation, 2013, with two fixed bins).
 
 use crate::engine::{Costs, Counters, Statistics};
-use crate::lanes::level::Level;
+use crate::level::Level;
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
 

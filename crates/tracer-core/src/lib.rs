@@ -32,21 +32,25 @@
 
 // What a test expects reaches no picture: it may be computed by std. See clippy.toml.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
+#![deny(unsafe_code)]
+#![warn(clippy::undocumented_unsafe_blocks)]
 
 pub mod bvh;
 mod compile;
 mod develop;
 mod engine;
 mod film;
-pub mod lanes;
-pub mod math;
+pub(crate) mod lanes;
+mod level;
+pub(crate) mod math;
 pub mod mesh;
 pub mod sampling;
 pub mod scene;
 pub mod texture;
 
-pub use compile::{CompileError, CompileTimes, compile};
+pub use compile::{CompileError, CompileTimes, check_files, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{Costs, Counters, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render};
 pub use film::{Clamped, Crop, Film};
+pub use level::Level;
 pub use scene::Scene;

@@ -2,9 +2,9 @@
 
 mod bvh_support;
 
-use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build};
+use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build, levels};
 use glam::DVec3;
-use tracer_core::bvh::{Accel, Geometry, Level, NONE, TrianglePart, part_hit, triangle_hit};
+use tracer_core::bvh::{Accel, Geometry, NONE, TrianglePart, part_hit, triangle_hit};
 
 /// Closest of all triangles, or of their parts, by the scalar formula; ties go to the smaller id.
 fn brute_force(mesh: &Mesh, parts: &[TrianglePart], batch: &Batch) -> Vec<Hit> {
@@ -70,7 +70,7 @@ fn check(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
     let expected = brute_force(mesh, &parts(&geometry), batch);
     for mode in MODES {
         let mut accel = build(&geometry, mode);
-        for level in Level::supported() {
+        for level in levels() {
             accel = accel.with_level(level);
             for coherence in COHERENCES {
                 let case = format!("{mode:?}, {}, {coherence:?}", level.name());

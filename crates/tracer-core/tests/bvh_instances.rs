@@ -2,10 +2,11 @@
 
 mod bvh_support;
 
-use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build};
+use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, Random, build, levels};
 use glam::{Affine3A, DVec3, Quat, Vec3};
+use tracer_core::Level;
 use tracer_core::bvh::{
-    Accel, Acceleration, BuildError, Geometry, InstanceGeometry, Level, MeshGeometry, NONE, SphereGeometry, sphere_hit,
+    Accel, Acceleration, BuildError, Geometry, InstanceGeometry, MeshGeometry, NONE, SphereGeometry, sphere_hit,
 };
 
 /// The rows of a map.
@@ -36,7 +37,7 @@ fn spheres(count: usize, random: &mut Random) -> Vec<SphereGeometry> {
 
 /// Modes, levels and packings agree to the bit; returns what they find.
 fn check(geometry: &Geometry, batch: &Batch) -> Vec<Hit> {
-    let reference = build(geometry, Acceleration::None).with_level(Level::supported()[0]);
+    let reference = build(geometry, Acceleration::None).with_level(Level::PORTABLE);
     let expected = batch.closest(&reference, COHERENCES[0]);
     let beyond: Vec<f32> = expected.iter().map(|hit| hit.t.next_up()).collect();
     let upto: Vec<f32> = expected.iter().map(|hit| hit.t).collect();
@@ -44,7 +45,7 @@ fn check(geometry: &Geometry, batch: &Batch) -> Vec<Hit> {
     let behind = batch.occluded(&reference, &beyond, &expected, COHERENCES[0]);
     for mode in MODES {
         let mut accel = build(geometry, mode);
-        for level in Level::supported() {
+        for level in levels() {
             accel = accel.with_level(level);
             for coherence in COHERENCES {
                 let case = format!("{mode:?}, {}, {coherence:?}", level.name());

@@ -2,8 +2,8 @@
 
 mod bvh_support;
 
-use bvh_support::{Batch, COHERENCES, HERE, MISS, Mesh, Random, build};
-use tracer_core::bvh::{Accel, Acceleration, Geometry, InstanceGeometry, Level};
+use bvh_support::{Batch, COHERENCES, HERE, MISS, Mesh, Random, build, levels};
+use tracer_core::bvh::{Accel, Acceleration, Geometry, InstanceGeometry};
 
 fn build_with(threads: usize, geometry: &Geometry) -> Accel {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -56,7 +56,7 @@ fn answers_are_the_same_in_any_batch_and_order() {
         batch.push(random.cube(), random.cube());
     }
     let all = batch.closest(&accel, COHERENCES[0]);
-    for level in Level::supported() {
+    for level in levels() {
         accel = accel.with_level(level);
         for coherence in COHERENCES {
             let mut order: Vec<u32> = (0..1000).collect();

@@ -11,7 +11,7 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
 fn diagnostic(path: &Path) -> [String; 4] {
     let error = load(path).expect_err("an error").to_diagnostic(Span::NONE);
     let folder = format!("{}/", path.parent().expect("folder").display());
-    [error.code.to_owned(), error.message.replace(&folder, ""), error.expected, error.hint]
+    [error.code.to_string(), error.message.replace(&folder, ""), error.expected, error.hint]
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn triangles_know_their_materials_in_order_of_first_use() {
     assert_eq!(names, ["b b", "a"]);
     assert_eq!(mesh.materials[1].material, diffuse([1.0, 0.0, 0.0]));
     assert_eq!(
-        mesh.warnings.last().map(|warning| (warning.code, warning.message.as_str())),
+        mesh.warnings.last().map(|warning| (warning.code.as_str(), warning.message.as_str())),
         Some((
             "W0511",
             "the mesh's own materials are taken only in part: no such material (the default is taken): ghost"

@@ -284,7 +284,7 @@ fn files_without_triangles_say_what_they_have() {
 fn diagnostics_carry_code_line_and_expectation() {
     let span = scene_format::diagnostic::Span { source: 0, start: 3, end: 9 };
     let broken = parse(b"v 0 0\n", MeshFormat::Obj, Path::new("m.obj")).expect_err("broken").to_diagnostic(span);
-    assert_eq!((broken.code, broken.span), ("E0510", span));
+    assert_eq!((broken.code.as_str(), broken.span), ("E0510", span));
     assert_eq!(broken.message, "the mesh file is broken: a number is missing at the end of the line");
     assert!(broken.expected.starts_with("a vertex"));
     assert_eq!(broken.elsewhere.map(|place| (place.path, place.line)), Some(("m.obj".into(), 1)));

@@ -6,8 +6,7 @@
 
 use scene_format::{Syntax, load_str};
 use std::path::Path;
-use tracer_core::lanes::level::Level;
-use tracer_core::{Film, Look, RenderOptions, Scene, Unobserved, compile, develop, render};
+use tracer_core::{Film, Level, Look, RenderOptions, Scene, Unobserved, compile, develop, render};
 
 /// Files of a scene: a smooth mesh with texture coordinates and a picture of 2 x 2 texels.
 fn furnished() -> tempfile::TempDir {
@@ -61,14 +60,14 @@ fn from_text_to_a_picture_at_every_level() {
     let folder = furnished();
     let scene = scene(folder.path());
     let look = |film: &Film| develop(film, &Look::default()).display;
-    let expected = look(&film(&scene, 1, Level::Portable));
+    let expected = look(&film(&scene, 1, Level::PORTABLE));
     assert_eq!(expected.len(), 8 * 8 * 3);
     assert!(expected.iter().all(|x| (0.0..=1.0).contains(x)) && expected.iter().any(|x| *x != expected[0]));
-    for level in Level::available().into_iter().filter(|level| *level != Level::Portable) {
+    for level in Level::available().into_iter().filter(|level| *level != Level::PORTABLE) {
         let film = film(&scene, 1, level);
         assert_eq!(film.counters.dropped, 0);
         assert!(look(&film) == expected, "{}", level.name());
     }
     // Two threads share the film.
-    assert!(look(&film(&scene, 2, Level::Portable)) == expected);
+    assert!(look(&film(&scene, 2, Level::PORTABLE)) == expected);
 }

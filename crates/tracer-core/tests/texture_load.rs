@@ -34,7 +34,7 @@ fn linear(bytes: &[u8]) -> Vec<[f32; 3]> {
 /// The error's code, message, expectation and hint.
 fn error(bytes: &[u8]) -> [String; 4] {
     let error = decode(bytes, Path::new("p.png")).expect_err("an error").to_diagnostic(Span::NONE);
-    [error.code.to_owned(), error.message, error.expected, error.hint]
+    [error.code.to_string(), error.message, error.expected, error.hint]
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn sixteen_bit_pictures_are_decoded_to_linear_light() {
 fn alpha_is_ignored_with_a_warning_unless_it_is_opaque() {
     let clear = picture(&png(&[10, 20, 30, 0, 40, 50, 60, 255], 2, 1, Color::Rgba8));
     assert_eq!(clear.texels, Texels::Srgb8(vec![0x1e140a, 0x3c3228]));
-    let warnings: Vec<_> = clear.warnings.iter().map(|w| (w.code, w.message.as_str())).collect();
+    let warnings: Vec<_> = clear.warnings.iter().map(|w| (w.code.as_str(), w.message.as_str())).collect();
     assert_eq!(warnings, [("W0520", "the picture has an alpha channel, which is ignored")]);
     let opaque = picture(&png(&[10, 20, 30, 255], 1, 1, Color::Rgba8));
     assert!(opaque.warnings.is_empty());

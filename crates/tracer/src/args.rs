@@ -12,10 +12,10 @@ const EXAMPLES: &str = "\
 Examples:
   tracer new ball.ron && tracer render ball.ron -o ball.png
   tracer render scenes/fig4.ron -o fig4.png --samples 100
-Exit codes: 0 done, 1 failed, 2 wrong scene or command line, 130 interrupted";
+Exit codes: 0 done, 1 failed, 2 wrong input, 130 interrupted (TERM 143, HUP 129)";
 
 /// No headings and no empty lines but these: help fits a screen of 24 lines.
-const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n\n{subcommands}\n\n{options}{after-help}";
+const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n\n{options}{after-help}";
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -57,6 +57,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
+    /// Time the report's figures at its own settings
+    BenchFigures(BenchFiguresArgs),
     /// Explain the code of a diagnostic
     Explain(ExplainArgs),
     /// Print the JSON Schema of scene files
@@ -242,6 +244,9 @@ pub struct ConvertArgs {
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
     /// How to print what is wrong: text or json
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]
@@ -313,6 +318,29 @@ pub struct BenchAccelerationArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
+    /// Threads [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+const FIGURES_EXAMPLES: &str = "\
+Examples:
+  tracer bench-figures
+  tracer bench-figures 1 4 --samples 10";
+
+/// `tracer bench-figures`
+#[derive(Debug, Args)]
+#[command(after_help = FIGURES_EXAMPLES)]
+pub struct BenchFiguresArgs {
+    /// Figures, 1 to 9 [default: all]
+    #[arg(value_name = "FIGURE", value_parser = clap::value_parser!(u8).range(1..=9))]
+    pub figures: Vec<u8>,
+    /// Folder of fig1.ron to fig9.ron
+    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
+    pub scenes: PathBuf,
+    /// At most so many samples per pixel, for a quick look
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    pub samples: Option<u32>,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

@@ -14,6 +14,10 @@ pub mod exit {
     pub const WRONG: u8 = 2;
     /// Interrupted by Ctrl-C.
     pub const INTERRUPTED: u8 = 130;
+    /// Ended by SIGTERM.
+    pub const TERMINATED: u8 = 143;
+    /// Ended by SIGHUP: the terminal is gone.
+    pub const HUNG_UP: u8 = 129;
 }
 
 /// Why a command did not do what it was asked for.

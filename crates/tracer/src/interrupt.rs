@@ -1,30 +1,80 @@
-//! Ctrl-C: the first one is a wish that the rendering heeds, the second one ends the program.
+//! Ctrl-C and the signals that end a program (SIGTERM of `docker stop`, Slurm or systemd, SIGHUP of a lost ssh): the
+//! first one is a wish that the rendering heeds, the second one ends the program.
 
 use crate::failure::{Failure, exit};
 use crate::shell::{Shell, Verbosity};
 use crate::write::remove_unfinished;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
-static COUNT: AtomicUsize = AtomicUsize::new(0);
+/// The exit code that the first signal asks for; 0: there was none.
+static ASKED: AtomicU8 = AtomicU8::new(0);
 
-/// From now on Ctrl-C is a wish.
+/// A terminal that goes away sends SIGHUP, and so does the shell in it: within this time it is one wish.
+#[cfg(unix)]
+const ONE_HANGUP: Duration = Duration::from_secs(1);
+
+/// From now on Ctrl-C and the signals that end a program are wishes.
 ///
 /// # Errors
 /// When the system lets nobody listen.
 pub fn listen(shell: Shell) -> Result<(), Failure> {
-    ctrlc::set_handler(move || {
-        if COUNT.fetch_add(1, Ordering::SeqCst) > 0 {
-            remove_unfinished();
-            std::process::exit(exit::INTERRUPTED.into());
-        }
-        if shell.verbosity > Verbosity::Quiet {
-            shell.say("\nstopping; another Ctrl-C leaves at once, without a picture");
-        }
-    })
-    .map_err(|error| Failure::could_not(format!("cannot listen for Ctrl-C: {error}")))
+    by_system(shell).map_err(|error| Failure::could_not(format!("cannot listen for Ctrl-C: {error}")))
 }
 
-/// Whether there was a Ctrl-C.
-pub fn requested() -> bool {
-    COUNT.load(Ordering::SeqCst) > 0
+#[cfg(unix)]
+fn by_system(shell: Shell) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut asked = vec![SIGINT, SIGTERM];
+    // Whoever started us with `nohup` wants no end when the terminal goes.
+    if !ignores_hangup() {
+        asked.push(SIGHUP);
+    }
+    let mut signals = signal_hook::iterator::Signals::new(asked)?;
+    std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
+        let mut hung_up: Option<Instant> = None;
+        for signal in &mut signals {
+            match signal {
+                SIGTERM => came("SIGTERM", exit::TERMINATED, shell),
+                SIGHUP if hung_up.is_some_and(|at| at.elapsed() < ONE_HANGUP) => {}
+                SIGHUP => {
+                    hung_up = Some(Instant::now());
+                    came("SIGHUP", exit::HUNG_UP, shell);
+                }
+                _ => came("Ctrl-C", exit::INTERRUPTED, shell),
+            }
+        }
+    })?;
+    Ok(())
+}
+
+/// Whether SIGHUP was ignored when the program started, as Linux tells; elsewhere it is taken to be heeded.
+#[cfg(unix)]
+fn ignores_hangup() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & 1 == 1)
+}
+
+#[cfg(not(unix))]
+fn by_system(shell: Shell) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(move || came("Ctrl-C", exit::INTERRUPTED, shell))
+}
+
+/// Heeds a signal.
+fn came(name: &str, code: u8, shell: Shell) {
+    if ASKED.compare_exchange(0, code, Ordering::SeqCst, Ordering::SeqCst).is_err() {
+        remove_unfinished();
+        std::process::exit(code.into());
+    }
+    if shell.verbosity > Verbosity::Quiet {
+        shell.say(&format!("\nstopping; another {name} leaves at once, without a picture"));
+    }
+}
+
+/// The exit code that a signal has asked for, if there was one.
+pub fn requested() -> Option<u8> {
+    Some(ASKED.load(Ordering::SeqCst)).filter(|&code| code != 0)
 }

@@ -1,7 +1,7 @@
 //! TRACER_LANES: how many lanes the engine computes in. The picture is the same for all.
 
 use crate::failure::Failure;
-use tracer_core::lanes::level::Level;
+use tracer_core::Level;
 
 /// The level that the environment asks for; the best when it asks for none.
 ///

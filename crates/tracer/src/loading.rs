@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::memory::human;
 use crate::shell::{Shell, counted};
 use scene_format::desc::{Material, MaterialRef, Object, Placements};
-use scene_format::diagnostic::Source;
+use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
 use std::io::Read;
@@ -36,7 +36,10 @@ pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     } else {
         scene_format::load_with(&args.scene, &overrides)
     };
-    let Loaded { scene, warnings } = loaded.map_err(|error| told(error, args.diagnostics, shell))?;
+    let Loaded { scene, warnings } = loaded.map_err(|error| {
+        let folder = if is_dash(&args.scene) { Path::new("") } else { args.scene.parent().unwrap_or(Path::new("")) };
+        told(with_faults_of_files(error, folder), args.diagnostics, shell)
+    })?;
     shell.diagnostics(&warnings, &scene.sources, args.diagnostics);
     shell.explain(|| {
         let source = scene.sources.first().map_or("", |source| source.name.as_str());
@@ -44,6 +47,16 @@ pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
         format!("read {source}: {objects}, {lights}")
     });
     Ok(scene)
+}
+
+/// The same error with what is wrong with the files that the text names: all mistakes in one run.
+fn with_faults_of_files(mut error: LoadError, folder: &Path) -> LoadError {
+    if let LoadError::Invalid { diagnostics, sources, files } = &mut error {
+        diagnostics.extend(tracer_core::check_files(files, folder, sources));
+        diagnostics.sort_by_key(|fault| fault.span);
+        keep_first(diagnostics);
+    }
+    error
 }
 
 /// Why a file that is there is no scene, told by its extension: a picture or a mesh.
@@ -108,7 +121,7 @@ pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
 /// The failure of a scene that did not load, after its diagnostics were printed.
 pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
     match error {
-        LoadError::Invalid { diagnostics, sources } => {
+        LoadError::Invalid { diagnostics, sources, .. } => {
             shell.diagnostics(&diagnostics, &sources, form);
             Failure::WrongScene
         }

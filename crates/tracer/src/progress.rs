@@ -41,7 +41,7 @@ impl Observer for Watch {
         if let Some(bar) = &self.bar {
             bar.set_position(progress.samples_done);
         }
-        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if interrupt::requested().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

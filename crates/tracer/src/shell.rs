@@ -40,6 +40,11 @@ impl Shell {
         Shell { color, terminal: terminal && !dumb, verbosity }
     }
 
+    /// The same, but silent about warnings.
+    pub fn without_warnings(&self) -> Self {
+        Shell { verbosity: Verbosity::Quiet, ..*self }
+    }
+
     /// Whether somebody watches: progress is for them alone.
     pub fn is_watched(&self) -> bool {
         self.terminal && self.verbosity > Verbosity::Quiet
@@ -84,7 +89,7 @@ impl Shell {
                 0 => String::new(),
                 n => format!(", {}", counted(n, "warning")),
             };
-            let code = shown.iter().find(|d| d.severity == Severity::Error).map_or("", |d| d.code);
+            let code = shown.iter().find(|d| d.severity == Severity::Error).map_or("", |d| d.code.as_str());
             self.error(&anyhow::anyhow!(
                 "{name}: {}{warnings}; `tracer explain {code}` tells more",
                 counted(errors, "error")

@@ -1,6 +1,8 @@
 //! Programs that make what the repository holds, and [`mutants`], which tries its tests; but for these and [`golden`], each is a pure function from nothing to files: no randomness,
 //! no network.
 
+#![forbid(unsafe_code)]
+
 pub mod cat;
 pub mod gallery;
 pub mod golden;

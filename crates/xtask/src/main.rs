@@ -1,4 +1,5 @@
 //! `cargo xtask SUBCOMMAND`: makes files that the repository holds, and tries its tests.
+#![forbid(unsafe_code)]
 
 use anyhow::Context as _;
 use clap::Parser;

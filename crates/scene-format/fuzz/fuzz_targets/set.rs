@@ -10,7 +10,7 @@ const SCENE: &str = include_str!("../../tests/common/full.ron");
 
 fuzz_target!(|argument: &str| {
     let sets = [Override::from(argument)];
-    if let Err(LoadError::Invalid { diagnostics, sources }) =
+    if let Err(LoadError::Invalid { diagnostics, sources, .. }) =
         load_str("fuzz", SCENE, Syntax::Ron, Path::new(""), &sets)
     {
         text(&diagnostics, &sources, Style::default());

@@ -13,7 +13,7 @@ fuzz_target!(|source: &str| {
             let back = load_str("converted", &converted, Syntax::Ron, Path::new(""), &[]).expect("what is written loads");
             assert_eq!(hash(&back.scene), hash(&loaded.scene), "{converted}");
         }
-        Err(LoadError::Invalid { diagnostics, sources }) => {
+        Err(LoadError::Invalid { diagnostics, sources, .. }) => {
             text(&diagnostics, &sources, Style::default());
             json_lines(&diagnostics, &sources);
         }

@@ -2,6 +2,7 @@
 
 use super::Color;
 use crate::diagnostic::{Span, Spanned};
+use crate::files::FileKind;
 use crate::form::{Entry, Form};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
@@ -35,8 +36,9 @@ scene_enum! {
         };
         /// A smooth dielectric: exact Fresnel reflection and refraction.
         Transparent as "a transparent material" {
-            /// Index of refraction of the inside against the outside.
-            ior: Spanned<f64> => Rule::within("an index of refraction", 1.0, 100.0);
+            /// Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air
+            /// bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
+            ior: Spanned<f64> => Rule::within("an index of refraction", 0.01, 100.0);
             /// Share of refracted light that passes each surface, per channel.
             transmittance: Box<Spanned<Color>> = Spanned::from([1.0; 3]) => Rule::share();
         };
@@ -121,7 +123,7 @@ scene_struct! {
     /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
     pub struct Texture as "Texture", "a texture" {
         /// PNG or JPEG, relative to the scene file.
-        file: Spanned<Arc<Path>>;
+        file: Spanned<Arc<Path>> => Rule::file(FileKind::Texture);
         /// Between texels.
         filter: TextureFilter = TextureFilter::Bilinear;
         /// Beyond the borders.

@@ -2,6 +2,7 @@
 
 use super::{MaterialRef, Transform, Vec3};
 use crate::diagnostic::Spanned;
+use crate::files::FileKind;
 use crate::form::Form;
 use crate::read::{Reader, make_room};
 use crate::schema::{FieldDef, Rule, Type};
@@ -36,14 +37,14 @@ scene_struct! {
     /// A triangle mesh.
     pub struct Mesh as "Mesh", "a mesh" {
         /// OFF or OBJ file, relative to the scene file.
-        file: Spanned<Arc<Path>>;
+        file: Spanned<Arc<Path>> => Rule::file(FileKind::Mesh);
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
         /// placements file, one placement a line.
-        placements: Placements = Placements::One;
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.

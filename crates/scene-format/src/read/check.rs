@@ -60,7 +60,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.camera(&scene.camera, root.syntax());
     }
     // Warnings about what is absent mean something only when the structure could be read.
-    let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.starts_with("E03");
+    let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.is_value();
     if !reader.sink.diagnostics.iter().any(structure) {
         reader.unused_materials();
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);

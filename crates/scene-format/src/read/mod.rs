@@ -15,6 +15,7 @@ pub(crate) use value::expected;
 pub(crate) use variant::choices;
 
 use crate::codes;
+use crate::desc::Scene;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{FieldDef, StructDef};
 use crate::suggest;
@@ -73,8 +74,8 @@ impl<'t, 's> Fields<'t, 's> {
 
 /// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
 const LOOK_AT: usize = 64;
-/// No struct of the language has more fields.
-const MAX_FIELDS: usize = 12;
+/// No struct of the language has more fields: counted in the schema when this is compiled.
+const MAX_FIELDS: usize = Scene::DEF.most_fields();
 /// Lists of fewer items get room for all of them at once.
 const SHORT_LIST: usize = 64;
 
@@ -142,7 +143,6 @@ impl<'r> Reader<'r> {
         item: Item<'t, 's>,
         def: &'static StructDef,
     ) -> Option<Fields<'t, 's>> {
-        debug_assert!(def.fields.len() <= MAX_FIELDS);
         let mut fields = Fields::new(def, item);
         match item.kind() {
             Kind::Broken => return None,

@@ -237,6 +237,9 @@ impl Words for Arc<Path> {
         let known = reader.file.as_ref().filter(|file| file.to_str() == Some(&*text));
         let file = known.map_or_else(|| Arc::from(Path::new(&*text)), Arc::clone);
         reader.file = Some(Arc::clone(&file));
+        if let Some(kind) = at.rule.file {
+            reader.sink.files.add(kind, &file, item.span());
+        }
         Some(file)
     }
 

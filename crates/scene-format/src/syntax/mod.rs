@@ -16,6 +16,7 @@ mod toml_names;
 mod toml_tables;
 
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS, Span, too_many};
+use crate::files::Files;
 use crate::tree::Kind;
 use std::path::Path;
 
@@ -71,6 +72,8 @@ impl Syntax {
 pub(crate) struct Sink {
     pub diagnostics: Vec<Diagnostic>,
     pub errors: usize,
+    /// What files the text names.
+    pub files: Files,
     full: bool,
 }
 

@@ -14,7 +14,8 @@ mod sets;
 use sets::{Answers, Set, batches, build, field, load, room, sets, trace};
 use std::path::Path;
 use std::time::Instant;
-use tracer_core::bvh::{Accel, Acceleration, Coherence, Counters, Level};
+use tracer_core::Level;
+use tracer_core::bvh::{Accel, Acceleration, Coherence, Counters};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words = std::env::args().skip(1);
@@ -22,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let triangles: usize = words.next().map_or(Ok(70_000), |word| word.parse())?;
     let size: usize = words.next().map_or(Ok(512), |word| word.parse())?;
     let only = words.next();
-    let levels = if only.is_some() { vec![Level::best()] } else { Level::supported() };
+    let levels = if only.is_some() { vec![Level::best()] } else { Level::available() };
     let only = only.unwrap_or_else(|| "abcde".to_string());
     let rounds: usize = words.next().map_or(Ok(5), |word| word.parse())?;
     let scene = match what.as_str() {

@@ -28,7 +28,7 @@ mod validate;
 
 pub use build::BuildError;
 pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, SphereGeometry};
-pub use kernels::{Counters, Level};
+pub use kernels::Counters;
 pub use sphere::sphere_hit;
 pub use triangle::{part_hit, triangle_hit};
 pub use validate::{Invalid, TrianglePart};
@@ -36,6 +36,7 @@ pub use validate::{Invalid, TrianglePart};
 pub(crate) use layout::TopBoxes;
 pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
 
+use crate::level::Level;
 use arena::Arena;
 use kernels::{Batch, MeshRecord, TreeView};
 use layout::{INSTANCE_UNITS, InstanceRecord, Ref};
@@ -150,14 +151,15 @@ impl Accel {
         build::build(geometry, acceleration)
     }
 
-    /// The same structure, traced with another level of vector instructions. The answers are the same.
+    /// The same structure, asked by itself with another level of vector instructions. The answers are the same. A
+    /// rendering asks with its own level ([`RenderOptions::level`](crate::RenderOptions::level)).
     #[must_use]
     pub fn with_level(mut self, level: Level) -> Self {
         self.level = level;
         self
     }
 
-    /// The level of vector instructions in use.
+    /// The level of vector instructions in use where a question brings none.
     pub fn level(&self) -> Level {
         self.level
     }
@@ -172,8 +174,7 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn closest(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) {
-        let mut counters = Counters::default();
-        kernels::closest::<false>(self.level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
+        self.closest_at::<false>(self.level, rays, active, hits, coherence);
     }
 
     /// As [`closest`](Self::closest), and says what it did. Counting costs a little.
@@ -181,8 +182,21 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn closest_counted(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) -> Counters {
+        self.closest_at::<true>(self.level, rays, active, hits, coherence)
+    }
+
+    /// As [`closest`](Self::closest) with the instructions of a level, whatever the structure's own; says what it did
+    /// where `COUNT`.
+    pub(crate) fn closest_at<const COUNT: bool>(
+        &self,
+        level: Level,
+        rays: &Rays,
+        active: &[u32],
+        hits: &mut Hits,
+        coherence: Coherence,
+    ) -> Counters {
         let mut counters = Counters::default();
-        kernels::closest::<true>(self.level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
+        kernels::closest::<COUNT>(level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
         counters
     }
 
@@ -191,15 +205,7 @@ impl Accel {
     /// # Panics
     /// If an index is beyond a slice.
     pub fn occluded(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion, coherence: Coherence) {
-        let mut counters = Counters::default();
-        kernels::occluded::<false>(
-            self.level,
-            coherence,
-            &self.view(),
-            Batch { rays, active },
-            occlusion,
-            &mut counters,
-        );
+        self.occluded_at::<false>(self.level, rays, active, occlusion, coherence);
     }
 
     /// As [`occluded`](Self::occluded), and says what it did.
@@ -213,15 +219,21 @@ impl Accel {
         occlusion: &mut Occlusion,
         coherence: Coherence,
     ) -> Counters {
+        self.occluded_at::<true>(self.level, rays, active, occlusion, coherence)
+    }
+
+    /// As [`occluded`](Self::occluded) with the instructions of a level, whatever the structure's own; says what it
+    /// did where `COUNT`.
+    pub(crate) fn occluded_at<const COUNT: bool>(
+        &self,
+        level: Level,
+        rays: &Rays,
+        active: &[u32],
+        occlusion: &mut Occlusion,
+        coherence: Coherence,
+    ) -> Counters {
         let mut counters = Counters::default();
-        kernels::occluded::<true>(
-            self.level,
-            coherence,
-            &self.view(),
-            Batch { rays, active },
-            occlusion,
-            &mut counters,
-        );
+        kernels::occluded::<COUNT>(level, coherence, &self.view(), Batch { rays, active }, occlusion, &mut counters);
         counters
     }
 

@@ -3,6 +3,7 @@
 use crate::scene::{Albedo, Material, TextureUse};
 use crate::texture::{self, Texture};
 use rayon::prelude::*;
+use scene_format::codes;
 use scene_format::desc::{self, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -53,7 +54,7 @@ impl<'a> MaterialBuilder<'a> {
             }
             MaterialRef::Named { name, span } => self.named.get(&**name).copied().unwrap_or_else(|| {
                 diagnostics.push(
-                    Diagnostic::error("E0402", *span, format!("there is no material named {name:?}"))
+                    Diagnostic::error(codes::UNKNOWN_MATERIAL, *span, format!("there is no material named {name:?}"))
                         .expected("the name of an entry of `materials`"),
                 );
                 0
@@ -112,6 +113,11 @@ impl<'a> MaterialBuilder<'a> {
         Albedo::Texture(index)
     }
 
+    /// The pictures that materials name.
+    pub fn textures(&self) -> impl Iterator<Item = &PathBuf> {
+        self.images.iter().map(|(path, _)| path)
+    }
+
     /// Loads the textures.
     pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>) {
         let loaded: Vec<_> = self.images.par_iter().map(|(path, _)| texture::load(path)).collect();
@@ -124,6 +130,10 @@ impl<'a> MaterialBuilder<'a> {
                 }
                 Err(error) => diagnostics.push(error.to_diagnostic(*span)),
             }
+        }
+        if images.len() == self.images.len() {
+            let texture = |path: &Path| self.index_of_image.get(path).and_then(|&index| images.get(index));
+            super::energy::warn(self.desc, texture, diagnostics);
         }
         (self.materials, images, self.uses)
     }

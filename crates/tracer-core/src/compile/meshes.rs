@@ -11,6 +11,7 @@ use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements:
 use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+use scene_format::codes;
 use scene_format::desc::{self, Instances, MaterialRef, Object, Placements, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -23,6 +24,13 @@ pub struct Loaded {
     files: Vec<MeshData>,
     /// Per mesh object of the scene: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
+}
+
+impl Loaded {
+    /// The MTL files that were read.
+    pub fn libraries(&self) -> impl Iterator<Item = &PathBuf> {
+        self.files.iter().flat_map(|file| &file.libraries)
+    }
 }
 
 /// The mesh objects of a scene, in order.
@@ -56,7 +64,7 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
     for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
             Ok(mut data) => {
-                let told = data.warnings.drain(..).filter(|w| own || w.code != "W0511");
+                let told = data.warnings.drain(..).filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
                 diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w }));
                 file_of_path.push(Some(files.len()));
                 files.push(data);
@@ -134,8 +142,12 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
             let which = if maps.len() > 1 { format!(" (copy {})", at + 1) } else { String::new() };
             let at = mesh.transform.first().map_or(span, |t| t.span);
             diagnostics.push(
-                Diagnostic::error("E0540", at, format!("the transforms flatten the mesh to nothing{which}"))
-                    .expected("transforms that can be undone: no scale of 0, no overflow"),
+                Diagnostic::error(
+                    codes::SINGULAR_TRANSFORM,
+                    at,
+                    format!("the transforms flatten the mesh to nothing{which}"),
+                )
+                .expected("transforms that can be undone: no scale of 0, no overflow"),
             );
         }
         placed.maps.push(maps);

@@ -1,5 +1,7 @@
 //! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built. The second hand.
 
+mod energy;
+mod files;
 mod materials;
 mod meshes;
 mod nearby;
@@ -10,11 +12,15 @@ use crate::scene::{
     Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
     Tables, TextureTable,
 };
+pub use files::check_files;
 use glam::DVec3;
 use materials::MaterialBuilder;
+use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -64,13 +70,17 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
             Object::Mesh(_) => None,
         })
         .collect();
+    let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
+    let named = named.into_iter().map(|path| desc.base_dir.join(path));
+    let files: BTreeSet<PathBuf> =
+        named.chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let (materials, images, uses) = builder.finish(&mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
-        nearby::suggest(desc, &mut diagnostics);
+        nearby::suggest(&desc.base_dir, &desc.sources, &nearby::named_files(desc), &mut diagnostics);
         return Err(CompileError { diagnostics });
     }
 
@@ -115,6 +125,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         instances: built.instances,
         acceleration: desc.render.acceleration,
         look: crate::develop::Look { exposure: desc.effects.exposure.value, tone_map: desc.effects.tone_map },
+        files: files.into_iter().collect(),
         warnings: diagnostics,
         times: CompileTimes { assets, tables: tables_seconds, tree },
         tables: Tables {
@@ -227,7 +238,7 @@ fn build_tree(
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
     built.tree(acceleration, &hung, spheres.len() as u32).map(Some).map_err(|error| {
         Box::new(
-            Diagnostic::error("E0541", Span::NONE, format!("the scene cannot be traced: {error}"))
+            Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),
         )
     })

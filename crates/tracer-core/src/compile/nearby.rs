@@ -1,7 +1,8 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
+use scene_format::codes;
 use scene_format::desc::{Material, MaterialRef, Object, Placements};
-use scene_format::diagnostic::{Edit, Span, Spanned};
+use scene_format::diagnostic::{Edit, Source, Span, Spanned};
 use scene_format::{Diagnostics, SceneDesc, nearest};
 use std::collections::{BTreeMap, VecDeque};
 use std::fs;
@@ -16,16 +17,16 @@ const DEPTH: usize = 3;
 const SHORTEST: usize = 3;
 
 /// Names a file near the scene in the hint of each error that says there is no such file.
-pub fn suggest(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
-    if diagnostics.iter().all(|fault| fault.code != "E0501") {
+/// `wanted`: the files that the scene names, by their places in it; paths start from `base_dir`.
+pub fn suggest(base_dir: &Path, sources: &[Source], wanted: &BTreeMap<Span, &Path>, diagnostics: &mut Diagnostics) {
+    if diagnostics.iter().all(|fault| fault.code != codes::FILE_NOT_FOUND) {
         return;
     }
-    let wanted: BTreeMap<Span, &Path> = named_files(desc).map(|file| (file.span, &*file.value)).collect();
-    let near = files_near(&desc.base_dir);
-    for fault in diagnostics.iter_mut().filter(|fault| fault.code == "E0501") {
+    let near = files_near(base_dir);
+    for fault in diagnostics.iter_mut().filter(|fault| fault.code == codes::FILE_NOT_FOUND) {
         let Some(wanted) = wanted.get(&fault.span) else { continue };
         // A file that an MTL file names is reported at the mesh, which is there.
-        if desc.base_dir.join(wanted).exists() {
+        if base_dir.join(wanted).exists() {
             continue;
         }
         let Some(found) = best(wanted, &near) else { continue };
@@ -35,7 +36,7 @@ pub fn suggest(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
         } else {
             format!("did you mean `{written}`? paths start from the folder of the scene file")
         };
-        let text = desc.sources.get(fault.span.source as usize).map_or("", |source| source.text.as_str());
+        let text = sources.get(fault.span.source as usize).map_or("", |source| source.text.as_str());
         let lexeme = text.get(fault.span.start as usize..fault.span.end as usize).unwrap_or("");
         if lexeme.starts_with(['"', '\'', 'r']) && !written.contains(['"', '\\']) && !written.contains(char::is_control)
         {
@@ -50,8 +51,13 @@ fn slashed(path: &Path) -> String {
     parts.join("/")
 }
 
-/// All files that the scene names.
-fn named_files(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
+/// All files that the scene names, by their places in it.
+pub fn named_files(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
+    named(desc).map(|file| (file.span, &*file.value)).collect()
+}
+
+/// All files that the scene names, in order of mention, also where it was built in code.
+pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
         let (files, material) = match &object.value {
             Object::Sphere(sphere) => ([None, None], &sphere.material),
@@ -184,8 +190,9 @@ mod tests {
         let text = "Scene(background: 1, objects: [Mesh(file: \"cat.obj\")])";
         let desc = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, &scenes, &[]).expect("right").scene;
         let Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
-        let mut faults = vec![scene_format::Diagnostic::error("E0501", mesh.file.span, "there is no file cat.obj")];
-        suggest(&desc, &mut faults);
+        let mut faults =
+            vec![scene_format::Diagnostic::error(codes::FILE_NOT_FOUND, mesh.file.span, "there is no file cat.obj")];
+        suggest(&desc.base_dir, &desc.sources, &named_files(&desc), &mut faults);
         assert!(faults[0].hint.starts_with("did you mean `../assets/meshes/cat.obj`?"), "{}", faults[0].hint);
         let edit = faults[0].edit.clone().expect("an edit");
         assert_eq!(edit.replacement, "\"../assets/meshes/cat.obj\"");

@@ -8,14 +8,15 @@ use super::stages::{aim, camera, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
-use crate::lanes::level::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{F8, F16, Pair};
+use crate::level::{Level, Set};
 use crate::scene::Scene;
 
 /// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
 #[derive(Clone, Copy)]
 pub struct Kernels {
+    level: Level,
     camera: unsafe fn(&Scene, u32, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
@@ -78,7 +79,9 @@ macro_rules! kernels {
             fn photons_scatter_entry(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
                 photons::photons_scatter::<$lanes>(scene, plan, seed, event, batch)
             }
-            pub const KERNELS: Kernels = Kernels {
+            pub fn kernels(level: Level) -> Kernels {
+                Kernels {
+                level,
                 camera: camera_entry,
                 closest: closest_entry,
                 shade: shade_entry,
@@ -90,7 +93,8 @@ macro_rules! kernels {
                 share_gather: share_gather_entry,
                 photons_emit: photons_emit_entry,
                 photons_scatter: photons_scatter_entry,
-            };
+                }
+            }
         }
     };
 }
@@ -111,74 +115,80 @@ kernels!(avx2, F8, Pair<F8>, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 kernels!(avx512, F16, F16, "avx512f,avx512vl,avx512dq,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 
 impl Kernels {
-    /// The stages for a level that this CPU has ([`Level::available`]).
+    /// The stages for a level.
     pub fn new(level: Level) -> Self {
-        match level {
-            Level::Portable => portable::KERNELS,
+        match level.set() {
+            Set::Portable => portable::kernels(level),
             #[cfg(not(target_arch = "x86_64"))]
-            Level::Portable8 => portable_8::KERNELS,
+            Set::Portable8 => portable_8::kernels(level),
             #[cfg(target_arch = "x86_64")]
-            Level::Scalar => scalar_fma::KERNELS,
+            Set::Scalar => scalar_fma::kernels(level),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => avx2::KERNELS,
+            Set::Avx2 => avx2::kernels(level),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => avx512::KERNELS,
+            Set::Avx512 => avx512::kernels(level),
         }
+    }
+
+    /// The level that they are for: the tree is asked with its instructions, too.
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// Camera rays for those items of the batch that have a bit set in `items`.
     pub fn camera(&self, scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
-        // SAFETY: a `Level` is only made for features that this CPU was seen to have.
+        // SAFETY: `new` took the entry of a `Level`, which exists only where the CPU has the features that the entry
+        // was compiled for.
         unsafe { (self.camera)(scene, seed, items, batch) }
     }
     /// The nearest of the spheres that every ray tests.
     pub fn closest(&self, scene: &Scene, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.closest)(scene, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.shade)(scene, pass, vertex, batch) }
     }
     /// Which shadow rays the spheres block.
     pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.occluded)(scene, batch) }
     }
     /// Aimed rays from the rough surfaces of vertex `vertex`.
     pub fn aim(&self, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.aim)(guide, seed, vertex, batch) }
     }
     /// Segments from suffix `next` on; gives the suffix to go on with.
     pub fn share_segments(&self, scene: &Scene, next: usize, batch: &mut Batch) -> usize {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.share_segments)(scene, next, batch) }
     }
     /// Each member's share of each suffix.
     pub fn share_gather(&self, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.share_gather)(batch) }
     }
     /// First rays of photons.
     pub fn photons_emit(&self, plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.photons_emit)(plan, pass, batch) }
     }
     /// What becomes of photons where they hit, after `event` mirrors and glass.
     pub fn photons_scatter(&self, scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.photons_scatter)(scene, plan, seed, event, batch) }
     }
     /// Which paths the tree is asked about.
     pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.reach_closest)(boxes, batch) }
     }
     /// Which shadow rays the tree is asked about.
     pub fn reach_occluded(&self, boxes: &TopBoxes, batch: &mut Batch) {
-        // SAFETY: as above.
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.reach_occluded)(boxes, batch) }
     }
 }

@@ -6,6 +6,7 @@
 mod batch;
 mod glints;
 mod guide;
+#[allow(unsafe_code)]
 mod kernels;
 mod lane_io;
 mod stages;
@@ -16,7 +17,7 @@ pub use batch::Counters;
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
 use crate::film::{Crop, Film, Tile};
-use crate::lanes::level::Level;
+use crate::level::Level;
 use crate::sampling::sampler::hash3;
 use crate::scene::{Scene, Sharing};
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
@@ -39,7 +40,7 @@ pub struct RenderOptions {
     pub crop: Option<Crop>,
     /// Worker threads; 0: one per core.
     pub threads: usize,
-    /// Lane type; the bytes are the same for all.
+    /// The vector instructions of stages and tree; the bytes are the same for all.
     pub level: Option<Level>,
     /// Whether the pixels of a block share what they find.
     pub reuse: Option<bool>,

@@ -8,6 +8,7 @@ use super::stages::aim::AIMS_UNTIL;
 use super::stages::deposit::deposit;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
+use crate::level::Level;
 use crate::scene::Scene;
 use std::time::Instant;
 
@@ -110,7 +111,7 @@ fn share(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
         }
         batch.shadows.occluded[..batch.active_len].fill(0);
         // All rays of a suffix go to the same point.
-        occluded_in_tree(accel, Coherence::Coherent, batch);
+        occluded_in_tree(accel, kernels, Coherence::Coherent, batch);
         std::mem::swap(&mut batch.shadows, &mut batch.segments);
         let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
         for (&occluded, &tag) in occluded[..*len].iter().zip(tags.iter()) {
@@ -153,12 +154,12 @@ pub fn closest(scene: &Scene, kernels: &Kernels, camera: bool, batch: &mut Batch
     let Some(accel) = &scene.accel else { return };
     kernels.reach_closest(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
-    closest_in_tree(accel, camera, batch);
+    closest_in_tree(accel, kernels.level(), camera, batch);
     batch.watch.lap(Stage::Closest);
 }
 
 /// What the tree holds nearer than the spheres that every ray tests, for the paths in `batch.active`.
-fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
+fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch) {
     let (paths, len) = (&batch.paths, batch.paths.len);
     let mut hits = Hits {
         t: &mut batch.hits.t[..len],
@@ -169,10 +170,10 @@ fn closest_in_tree(accel: &Accel, camera: bool, batch: &mut Batch) {
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
-        let counters = accel.closest_counted(&rays, active, &mut hits, coherence);
+        let counters = accel.closest_at::<true>(level, &rays, active, &mut hits, coherence);
         batch.watch.statistics.closest.add(active.len(), &counters);
     } else {
-        accel.closest(&rays, active, &mut hits, coherence);
+        accel.closest_at::<false>(level, &rays, active, &mut hits, coherence);
     }
 }
 
@@ -183,11 +184,11 @@ fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut 
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
-    occluded_in_tree(accel, coherence, batch);
+    occluded_in_tree(accel, kernels, coherence, batch);
 }
 
 /// Which of the shadow rays in `batch.active` something in the tree blocks.
-fn occluded_in_tree(accel: &Accel, coherence: Coherence, batch: &mut Batch) {
+fn occluded_in_tree(accel: &Accel, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
     let len = batch.shadows.len;
     let shadows = &mut batch.shadows;
     let mut occlusion = Occlusion {
@@ -199,10 +200,10 @@ fn occluded_in_tree(accel: &Accel, coherence: Coherence, batch: &mut Batch) {
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive[..], &shadows.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     if batch.watch.counts_tree() {
-        let counters = accel.occluded_counted(&rays, active, &mut occlusion, coherence);
+        let counters = accel.occluded_at::<true>(kernels.level(), &rays, active, &mut occlusion, coherence);
         batch.watch.statistics.occluded.add(active.len(), &counters);
     } else {
-        accel.occluded(&rays, active, &mut occlusion, coherence);
+        accel.occluded_at::<false>(kernels.level(), &rays, active, &mut occlusion, coherence);
     }
     batch.watch.lap(Stage::Occluded);
 }

@@ -1,8 +1,8 @@
 //! Eight lanes in a 256-bit register (AVX2, FMA).
 //!
-//! SAFETY of every `unsafe` block here: the values of these types come to life only inside entry functions that
-//! [`super::level`] calls after it has seen the CPU's features, and loads, stores and gathers check their bounds first.
-#![allow(clippy::undocumented_unsafe_blocks)]
+//! Why the instructions are there: these functions are inlined into the entry functions of `engine/kernels.rs`, which
+//! are compiled for the features and called only for a [`Level`](crate::Level), and a `Level` exists only where the
+//! CPU was seen to have them. No code outside this crate can name the types. That is "the CPU" in the comments below.
 
 use super::{Bits, Lanes, Mask};
 use std::arch::x86_64::*;
@@ -24,6 +24,7 @@ macro_rules! binary {
             type Output = Self;
             #[inline(always)]
             fn $f(self, other: Self) -> Self {
+                // SAFETY: the CPU; no memory is touched.
                 $T(unsafe { $intrinsic(self.0, other.0) })
             }
         }
@@ -46,6 +47,7 @@ impl Not for M8 {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         M8(unsafe { _mm256_xor_ps(self.0, _mm256_castsi256_ps(_mm256_set1_epi32(-1))) })
     }
 }
@@ -53,10 +55,12 @@ impl Mask for M8 {
     const N: usize = 8;
     #[inline(always)]
     fn bits(self) -> u32 {
+        // SAFETY: the CPU; no memory is touched.
         unsafe { _mm256_movemask_ps(self.0) as u32 }
     }
     #[inline(always)]
     fn from_bits(bits: u32) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         unsafe {
             let weights = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
             let set = _mm256_and_si256(_mm256_set1_epi32(bits as i32), weights);
@@ -68,6 +72,7 @@ impl Neg for F8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
     }
 }
@@ -92,6 +97,7 @@ static COMPRESS: [[u32; 8]; 256] = {
 
 #[inline(always)]
 fn compress_order(mask: M8) -> __m256i {
+    // SAFETY: the CPU; a row of the table has eight entries.
     unsafe { _mm256_loadu_si256(COMPRESS[(mask.bits() & 0xff) as usize].as_ptr().cast()) }
 }
 
@@ -100,14 +106,19 @@ impl U8 {
     #[inline(always)]
     fn clamped(self, len: usize) -> __m256i {
         assert!(len > 0 && len <= i32::MAX as usize);
+        // SAFETY: the CPU; no memory is touched.
         unsafe { _mm256_min_epu32(self.0, _mm256_set1_epi32((len - 1) as i32)) }
     }
 }
 
 /// `table[index]` within `sixteens` (1 or 2) times sixteen entries, by permutations: with gathers, which are 39 micro-operations each on Zen 3, an
 /// eighth of the time.
+///
+/// # Safety
+/// The CPU has AVX2; `table` points to 16 times `sixteens` floats.
 #[inline(always)]
 unsafe fn look_up(table: *const f32, index: __m256i, sixteens: usize) -> __m256 {
+    // SAFETY: the CPU; the pointers are the caller's promise.
     unsafe {
         // blendv goes by the sign bit: bit 3 of the index chooses between eights, bit 4 between sixteens.
         let bit3 = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(index));
@@ -121,26 +132,42 @@ unsafe fn look_up(table: *const f32, index: __m256i, sixteens: usize) -> __m256 
 }
 
 /// `table[index & 7]`.
+///
+/// # Safety
+/// The CPU has AVX2; `table` points to 8 floats.
 #[inline(always)]
 unsafe fn eight(table: *const f32, index: __m256i) -> __m256 {
+    // SAFETY: the CPU; the pointers are the caller's promise.
     unsafe { _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index) }
 }
 
 /// Three consecutive floats in one register.
+///
+/// # Safety
+/// The CPU has AVX2; `at` points to 3 floats.
 #[inline(always)]
 unsafe fn three(at: *const f32) -> __m128 {
+    // SAFETY: the CPU; the pointers are the caller's promise.
     unsafe { _mm_insert_ps::<0x20>(_mm_castpd_ps(_mm_load_sd(at.cast())), _mm_load_ss(at.add(2))) }
 }
 
 /// Two pairs of consecutive floats in one register.
+///
+/// # Safety
+/// The CPU has AVX2; both point to 2 floats.
 #[inline(always)]
 unsafe fn two(first: *const f32, second: *const f32) -> __m128 {
+    // SAFETY: the CPU; the pointers are the caller's promise.
     unsafe { _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(first.cast()), second.cast())) }
 }
 
 /// Both halves of a register.
+///
+/// # Safety
+/// The CPU has AVX2.
 #[inline(always)]
 unsafe fn halves(low: __m128, high: __m128) -> __m256 {
+    // SAFETY: the CPU; the pointers are the caller's promise.
     unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high) }
 }
 
@@ -153,6 +180,7 @@ fn rows_of_three(table: &[f32], place: U8) -> [__m256; 3] {
     U8(place.clamped(table.len() - 2)).store(&mut places);
     let [p0, p1, p2, p3, p4, p5, p6, p7] = places;
     let t = table.as_ptr();
+    // SAFETY: the CPU; `clamped` leaves each place that many entries before the end of the table.
     unsafe {
         let a = halves(three(t.add(p0 as usize)), three(t.add(p4 as usize)));
         let b = halves(three(t.add(p1 as usize)), three(t.add(p5 as usize)));
@@ -172,6 +200,7 @@ fn rows_of_four(table: &[f32], place: U8) -> [__m256; 4] {
     U8(place.clamped(table.len() - 3)).store(&mut places);
     let [p0, p1, p2, p3, p4, p5, p6, p7] = places;
     let t = table.as_ptr();
+    // SAFETY: the CPU; `clamped` leaves each place that many entries before the end of the table.
     unsafe {
         let a = halves(_mm_loadu_ps(t.add(p0 as usize)), _mm_loadu_ps(t.add(p4 as usize)));
         let b = halves(_mm_loadu_ps(t.add(p1 as usize)), _mm_loadu_ps(t.add(p5 as usize)));
@@ -196,6 +225,7 @@ fn rows_of_two(table: &[f32], place: U8) -> [__m256; 2] {
     U8(place.clamped(table.len() - 1)).store(&mut places);
     let [p0, p1, p2, p3, p4, p5, p6, p7] = places;
     let t = table.as_ptr();
+    // SAFETY: the CPU; `clamped` leaves each place that many entries before the end of the table.
     unsafe {
         // u v u v of lanes 0 1 and 4 5, then of 2 3 and 6 7.
         let a = halves(two(t.add(p0 as usize), t.add(p1 as usize)), two(t.add(p4 as usize), t.add(p5 as usize)));
@@ -208,33 +238,40 @@ impl Bits for U8 {
     type M = M8;
     #[inline(always)]
     fn splat(x: u32) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_set1_epi32(x as i32) })
     }
     #[inline(always)]
     fn load(from: &[u32]) -> Self {
         let from = &from[..8];
+        // SAFETY: the CPU; the slice was cut to 8 entries.
         U8(unsafe { _mm256_loadu_si256(from.as_ptr().cast()) })
     }
     #[inline(always)]
     fn store(self, to: &mut [u32]) {
         let to = &mut to[..8];
+        // SAFETY: the CPU; the slice was cut to 8 entries.
         unsafe { _mm256_storeu_si256(to.as_mut_ptr().cast(), self.0) }
     }
     #[inline(always)]
     fn shr<const K: u32>(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_srl_epi32(self.0, _mm_cvtsi32_si128(K as i32)) })
     }
     #[inline(always)]
     fn shl<const K: u32>(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_sll_epi32(self.0, _mm_cvtsi32_si128(K as i32)) })
     }
     #[inline(always)]
     fn eq(self, other: Self) -> M8 {
+        // SAFETY: the CPU; no memory is touched.
         M8(unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(self.0, other.0)) })
     }
     #[inline(always)]
     fn lt(self, other: Self) -> M8 {
         // Unsigned order is signed order with the top bit flipped.
+        // SAFETY: the CPU; no memory is touched.
         unsafe {
             let top = _mm256_set1_epi32(i32::MIN);
             let (a, b) = (_mm256_xor_si256(self.0, top), _mm256_xor_si256(other.0, top));
@@ -243,6 +280,7 @@ impl Bits for U8 {
     }
     #[inline(always)]
     fn select(mask: M8, a: Self, b: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         unsafe {
             let (a, b) = (_mm256_castsi256_ps(a.0), _mm256_castsi256_ps(b.0));
             U8(_mm256_castps_si256(_mm256_blendv_ps(b, a, mask.0)))
@@ -251,6 +289,7 @@ impl Bits for U8 {
     #[inline(always)]
     fn gather(table: &[u32], index: Self) -> Self {
         let at = index.clamped(table.len());
+        // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
         unsafe {
             U8(match table.len() {
                 16 => _mm256_castps_si256(look_up(table.as_ptr().cast(), at, 1)),
@@ -261,13 +300,16 @@ impl Bits for U8 {
     #[inline(always)]
     fn gather3(table: &[u32], place: Self) -> [Self; 3] {
         // Bits are only moved: the registers of floats do.
+        // SAFETY: u32 and f32 have one size and alignment, and every bit pattern is a value of both.
         let floats = unsafe { std::slice::from_raw_parts(table.as_ptr().cast::<f32>(), table.len()) };
         let [x, y, z] = rows_of_three(floats, place);
+        // SAFETY: the CPU; no memory is touched.
         unsafe { [U8(_mm256_castps_si256(x)), U8(_mm256_castps_si256(y)), U8(_mm256_castps_si256(z))] }
     }
     #[inline(always)]
     fn reverse_bits(self) -> Self {
         // Nibbles by table, then the bytes of each word back to front.
+        // SAFETY: the CPU; no memory is touched.
         unsafe {
             let low = _mm256_set1_epi8(0x0f);
             let table =
@@ -280,6 +322,7 @@ impl Bits for U8 {
     }
     #[inline(always)]
     fn compress(self, mask: M8, to: &mut [u32]) {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_permutevar8x32_epi32(self.0, compress_order(mask)) }).store(to)
     }
 }
@@ -290,73 +333,90 @@ impl Lanes for F8 {
     type U = U8;
     #[inline(always)]
     fn splat(x: f32) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_set1_ps(x) })
     }
     #[inline(always)]
     fn load(from: &[f32]) -> Self {
         let from = &from[..8];
+        // SAFETY: the CPU; the slice was cut to 8 entries.
         F8(unsafe { _mm256_loadu_ps(from.as_ptr()) })
     }
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         let to = &mut to[..8];
+        // SAFETY: the CPU; the slice was cut to 8 entries.
         unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_sqrt_ps(self.0) })
     }
     #[inline(always)]
     fn fma(self, b: Self, c: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_fmadd_ps(self.0, b.0, c.0) })
     }
     #[inline(always)]
     fn fnma(self, b: Self, c: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_fnmadd_ps(self.0, b.0, c.0) })
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_min_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_max_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn lt(self, other: Self) -> M8 {
+        // SAFETY: the CPU; no memory is touched.
         M8(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn le(self, other: Self) -> M8 {
+        // SAFETY: the CPU; no memory is touched.
         M8(unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn select(mask: M8, a: Self, b: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_blendv_ps(b.0, a.0, mask.0) })
     }
     #[inline(always)]
     fn abs(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
     }
     #[inline(always)]
     fn to_bits(self) -> U8 {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_castps_si256(self.0) })
     }
     #[inline(always)]
     fn from_bits(bits: U8) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_castsi256_ps(bits.0) })
     }
     #[inline(always)]
     fn from_int(ints: U8) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_cvtepi32_ps(ints.0) })
     }
     #[inline(always)]
     fn to_int(self) -> U8 {
+        // SAFETY: the CPU; no memory is touched.
         U8(unsafe { _mm256_cvttps_epi32(self.0) })
     }
     #[inline(always)]
     fn gather(table: &[f32], index: U8) -> Self {
         let at = index.clamped(table.len());
+        // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
         unsafe {
             F8(match table.len() {
                 16 => look_up(table.as_ptr(), at, 1),
@@ -382,6 +442,7 @@ impl Lanes for F8 {
     }
     #[inline(always)]
     fn compress(self, mask: M8, to: &mut [f32]) {
+        // SAFETY: the CPU; no memory is touched.
         F8(unsafe { _mm256_permutevar8x32_ps(self.0, compress_order(mask)) }).store(to)
     }
 }

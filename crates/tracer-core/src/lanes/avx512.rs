@@ -1,8 +1,8 @@
 //! Sixteen lanes in a 512-bit register (AVX-512 F, VL, DQ, BW).
 //!
-//! SAFETY of every `unsafe` block here: the values of these types come to life only inside entry functions that
-//! [`super::level`] calls after it has seen the CPU's features, and loads, stores and gathers check their bounds first.
-#![allow(clippy::undocumented_unsafe_blocks)]
+//! Why the instructions are there: these functions are inlined into the entry functions of `engine/kernels.rs`, which
+//! are compiled for the features and called only for a [`Level`](crate::Level), and a `Level` exists only where the
+//! CPU was seen to have them. No code outside this crate can name the types. That is "the CPU" in the comments below.
 
 use super::{Bits, Lanes, Mask};
 use std::arch::x86_64::*;
@@ -24,6 +24,7 @@ macro_rules! binary {
             type Output = Self;
             #[inline(always)]
             fn $f(self, other: Self) -> Self {
+                // SAFETY: the CPU; no memory is touched.
                 $T(unsafe { $intrinsic(self.0, other.0) })
             }
         }
@@ -76,6 +77,7 @@ impl Neg for F16 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_xor_ps(self.0, _mm512_set1_ps(-0.0)) })
     }
 }
@@ -85,6 +87,7 @@ impl U16 {
     #[inline(always)]
     fn clamped(self, len: usize) -> __m512i {
         assert!(len > 0 && len <= i32::MAX as usize);
+        // SAFETY: the CPU; no memory is touched.
         unsafe { _mm512_min_epu32(self.0, _mm512_set1_epi32((len - 1) as i32)) }
     }
 }
@@ -93,49 +96,60 @@ impl Bits for U16 {
     type M = M16;
     #[inline(always)]
     fn splat(x: u32) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_set1_epi32(x as i32) })
     }
     #[inline(always)]
     fn load(from: &[u32]) -> Self {
         let from = &from[..16];
+        // SAFETY: the CPU; the slice was cut to 16 entries.
         U16(unsafe { _mm512_loadu_si512(from.as_ptr().cast()) })
     }
     #[inline(always)]
     fn store(self, to: &mut [u32]) {
         let to = &mut to[..16];
+        // SAFETY: the CPU; the slice was cut to 16 entries.
         unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), self.0) }
     }
     #[inline(always)]
     fn shr<const K: u32>(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_srli_epi32::<K>(self.0) })
     }
     #[inline(always)]
     fn shl<const K: u32>(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_slli_epi32::<K>(self.0) })
     }
     #[inline(always)]
     fn eq(self, other: Self) -> M16 {
+        // SAFETY: the CPU; no memory is touched.
         M16(unsafe { _mm512_cmpeq_epi32_mask(self.0, other.0) })
     }
     #[inline(always)]
     fn lt(self, other: Self) -> M16 {
+        // SAFETY: the CPU; no memory is touched.
         M16(unsafe { _mm512_cmplt_epu32_mask(self.0, other.0) })
     }
     #[inline(always)]
     fn select(mask: M16, a: Self, b: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_mask_blend_epi32(mask.0, b.0, a.0) })
     }
     #[inline(always)]
     fn gather(table: &[u32], index: Self) -> Self {
         let at = index.clamped(table.len());
         if table.len() == 16 {
+            // SAFETY: the CPU; `load` checks its slice.
             return U16(unsafe { _mm512_permutexvar_epi32(at, U16::load(table).0) });
         }
+        // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
         U16(unsafe { _mm512_i32gather_epi32::<4>(at, table.as_ptr().cast()) })
     }
     #[inline(always)]
     fn reverse_bits(self) -> Self {
         // Nibbles by table, then the bytes of each word back to front.
+        // SAFETY: the CPU; no memory is touched.
         unsafe {
             let low = _mm512_set1_epi8(0x0f);
             let table = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
@@ -147,6 +161,7 @@ impl Bits for U16 {
     }
     #[inline(always)]
     fn compress(self, mask: M16, to: &mut [u32]) {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_maskz_compress_epi32(mask.0, self.0) }).store(to)
     }
 }
@@ -157,73 +172,90 @@ impl Lanes for F16 {
     type U = U16;
     #[inline(always)]
     fn splat(x: f32) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_set1_ps(x) })
     }
     #[inline(always)]
     fn load(from: &[f32]) -> Self {
         let from = &from[..16];
+        // SAFETY: the CPU; the slice was cut to 16 entries.
         F16(unsafe { _mm512_loadu_ps(from.as_ptr()) })
     }
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         let to = &mut to[..16];
+        // SAFETY: the CPU; the slice was cut to 16 entries.
         unsafe { _mm512_storeu_ps(to.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_sqrt_ps(self.0) })
     }
     #[inline(always)]
     fn fma(self, b: Self, c: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_fmadd_ps(self.0, b.0, c.0) })
     }
     #[inline(always)]
     fn fnma(self, b: Self, c: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_fnmadd_ps(self.0, b.0, c.0) })
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_min_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_max_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn lt(self, other: Self) -> M16 {
+        // SAFETY: the CPU; no memory is touched.
         M16(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn le(self, other: Self) -> M16 {
+        // SAFETY: the CPU; no memory is touched.
         M16(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn select(mask: M16, a: Self, b: Self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_mask_blend_ps(mask.0, b.0, a.0) })
     }
     #[inline(always)]
     fn abs(self) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_abs_ps(self.0) })
     }
     #[inline(always)]
     fn to_bits(self) -> U16 {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_castps_si512(self.0) })
     }
     #[inline(always)]
     fn from_bits(bits: U16) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_castsi512_ps(bits.0) })
     }
     #[inline(always)]
     fn from_int(ints: U16) -> Self {
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_cvtepi32_ps(ints.0) })
     }
     #[inline(always)]
     fn to_int(self) -> U16 {
+        // SAFETY: the CPU; no memory is touched.
         U16(unsafe { _mm512_cvttps_epi32(self.0) })
     }
     #[inline(always)]
     fn gather(table: &[f32], index: U16) -> Self {
         // Small tables are looked up by a permutation within one or two registers: a fifth of a gather's time.
+        // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
         unsafe {
             let n = table.len();
             if n == 32 {
@@ -240,6 +272,7 @@ impl Lanes for F16 {
     #[inline(always)]
     fn compress(self, mask: M16, to: &mut [f32]) {
         // In a register and then whole: compressing straight to memory is microcode on some CPUs.
+        // SAFETY: the CPU; no memory is touched.
         F16(unsafe { _mm512_maskz_compress_ps(mask.0, self.0) }).store(to)
     }
 }

@@ -5,22 +5,24 @@
 //! `min` and `max` are defined as `a < b ? a : b` and `a > b ? a : b` (what MINPS and MAXPS do).
 //!
 //! Every generic function over lanes carries `#[inline(always)]`: it has to end up inside an entry function with
-//! `#[target_feature]` (see [`level`]), because only there do the `std::arch` intrinsics become instructions. One forgotten
-//! attribute costs a factor of 20 and changes no bit; `tests/vector_code.rs` looks at the disassembly for it.
+//! `#[target_feature]` (see `engine/kernels.rs`), because only there do the `std::arch` intrinsics become
+//! instructions. One forgotten attribute costs a factor of 20 and changes no bit; `tests/vector_code.rs` looks at the
+//! disassembly for it.
 
 mod array;
 #[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
 mod avx512;
-pub mod level;
 mod pair;
 
-pub use array::{ArrayF, ArrayM, ArrayU};
+pub use array::{ArrayF, ArrayU};
 #[cfg(target_arch = "x86_64")]
-pub use avx2::{F8, M8, U8};
+pub use avx2::F8;
 #[cfg(target_arch = "x86_64")]
-pub use avx512::{F16, M16, U16};
+pub use avx512::F16;
 pub use pair::Pair;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -117,11 +119,13 @@ pub trait Lanes:
     /// Less or equal; false for NaN.
     fn le(self, other: Self) -> Self::M;
     /// Greater than; false for NaN.
+    #[allow(dead_code)] // Of the set, though nothing asks at the moment.
     #[inline(always)]
     fn gt(self, other: Self) -> Self::M {
         other.lt(self)
     }
     /// Greater or equal; false for NaN.
+    #[allow(dead_code)] // As above.
     #[inline(always)]
     fn ge(self, other: Self) -> Self::M {
         other.le(self)
@@ -169,6 +173,7 @@ pub trait Lanes:
 }
 
 /// Has the memory around an entry fetched into the cache; nothing where the processor has no such instruction.
+#[allow(unsafe_code)]
 #[inline(always)]
 pub fn prefetch(table: &[f32], index: usize) {
     #[cfg(all(target_arch = "x86_64", not(miri)))]
@@ -184,4 +189,5 @@ pub fn prefetch(table: &[f32], index: usize) {
 }
 
 #[cfg(test)]
+#[allow(unsafe_code)]
 mod tests;

@@ -3,6 +3,7 @@
 use super::FileError;
 use super::cursor::Fault;
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::path::{Path, PathBuf};
 
@@ -60,16 +61,16 @@ impl MeshError {
                 let packed =
                     path.extension().is_some_and(|e| ["gz", "zip", "xz", "bz2", "zst"].iter().any(|p| e == *p));
                 let hint = if packed { "unpack the file first" } else { "export the mesh as OBJ or OFF" };
-                Diagnostic::error("E0502", span, self.to_string())
+                Diagnostic::error(codes::FILE_UNREADABLE, span, self.to_string())
                     .expected("a mesh file that ends in `.obj` or `.off`")
                     .hint(hint)
             }
             MeshError::Broken { path, line, message, expected } => {
-                Diagnostic::error("E0510", span, format!("the mesh file is broken: {message}"))
+                Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken: {message}"))
                     .expected(expected.clone())
                     .at_line(path, *line)
             }
-            MeshError::Empty { path, hint } => Diagnostic::error("E0511", span, self.to_string())
+            MeshError::Empty { path, hint } => Diagnostic::error(codes::EMPTY_MESH, span, self.to_string())
                 .expected("at least one triangle with an area")
                 .hint(hint.clone())
                 .at_line(path, 0),

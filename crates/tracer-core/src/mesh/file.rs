@@ -1,6 +1,7 @@
 //! Reading a whole input file, and what can go wrong before its first byte is looked at.
 
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -38,16 +39,17 @@ impl FileError {
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             FileError::NotFound { similar, .. } => {
-                let diagnostic = Diagnostic::error("E0501", span, self.to_string());
+                let diagnostic = Diagnostic::error(codes::FILE_NOT_FOUND, span, self.to_string());
                 match similar {
                     Some(name) => diagnostic.hint(format!("the folder has `{}`", name.display())),
                     None => diagnostic.hint("paths are relative to the folder of the scene file"),
                 }
             }
-            FileError::Unreadable { source, .. } => Diagnostic::error("E0502", span, format!("{self}: {source}")),
-            FileError::NotRegular { .. } => {
-                Diagnostic::error("E0502", span, self.to_string()).expected("a file, not a folder, pipe or device")
+            FileError::Unreadable { source, .. } => {
+                Diagnostic::error(codes::FILE_UNREADABLE, span, format!("{self}: {source}"))
             }
+            FileError::NotRegular { .. } => Diagnostic::error(codes::FILE_UNREADABLE, span, self.to_string())
+                .expected("a file, not a folder, pipe or device"),
         }
     }
 }

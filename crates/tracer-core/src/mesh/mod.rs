@@ -36,7 +36,7 @@ pub(crate) use file::read_regular_file;
 
 use scene_format::Diagnostics;
 use scene_format::desc::NamedMaterial;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// In a corner of [`MeshData::normal_triangles`] or [`MeshData::uv_triangles`]: the file gives none here. In
 /// [`MeshData::triangle_material`]: the default material.
@@ -69,6 +69,8 @@ pub struct MeshData {
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,
+    /// The MTL files that were read for it.
+    pub libraries: Vec<PathBuf>,
     /// Recoverable oddities: at most one `W0510` for the mesh file and one `W0511` for its materials. They have no span.
     pub warnings: Diagnostics,
 }

@@ -2,6 +2,7 @@
 
 use super::cursor::shown;
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::path::Path;
 
@@ -160,7 +161,8 @@ impl Oddities {
     pub(super) fn to_warning(&self, path: &Path) -> Option<Diagnostic> {
         let summary = self.summary();
         (!summary.is_empty()).then(|| {
-            Diagnostic::warning("W0510", Span::NONE, format!("the mesh has oddities: {summary}")).at_line(path, 0)
+            Diagnostic::warning(codes::MESH_ODDITIES, Span::NONE, format!("the mesh has oddities: {summary}"))
+                .at_line(path, 0)
         })
     }
 }

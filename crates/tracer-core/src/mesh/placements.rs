@@ -18,6 +18,7 @@ use super::{FileError, MAX_COORDINATE, read_regular_file};
 use glam::{DAffine3, DMat3, DVec3};
 use rayon::prelude::*;
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::path::{Path, PathBuf};
 
@@ -65,12 +66,12 @@ impl PlacementsError {
         match self {
             PlacementsError::File(error) => error.to_diagnostic(span),
             PlacementsError::Broken { path, line, message, expected } => {
-                Diagnostic::error("E0530", span, format!("the placements file is broken: {message}"))
+                Diagnostic::error(codes::BROKEN_PLACEMENTS, span, format!("the placements file is broken: {message}"))
                     .expected(expected.clone())
                     .at_line(path, *line)
             }
             PlacementsError::Empty { path } => {
-                Diagnostic::error("E0530", span, self.to_string()).expected(EXPECTED).at_line(path, 0)
+                Diagnostic::error(codes::BROKEN_PLACEMENTS, span, self.to_string()).expected(EXPECTED).at_line(path, 0)
             }
         }
     }

@@ -1,5 +1,5 @@
-//! Where random choices come from ([`sampler`]) and how they become directions and points ([`warp`]).
+//! Where random choices come from ([`sampler`]) and how they become directions and points (`warp`).
 
 pub mod sampler;
-pub mod sobol;
-pub mod warp;
+pub(crate) mod sobol;
+pub(crate) mod warp;

@@ -13,13 +13,13 @@
 //! the points of each Z-ordered group of 2^k pixels is stratified in 2^(n + k) strata per dimension, for every n at once: the
 //! picture after N samples does not depend on how many were asked for. Two pairs that belong together are four dimensions of
 //! one sequence (over samples; over pixels they are padded): the directions of the first two bounces the first four of Sobol', pixel and
-//! lens, which move the same edges and are often used alone, a pair and its companion ([`companion_index`]). For the
+//! lens, which move the same edges and are often used alone, a pair and its companion (`companion_index`). For the
 //! directions that was tried, too: in a furnace three bounces had 1.5 times the error.
 //!
 //! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per tile.
 
 use super::sobol::{companion_index, higher_dimension, owen, pascal_upper, shuffle_index};
-use crate::lanes::{ArrayU, Bits, Lanes};
+use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
 
 /// What a pair of dimensions is used for; `u32` is the vertex number along the path, 0 at the first hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl Purpose {
 }
 
 /// A hash of three words: two rounds of multiply and xor-shift over 64 bits.
-pub fn hash3(a: u32, b: u32, c: u32) -> u64 {
+pub(crate) fn hash3(a: u32, b: u32, c: u32) -> u64 {
     let mix = |x: u64| {
         let x = (x ^ (x >> 32)).wrapping_mul(0x0e98_46af_9b1a_615d);
         let x = (x ^ (x >> 32)).wrapping_mul(0x0e98_46af_9b1a_615d);
@@ -72,7 +72,7 @@ pub fn hash3(a: u32, b: u32, c: u32) -> u64 {
 
 /// The part of a point that depends on (tile, sample index): reversed fractions before the pixel's own part is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SamplePart {
+pub(crate) struct SamplePart {
     /// First dimension.
     pub x: u32,
     /// Second dimension.
@@ -97,8 +97,19 @@ impl Pair {
         Pair { purpose, seed, pixel_key: a as u32, owen_x: b as u32, owen_y: (b >> 32) as u32 }
     }
 
+    /// The two numbers of a pixel's sample, in [0, 1): what the engine computes over lanes, for one pixel.
+    pub fn point(&self, x: u32, y: u32, sample: u32) -> [f32; 2] {
+        let part = self.sample_part(z_order(x / 16, y / 16), sample);
+        let z = ArrayU::splat(z_order(x, y).reverse_bits());
+        let (u, v) = self.points::<ArrayF<1>>(z, ArrayU::splat(part.x), ArrayU::splat(part.y));
+        let mut out = [0.0; 2];
+        u.store(&mut out[..1]);
+        v.store(&mut out[1..]);
+        out
+    }
+
     /// The part that depends on the tile and the sample index.
-    pub fn sample_part(&self, tile: u32, sample: u32) -> SamplePart {
+    pub(crate) fn sample_part(&self, tile: u32, sample: u32) -> SamplePart {
         let shuffled = |first: Purpose| shuffle_index(sample, hash3(self.seed ^ 0x9e37_79b9, first.id(), tile) as u32);
         let pair = |index: u32| {
             let mut y = [0];
@@ -118,7 +129,7 @@ impl Pair {
 
     /// The two numbers, in [0, 1). `reversed_z` is the bit-reversed Z-order number of each lane's pixel.
     #[inline(always)]
-    pub fn points<F: Lanes>(&self, reversed_z: F::U, sample_x: F::U, sample_y: F::U) -> (F, F) {
+    pub(crate) fn points<F: Lanes>(&self, reversed_z: F::U, sample_x: F::U, sample_y: F::U) -> (F, F) {
         let [points] = Self::points_of([self], reversed_z, [(sample_x, sample_y)]);
         points
     }
@@ -126,7 +137,7 @@ impl Pair {
     /// [`Pair::points`] of several pairs, step by step together: each step of a pair waits for the one before, so alone it leaves most of
     /// the processor idle.
     #[inline(always)]
-    pub fn points_of<F: Lanes, const K: usize>(
+    pub(crate) fn points_of<F: Lanes, const K: usize>(
         pairs: [&Pair; K],
         reversed_z: F::U,
         parts: [(F::U, F::U); K],
@@ -157,12 +168,12 @@ impl Pair {
 
 /// The upper 24 bits as a number in [0, 1).
 #[inline(always)]
-pub fn unit<F: Lanes>(word: F::U) -> F {
+pub(crate) fn unit<F: Lanes>(word: F::U) -> F {
     F::from_int(word.shr::<8>()) * F::splat(1.0 / 16_777_216.0)
 }
 
 /// Z-order (Morton) number: the bits of x and y interleaved, x lowest. Both below 65536.
-pub fn z_order(x: u32, y: u32) -> u32 {
+pub(crate) fn z_order(x: u32, y: u32) -> u32 {
     let spread = |v: u32| {
         let v = (v | (v << 8)) & 0x00ff_00ff;
         let v = (v | (v << 4)) & 0x0f0f_0f0f;
@@ -175,20 +186,6 @@ pub fn z_order(x: u32, y: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::ArrayF;
-
-    fn points(pair: &Pair, x: u32, y: u32, sample: u32) -> (f32, f32) {
-        let part = pair.sample_part(z_order(x / 16, y / 16), sample);
-        let (u, v) = pair.points::<ArrayF<1>>(
-            ArrayU::splat(z_order(x, y).reverse_bits()),
-            ArrayU::splat(part.x),
-            ArrayU::splat(part.y),
-        );
-        let (mut a, mut b) = ([0.0], [0.0]);
-        u.store(&mut a);
-        v.store(&mut b);
-        (a[0], b[0])
-    }
 
     const PURPOSES: [Purpose; 7] = [
         Purpose::Pixel,
@@ -200,6 +197,17 @@ mod tests {
         Purpose::Roulette(7),
     ];
 
+    /// Numbers stay below one, whatever the bits: ln(1 - u) and the last stratum depend on it.
+    #[test]
+    fn numbers_stay_below_one() {
+        for bits in [u32::MAX, u32::MAX - 255, u32::MAX - 256, 1 << 31, 256, 255, 0] {
+            let mut out = [0.0f32];
+            unit::<ArrayF<1>>(ArrayU::splat(bits)).store(&mut out);
+            assert_eq!(f64::from(out[0]), f64::from(bits >> 8) / 16_777_216.0, "{bits:#x}");
+            assert!(out[0] < 1.0);
+        }
+    }
+
     /// 2^n samples of one pixel hit every one of 2^n strata of each dimension once.
     #[test]
     fn samples_of_a_pixel_are_stratified() {
@@ -208,7 +216,7 @@ mod tests {
             for n in 0..10 {
                 let mut seen = vec![[0u32; 2]; 1 << n];
                 for s in 0..1u32 << n {
-                    let (u, v) = points(&pair, 45, 17, s);
+                    let [u, v] = pair.point(45, 17, s);
                     seen[(u * (1 << n) as f32) as usize][0] += 1;
                     seen[(v * (1 << n) as f32) as usize][1] += 1;
                 }
@@ -233,7 +241,7 @@ mod tests {
                             y += (z >> (2 * bit + 1) & 1) << bit;
                         }
                         for s in 0..1u32 << n {
-                            let (u, v) = points(&pair, x, y, s);
+                            let [u, v] = pair.point(x, y, s);
                             seen[(u * (1u32 << (n + k)) as f32) as usize][0] += 1;
                             seen[(v * (1u32 << (n + k)) as f32) as usize][1] += 1;
                         }
@@ -250,7 +258,7 @@ mod tests {
         for purpose in PURPOSES {
             let (mut a, mut b) = (0.0, 0.0);
             for seed in 0..4096 {
-                let (u, v) = points(&Pair::new(seed, purpose), 3, 5, 0);
+                let [u, v] = Pair::new(seed, purpose).point(3, 5, 0);
                 a += f64::from(u) / 4096.0;
                 b += f64::from(v) / 4096.0;
             }

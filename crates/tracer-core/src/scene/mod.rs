@@ -1,4 +1,6 @@
-//! The compiled scene: immutable, `Sync`, in render space. After [`crate::compile`] has made one, rendering cannot fail.
+//! The compiled scene: `Sync`, in render space, made by [`crate::compile`] and only read afterwards. Rendering it
+//! cannot fail. Its public fields are for looking at: the engine reads the tables beside them, which are not built
+//! anew when a field is changed.
 //!
 //! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of two so
 //! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
@@ -29,6 +31,7 @@ pub(crate) use texture::{TextureTable, TextureUse};
 
 use scene_format::Diagnostic;
 use scene_format::desc::Acceleration;
+use std::path::PathBuf;
 
 /// No primitive, no instance.
 pub const NONE: u32 = u32::MAX;
@@ -82,6 +85,9 @@ pub struct Scene {
     pub acceleration: Acceleration,
     /// How the film is developed unless the caller says otherwise.
     pub look: crate::develop::Look,
+    /// All files that were read for it, as they were opened: meshes, their MTL files, placements, textures. The
+    /// scene's own is not among them.
+    pub files: Vec<PathBuf>,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,
     /// How long compiling took.
@@ -96,23 +102,6 @@ impl Scene {
     /// A texture, by the index in [`Albedo::Texture`].
     pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
         self.tables.textures.view(index)
-    }
-
-    /// The same scene, its tree traced with the vector instructions of a level. The picture is the same.
-    #[must_use]
-    pub fn with_level(mut self, level: crate::lanes::level::Level) -> Self {
-        let name = match level.lanes() {
-            8 => "avx2",
-            16 => "avx512",
-            _ => "portable",
-        };
-        // A level without instructions of its own for the tree traces it portably.
-        let of_tree = crate::bvh::Level::supported().into_iter().find(|l| l.name() == name);
-        let portable = || crate::bvh::Level::supported().into_iter().find(|l| l.name() == "portable");
-        if let Some(found) = of_tree.or_else(portable) {
-            self.accel = self.accel.map(|accel| accel.with_level(found));
-        }
-        self
     }
 }
 

@@ -4,6 +4,7 @@ use super::MAX_SIDE;
 use crate::mesh::FileError;
 use image::{ImageError, ImageFormat};
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::path::PathBuf;
 
@@ -61,18 +62,20 @@ impl TextureError {
                     Some(name) => format!("{self}, but looks like `{name}`"),
                     None => self.to_string(),
                 };
-                Diagnostic::error("E0520", span, what).expected("a PNG or JPEG file").hint("convert the picture to PNG")
+                Diagnostic::error(codes::BROKEN_TEXTURE, span, what)
+                    .expected("a PNG or JPEG file")
+                    .hint("convert the picture to PNG")
             }
             TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
                 let message = match self {
                     TextureError::Broken { source, .. } => format!("{self}: {source}"),
                     _ => self.to_string(),
                 };
-                Diagnostic::error("E0520", span, message)
+                Diagnostic::error(codes::BROKEN_TEXTURE, span, message)
                     .expected("a whole PNG or JPEG file")
                     .hint("open it in an image program and save it again")
             }
-            TextureError::Size { .. } => Diagnostic::error("E0520", span, self.to_string())
+            TextureError::Size { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
                 .expected(format!(
                     "1 to {MAX_SIDE} pixels along a side, and beyond 4096 x 4096 no more than 256 for each byte of the file"
                 ))

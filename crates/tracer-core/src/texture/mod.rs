@@ -26,6 +26,7 @@ use crate::mesh::read_regular_file;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
+use scene_format::codes;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
 use std::io::Cursor;
@@ -52,6 +53,20 @@ pub struct Texture {
     pub texels: Texels,
     /// At most one `W0520`: what of the file was ignored. It has no span.
     pub warnings: Diagnostics,
+}
+
+impl Texture {
+    /// The largest channel of all texels, linear.
+    pub(crate) fn brightest(&self) -> f64 {
+        let most = match &self.texels {
+            Texels::Srgb8(texels) => {
+                let byte = texels.iter().flat_map(|texel| texel.to_le_bytes().into_iter().take(3)).max();
+                byte.and_then(|byte| SRGB_TO_LINEAR.get(usize::from(byte)).copied())
+            }
+            Texels::Linear(texels) => texels.as_flattened().iter().copied().reduce(f32::max),
+        };
+        most.map_or(0.0, f64::from)
+    }
 }
 
 /// The colours of a picture.
@@ -139,7 +154,7 @@ fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
     };
     let warnings = transparent
         .then(|| {
-            Diagnostic::warning("W0520", Span::NONE, "the picture has an alpha channel, which is ignored")
+            Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, "the picture has an alpha channel, which is ignored")
                 .expected("an opaque picture")
                 .at_line(path, 0)
         })

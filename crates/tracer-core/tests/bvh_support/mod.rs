@@ -4,9 +4,19 @@
 #![allow(clippy::disallowed_methods)]
 #![allow(dead_code)] // Each test file is a crate of its own and uses a part.
 
+use tracer_core::Level;
 use tracer_core::bvh::{
     Accel, Acceleration, Coherence, Geometry, Hits, InstanceGeometry, MeshGeometry, NONE, Occlusion, Rays,
 };
+
+/// The levels of this processor whose code for the tree differs: hardware fma alone runs the portable code, only
+/// sooner.
+pub fn levels() -> Vec<Level> {
+    let mut levels = Level::available();
+    levels.dedup_by_key(|level| level.lanes());
+    levels.push(Level::PORTABLE);
+    levels
+}
 
 /// A small generator of uniform numbers with a fixed seed (O'Neill, *PCG*, 2014).
 pub struct Random(u64);

@@ -4,8 +4,7 @@ use crate::same_bytes::{bits, cut, everything, many_balls, options};
 use crate::support::describe::*;
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
-use tracer_core::lanes::level::Level;
-use tracer_core::{Clamped, Crop, Film, RenderOptions, Scene, Unobserved};
+use tracer_core::{Clamped, Crop, Film, Level, RenderOptions, Scene, Unobserved};
 
 /// Far below what lamps in view, fireflies and what sharing corrects come to in these scenes.
 const LIMIT: f32 = 1.25;
@@ -101,7 +100,7 @@ fn threads_lanes_and_crops() {
         let part = rendered(&scene, Some(LIMIT), RenderOptions { crop: Some(crop), ..options() });
         assert!(bits(&part) == cut(&bits(&expected), scene.size, crop), "{name}");
         assert!(part.clamped().expect("it was clamped").samples < expected.clamped().expect("it was clamped").samples);
-        for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
+        for level in Level::available().into_iter().filter(|&level| level != Level::PORTABLE) {
             for threads in [1, 2, 3, 7] {
                 for (crop, whole) in [(None, &expected), (Some(crop), &part)] {
                     let more = RenderOptions { threads, level: Some(level), crop, ..options() };

@@ -9,7 +9,7 @@ use crate::support::meshes::{icosphere, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform};
 use scene_format::diagnostic::Spanned;
-use tracer_core::lanes::level::Level;
+use tracer_core::Level;
 use tracer_core::{Crop, RenderOptions, Unobserved, develop};
 
 /// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map, clamping.
@@ -57,7 +57,7 @@ fn every_combination(name: &str, mut desc: SceneDesc) {
         let scene = compiled(&desc);
         let whole = Crop::whole(scene.size);
         // Without hardware fma a sample costs a hundred times more: `same_bytes` has that level.
-        for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
+        for level in Level::available().into_iter().filter(|&level| level != Level::PORTABLE) {
             for threads in [1, 3] {
                 for crop in std::iter::once(whole).chain(CROPS) {
                     let options = RenderOptions { threads, level: Some(level), crop: Some(crop), reuse, ..options() };

@@ -10,7 +10,7 @@ use scene_format::desc::{
     TextureWrap, Transform,
 };
 use std::ops::ControlFlow;
-use tracer_core::lanes::level::Level;
+use tracer_core::Level;
 use tracer_core::{Crop, Film, Look, Observer, Progress, RenderOptions, Scene, Unobserved, develop};
 
 /// Every material, shape and way of shading, both kinds of texture and every wrap, copies, lights inside and outside, lens, background.
@@ -146,7 +146,7 @@ fn threads_and_lanes() {
         assert!(expected.iter().any(|p| p[0] != expected[0][0]), "{name} is empty");
         for level in Level::available() {
             // Without hardware fma a sample costs a hundred times more.
-            let crop = (level == Level::Portable).then_some(Crop { x: 8, y: 8, width: 16, height: 8 });
+            let crop = (level == Level::PORTABLE).then_some(Crop { x: 8, y: 8, width: 16, height: 8 });
             for threads in if crop.is_some() { vec![2] } else { vec![1, 2, 3, 7] } {
                 let options = RenderOptions { threads, level: Some(level), crop, ..options() };
                 let film = tracer_core::render(&scene, &options, &Unobserved);
@@ -193,7 +193,7 @@ fn accelerations() {
         for acceleration in [Acceleration::BoundingBox, Acceleration::None] {
             desc.render.acceleration = acceleration;
             let scene = compiled(&desc);
-            for level in Level::available().into_iter().filter(|&level| level != Level::Portable) {
+            for level in Level::available().into_iter().filter(|&level| level != Level::PORTABLE) {
                 let options = RenderOptions { level: Some(level), threads: 2, ..options() };
                 assert!(rendered(&scene, &options) == expected, "{name}: {acceleration:?}, {}", level.name());
             }

@@ -1,20 +1,13 @@
 //! The sampler's points against independent ones and against plain Owen-scrambled Sobol' points per pixel: error of a pixel, error of
 //! the picture's mean, spectrum of the error over the picture, bias, and structure between dimensions and along the sequence.
 
-use tracer_core::lanes::{ArrayF, ArrayU, Bits, Lanes};
-use tracer_core::sampling::sampler::{Pair, Purpose, z_order};
+use tracer_core::sampling::sampler::{Pair, Purpose};
 use tracer_reference::Random;
 use tracer_reference::statistics::{Estimate, chi_square, sidak};
 
 /// A point of the sampler.
 pub(crate) fn point(pair: &Pair, x: u32, y: u32, sample: u32) -> [f64; 2] {
-    let part = pair.sample_part(z_order(x / 16, y / 16), sample);
-    let z = ArrayU::splat(z_order(x, y).reverse_bits());
-    let (u, v) = pair.points::<ArrayF<1>>(z, ArrayU::splat(part.x), ArrayU::splat(part.y));
-    let mut out = [[0.0]; 2];
-    u.store(&mut out[0]);
-    v.store(&mut out[1]);
-    out.map(|[x]| f64::from(x))
+    pair.point(x, y, sample).map(f64::from)
 }
 
 /// The pairs that a path uses, with a deep one of each kind.

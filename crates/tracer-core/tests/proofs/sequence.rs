@@ -2,21 +2,9 @@
 
 use crate::sampler::{PURPOSES, SIZE, Source, integrands, point, points, scrambled, second_dimension, to_unit, worth};
 use crate::support::effort;
-use tracer_core::lanes::{ArrayF, ArrayU, Bits, Lanes};
-use tracer_core::sampling::sampler::{Pair, Purpose, unit};
+use tracer_core::sampling::sampler::{Pair, Purpose};
 use tracer_reference::Random;
 use tracer_reference::statistics::Estimate;
-
-/// Numbers stay below one, whatever the bits: ln(1 - u) and the last stratum depend on it.
-#[test]
-fn numbers_stay_below_one() {
-    for bits in [u32::MAX, u32::MAX - 255, u32::MAX - 256, 1 << 31, 256, 255, 0] {
-        let mut out = [0.0f32];
-        unit::<ArrayF<1>>(ArrayU::splat(bits)).store(&mut out);
-        assert_eq!(f64::from(out[0]), f64::from(bits >> 8) / 16_777_216.0, "{bits:#x}");
-        assert!(out[0] < 1.0);
-    }
-}
 
 /// No period and no repetition: of the first 2^17 samples of a pixel each lies in its own one of 2^17 strata, in each dimension of each
 /// pair.

@@ -3,7 +3,7 @@
 use crate::args::CompareArgs;
 use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
-use crate::write::{Bits, Encoding, Place, Provenance, probe, write};
+use crate::write::{Bits, Encoding, Place, Provenance, is_one_file, probe, write};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;
@@ -14,6 +14,13 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     if let Some(path) = &args.output {
         if !matches!(Encoding::from_path(path, Bits::Eight), Ok(Encoding::Png(_))) {
             return Err(Failure::wrong(format!("-o {}: the map is a PNG; name it .png", path.display())));
+        }
+        if let Some(input) = [&args.a, &args.b].into_iter().find(|input| is_one_file(path, input)) {
+            let shown = path.display();
+            let also = if path == input { String::new() } else { format!(" ({})", input.display()) };
+            return Err(Failure::wrong(format!(
+                "-o {shown} would replace a picture that is compared{also}; name another file"
+            )));
         }
         probe(path)?;
     }

@@ -4,7 +4,7 @@ use crate::args::ConvertArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, is_dash, read, told};
 use crate::shell::Shell;
-use crate::write::save;
+use crate::write::{is_one_file, save, spare};
 use scene_format::{LoadError, Syntax};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,12 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
         && by_name != asked
     {
         return Err(Failure::wrong(format!("--to says {}, but -o names a {} file", asked.name(), by_name.name())));
+    }
+    if let Some(path) = output {
+        if !is_dash(&args.scene) && is_one_file(path, &args.scene) {
+            return Err(Failure::wrong(format!("-o {} is the scene itself; name another file", path.display())));
+        }
+        spare(path, args.force)?;
     }
     let (name, bytes) = read(&args.scene)?;
     let text = match String::from_utf8(bytes) {

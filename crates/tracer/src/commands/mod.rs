@@ -1,6 +1,7 @@
 //! One file per command.
 
 mod bench_acceleration;
+mod bench_figures;
 mod check;
 mod compare;
 mod completions;
@@ -33,6 +34,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::New(args) => new::run(args, shell),
         Command::Compare(args) => compare::run(args),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),
+        Command::BenchFigures(args) => bench_figures::run(args, shell),
         Command::Explain(args) => explain::run(args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(args),

@@ -5,7 +5,7 @@ use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
 use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
-use crate::write::save;
+use crate::write::{save, spare};
 use clap::ValueEnum;
 use scene_format::Syntax;
 use std::io::Write;
@@ -45,11 +45,7 @@ pub(super) fn run(args: &NewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let syntax = Syntax::from_path(path).ok_or_else(|| {
         Failure::wrong(format!("{shown} is no name for a scene file; expected .ron or .toml at its end"))
     })?;
-    if path.symlink_metadata().is_ok() && !args.force {
-        return Err(Failure::could_not(format!(
-            "{shown} is there already; name another file, or replace it by --force"
-        )));
-    }
+    spare(path, args.force)?;
     let text = match syntax {
         Syntax::Ron => args.template.text().to_owned(),
         Syntax::Toml => scene_format::convert("template", args.template.text(), Syntax::Ron, Syntax::Toml)

@@ -26,6 +26,12 @@ pub enum WriteError {
         /// The file.
         path: PathBuf,
     },
+    /// There is a file of that name that is not replaced without being asked.
+    #[error("{} is there already; name another file, or replace it by --force", path.display())]
+    There {
+        /// The file.
+        path: PathBuf,
+    },
     /// The system says no: permission, disk full, a broken disk.
     #[error("cannot write {}", path.display())]
     Io {

@@ -15,7 +15,7 @@ mod whole_file;
 pub use encoding::{Bits, Encoding, UnknownEncoding};
 pub use error::WriteError;
 pub use provenance::{Provenance, Setting};
-pub use whole_file::{probe, real_place, remove_unfinished, save};
+pub use whole_file::{is_one_file, probe, remove_unfinished, save, spare};
 
 use sha2::{Digest, Sha256};
 use std::io::Write;

@@ -74,6 +74,23 @@ pub fn real_place(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links"))
 }
 
+/// Whether two names lead to the same file, or would.
+pub fn is_one_file(a: &Path, b: &Path) -> bool {
+    a == b || matches!((real_place(a), real_place(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Sees that nothing is replaced by what is not a picture or a report of one: those are made anew again and again, a
+/// scene is written once.
+///
+/// # Errors
+/// When something of that name is there, and `force` does not allow to replace it.
+pub fn spare(path: &Path, force: bool) -> Result<(), WriteError> {
+    if path.symlink_metadata().is_ok_and(|found| found.is_file() || found.is_symlink()) && !force {
+        return Err(WriteError::There { path: path.to_owned() });
+    }
+    Ok(())
+}
+
 /// What a name stands for.
 enum Target {
     /// A regular file, links followed; there may be none yet.

@@ -3,7 +3,7 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 11] = [
+pub const COMMANDS: [&str; 12] = [
     "render",
     "check",
     "info",
@@ -11,6 +11,7 @@ pub const COMMANDS: [&str; 11] = [
     "new",
     "compare",
     "bench-acceleration",
+    "bench-figures",
     "explain",
     "schema",
     "completions",
@@ -154,31 +155,6 @@ fn codes_are_explained() {
     sandbox.run(&["explain", "E9999"]).ends(2).says(&["E9999", "lists all codes"]);
 }
 
-/// Every code that the engine can give is explained.
-#[test]
-fn codes_of_the_engine_are_known() {
-    let mut folders = vec![repository().join("crates/tracer-core/src")];
-    let mut codes = std::collections::BTreeSet::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let text = std::fs::read_to_string(&path).expect("text");
-                codes.extend(text.split('"').filter(|word| is_code(word)).map(str::to_owned));
-            }
-        }
-    }
-    assert!(codes.len() > 5, "{codes:?}");
-    let unknown: Vec<&String> = codes.iter().filter(|code| scene_format::explain(code).is_none()).collect();
-    assert!(unknown.is_empty(), "{unknown:?}");
-}
-
-fn is_code(word: &str) -> bool {
-    word.len() == 5 && word.starts_with(['E', 'W']) && word[1..].bytes().all(|byte| byte.is_ascii_digit())
-}
-
 #[test]
 fn schema_completions_and_man_pages() {
     let sandbox = Sandbox::new();
@@ -191,6 +167,26 @@ fn schema_completions_and_man_pages() {
     assert!(sandbox.run(&["man"]).ends(0).silent().out_text().contains(".TH tracer 1"));
     assert!(sandbox.run(&["man", "render"]).ends(0).silent().out_text().contains("\\-\\-samples"));
     sandbox.run(&["man", "nothing"]).ends(2).says(&["nothing", "render"]);
+}
+
+/// The figures at the report's settings: its times stand beside those of as many samples only.
+#[test]
+fn the_table_of_figures() {
+    let sandbox = Sandbox::new();
+    let scenes = repository().join("scenes");
+    let scenes = scenes.to_str().expect("a path");
+    let table = |more: &[&str]| {
+        sandbox.run(&[&["bench-figures", "--scenes", scenes][..], more].concat()).ends(0).silent().out_text()
+    };
+    let quick = table(&["4", "8", "--samples", "1"]);
+    let lines: Vec<&str> = quick.lines().collect();
+    assert_eq!(lines.len(), 3, "{quick}");
+    assert!(lines[1].starts_with("4       512x512, 1 samples, 5 bounces") && lines[1].ends_with(" s  -"), "{quick}");
+    assert!(lines[2].starts_with("8       256x256, 1 samples, 5 bounces"), "{quick}");
+    let third = table(&["3", "--samples", "1000"]);
+    assert!(third.contains("3       256x256, 10 samples, 5 bounces") && third.contains("7 s (with a tree)"), "{third}");
+    sandbox.run(&["bench-figures", "10"]).ends(2).says(&["10", "1..=9"]);
+    sandbox.run(&["bench-figures", "--scenes", "nowhere"]).ends(1).says(&["there is no scene file nowhere/fig1.ron"]);
 }
 
 #[test]

@@ -41,6 +41,109 @@ fn a_thousand_faults_are_enough() {
     sandbox.run(&["check", "many.ron"]).ends(2).says(&["m999.obj", "more than 1000 faults", "1001 errors"]);
 }
 
+/// A scene with a mesh, its MTL file, its texture, placements, and a texture of the scene.
+fn furnished() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["render", "scene.ron", "-o", "t.png", "-o", "m.png", "--samples", "1"]).ends(0);
+    sandbox.write(
+        "t.obj",
+        "mtllib t.mtl.png\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n",
+    );
+    sandbox.write("t.mtl.png", "newmtl a\nmap_Kd m.png\n");
+    sandbox.write("t.txt", "0 0 0\n");
+    sandbox.write(
+        "all.ron",
+        "Scene(background: 1, render: Render(samples: 1), image: Image(width: 8, height: 8), objects: [
+            Mesh(file: \"t.obj\", placements: \"t.txt\"),
+            Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: Texture(file: \"t.png\"))),
+        ])",
+    );
+    sandbox
+}
+
+/// Nothing that the scene is made of is replaced, under none of its names, and nothing that is compared.
+#[test]
+fn inputs_are_never_overwritten() {
+    let sandbox = furnished();
+    let before: Vec<Vec<u8>> = sandbox.files().iter().map(|name| sandbox.read(name)).collect();
+    let names = sandbox.files();
+    for input in ["t.png", "m.png", "t.mtl.png", "./t.png"] {
+        let says = format!("-o {input} would replace a file of the scene");
+        sandbox.run(&["render", "all.ron", "-o", input]).ends(2).says(&[&says]);
+    }
+    for input in ["t.obj", "t.txt", "t.png", "t.mtl.png"] {
+        let says = format!("--report {input} would replace a file of the scene");
+        sandbox.run(&["render", "all.ron", "-o", "out.png", "--report", input]).ends(2).says(&[&says]);
+    }
+    sandbox
+        .run(&["render", "all.ron", "-o", "out.png", "--report", "all.ron"])
+        .ends(2)
+        .says(&["would replace the scene"]);
+    sandbox.run(&["compare", "t.png", "m.png", "-o", "t.png"]).ends(2).says(&["-o t.png would replace a picture"]);
+    sandbox.run(&["compare", "t.png", "m.png", "-o", "./m.png"]).ends(2).says(&["./m.png would replace", "(m.png)"]);
+    assert_eq!(sandbox.files(), names);
+    assert!(names.iter().zip(before).all(|(name, bytes)| sandbox.read(name) == bytes));
+    // Pictures and reports of earlier runs are.
+    for _ in 0..2 {
+        sandbox.run(&["render", "all.ron", "-o", "out.png", "--report", "out.json"]).ends(0);
+        sandbox.run(&["compare", "t.png", "m.png", "-o", "map.png"]).ends(0);
+    }
+}
+
+/// A scene is written once: whoever wants to replace one says so.
+#[test]
+fn scenes_are_replaced_only_by_force() {
+    let sandbox = Sandbox::new();
+    sandbox.write("b.toml", "mine");
+    for command in [&["convert", "scene.ron", "-o", "b.toml"][..], &["new", "b.toml"]] {
+        sandbox.run(command).ends(1).says(&["b.toml is there already", "--force"]);
+        assert_eq!(sandbox.text("b.toml"), "mine");
+    }
+    sandbox.run(&["convert", "scene.ron", "-o", "b.toml", "--force"]).ends(0).silent();
+    assert!(sandbox.text("b.toml").contains("[camera]"));
+    sandbox
+        .run(&["convert", "scene.ron", "--to", "ron", "-o", "./scene.ron", "--force"])
+        .ends(2)
+        .says(&["is the scene itself"]);
+}
+
+/// What is wrong with the text and what is wrong with the files it names is told in one run.
+#[test]
+fn text_and_files_in_one_run() {
+    let sandbox = Sandbox::new();
+    sandbox.write("m.stl", "solid");
+    sandbox.write(
+        "wrong.ron",
+        "Scene(backgrond: 1, objects: [
+            Mesh(file: \"no.obj\"), Mesh(file: \"m.stl\", colour: 1),
+            Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: Texture(file: \"no.png\"))),
+        ])",
+    );
+    let ran = sandbox.run(&["check", "wrong.ron"]).ends(2);
+    ran.says(&["`backgrond`", "no.obj", "m.stl", "`colour`", "no.png", "5 errors"]);
+}
+
+/// A material that adds light is told with the number and the word that mends it; with that word nothing is said.
+#[test]
+fn a_material_that_adds_light_is_told() {
+    let sandbox = Sandbox::new();
+    let scene = |more: &str| {
+        format!(
+            "Scene(background: 1, render: Render(samples: 1), image: Image(width: 8, height: 8), materials: {{ \
+             \"loud\": BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5{more}) }}, objects: [\
+             Sphere(center: (0, 0, 0), radius: 1, material: \"loud\"), \
+             Sphere(center: (3, 0, 0), radius: 1, material: \"loud\")])"
+        )
+    };
+    sandbox.write("loud.ron", scene(""));
+    sandbox.write("mended.ron", scene(", energy_conserving: true"));
+    for command in [&["check", "loud.ron"][..], &["render", "loud.ron", "-o", "a.png"]] {
+        let ran = sandbox.run(command).ends(0).says(&["W0302", "up to 2.24 times", "energy_conserving: true"]);
+        assert_eq!(ran.err.matches("W0302").count(), 1, "{}", ran.err);
+    }
+    sandbox.run(&["render", "mended.ron", "-o", "a.png"]).ends(0).silent();
+}
+
 /// Two names of one file, whether it is there or not.
 #[cfg(unix)]
 #[test]

@@ -18,6 +18,7 @@ fn printing() -> Vec<Vec<&'static str>> {
         vec!["compare", "b.png", "b.png"],
         vec!["compare", "b.png", "b.png", "--json"],
         vec!["bench-acceleration", "scene.ron", "--size", "8x8"],
+        vec!["bench-figures", "8", "--samples", "1", "--scenes", concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")],
         vec!["explain"],
         vec!["explain", "E0201"],
         vec!["schema"],

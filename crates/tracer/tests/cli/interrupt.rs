@@ -1,4 +1,4 @@
-//! Ctrl-C: the first writes the picture so far, the second leaves at once.
+//! Ctrl-C, SIGTERM and SIGHUP: the first writes the picture so far, the second leaves at once.
 
 use crate::support::{Sandbox, repository};
 use std::io::{BufRead, BufReader, Read};
@@ -21,7 +21,11 @@ fn started(command: &mut Command) -> (Child, BufReader<ChildStderr>) {
 }
 
 fn interrupt(child: &Child) {
-    let line = format!("kill -INT {}", child.id());
+    send("INT", child);
+}
+
+fn send(signal: &str, child: &Child) {
+    let line = format!("kill -{signal} {}", child.id());
     assert!(Command::new("sh").args(["-c", &line]).status().expect("a shell").success());
 }
 
@@ -69,4 +73,28 @@ fn the_second_leaves_at_once() {
     assert!(second.elapsed() < Duration::from_secs(1));
     assert_eq!(sandbox.text("a.png"), "old");
     assert_eq!(sandbox.files(), ["a.png", "scene.ron", "slow.ron"]);
+}
+
+/// What `docker stop`, Slurm and systemd send, and what a lost ssh does: the picture so far is written, and the exit
+/// code tells which it was.
+#[test]
+fn the_system_may_end_it_too() {
+    for (signal, code) in [("TERM", 143), ("HUP", 129)] {
+        let sandbox = Sandbox::new();
+        let mut command = sandbox.command(&["render", "scene.ron", "-o", "a.pfm", "--samples", "100000000", "-v"]);
+        let (mut child, mut stderr) = started(&mut command);
+        send(signal, &child);
+        if signal == "HUP" {
+            // A terminal that goes away sends it, and so does the shell in it: that is one wish.
+            send(signal, &child);
+        }
+        let status = child.wait().expect("it ends");
+        let mut said = String::new();
+        stderr.read_to_string(&mut said).expect("text");
+        assert_eq!(status.code(), Some(code), "{said}");
+        assert!(said.contains(&format!("another SIG{signal} leaves at once")), "{said}");
+        assert!(said.contains("interrupted: a.pfm holds"), "{said}");
+        let picture = Picture::load(&sandbox.path("a.pfm")).expect("a whole picture");
+        assert!(picture.values.iter().any(|&value| value > 0.0));
+    }
 }

@@ -4,18 +4,27 @@
 //! its target features. One dispatch a batch.
 
 #[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
 mod avx512;
+#[allow(unsafe_code)]
 mod interleaved;
+#[allow(unsafe_code)]
 mod isa;
+#[allow(unsafe_code)]
 mod leaves;
+#[allow(unsafe_code)]
 mod packet;
+#[allow(unsafe_code)]
 mod packet_space;
+#[allow(unsafe_code)]
 mod portable;
 mod query;
 
 use super::{Coherence, Hits, Occlusion};
+use crate::level::{Level, Set};
 use isa::Isa16;
 use query::{AnyHit, Closest, Goal};
 pub(crate) use query::{Batch, MeshRecord, TreeView};
@@ -30,62 +39,6 @@ pub(crate) const DEEPEST: usize = (STACK - 10) / 7;
 /// Rays under way at a time: enough to hide a miss to memory, few enough for their state to stay in L1; and one for each
 /// lane of [`WordLanes`](isa::WordLanes), which the rounds of `interleaved` rely on.
 const IN_FLIGHT: usize = 16;
-
-/// An instruction set to trace with. All give the same bits; values exist only for those that this processor has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Level(Set);
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Set {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
-}
-
-impl Level {
-    /// The levels of this processor, slowest first.
-    pub fn supported() -> Vec<Self> {
-        let mut levels = vec![Self(Set::Portable)];
-        #[cfg(target_arch = "x86_64")]
-        {
-            let avx2 = is_x86_feature_detected!("avx2")
-                && is_x86_feature_detected!("fma")
-                && is_x86_feature_detected!("bmi1")
-                && is_x86_feature_detected!("bmi2")
-                && is_x86_feature_detected!("popcnt")
-                && is_x86_feature_detected!("lzcnt");
-            if avx2 {
-                levels.push(Self(Set::Avx2));
-            }
-            let avx512 = is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512bw");
-            if avx2 && avx512 {
-                levels.push(Self(Set::Avx512));
-            }
-        }
-        levels
-    }
-
-    /// The fastest level of this processor.
-    pub fn best() -> Self {
-        Self::supported().last().copied().unwrap_or(Self(Set::Portable))
-    }
-
-    /// `portable`, `avx2` or `avx512`.
-    pub fn name(self) -> &'static str {
-        match self.0 {
-            Set::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => "avx2",
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => "avx512",
-        }
-    }
-}
 
 /// What traversals did, summed over rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -124,6 +77,7 @@ pub(crate) fn occluded<const COUNT: bool>(
     trace::<_, COUNT>(level, coherence, tree, batch, &mut AnyHit { occlusion }, counters);
 }
 
+#[allow(unsafe_code)]
 fn trace<G: Goal, const COUNT: bool>(
     level: Level,
     coherence: Coherence,
@@ -132,9 +86,14 @@ fn trace<G: Goal, const COUNT: bool>(
     goal: &mut G,
     counters: &mut Counters,
 ) {
-    match level.0 {
+    match level.set() {
         Set::Portable => kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters),
-        // SAFETY: a `Level` of this set exists only where the processor has its instructions (`Level::supported`).
+        #[cfg(not(target_arch = "x86_64"))]
+        Set::Portable8 => kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters),
+        // SAFETY: a `Level` of this set exists only where the processor has its instructions.
+        #[cfg(target_arch = "x86_64")]
+        Set::Scalar => unsafe { kernel_fma::<G, COUNT>(coherence, tree, batch, goal, counters) },
+        // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
         Set::Avx2 => unsafe { kernel_avx2::<G, COUNT>(coherence, tree, batch, goal, counters) },
         // SAFETY: as above.
@@ -158,34 +117,45 @@ fn kernel<I: Isa16, G: Goal, const COUNT: bool>(
     }
 }
 
-/// # Safety
-/// The processor has these features.
+/// The portable kernel, whose fused multiplications become one instruction each here and a call of a library elsewhere.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-unsafe fn kernel_avx2<G: Goal, const COUNT: bool>(
+#[target_feature(enable = "fma")]
+fn kernel_fma<G: Goal, const COUNT: bool>(
     coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
     counters: &mut Counters,
 ) {
-    // SAFETY: the caller's promise.
+    kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
+fn kernel_avx2<G: Goal, const COUNT: bool>(
+    coherence: Coherence,
+    tree: &TreeView,
+    batch: Batch,
+    goal: &mut G,
+    counters: &mut Counters,
+) {
+    // SAFETY: this function runs only where the processor has its features.
     let isa = unsafe { avx2::Avx2::new() };
     kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
 }
 
-/// # Safety
-/// The processor has these features.
 #[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-unsafe fn kernel_avx512<G: Goal, const COUNT: bool>(
+fn kernel_avx512<G: Goal, const COUNT: bool>(
     coherence: Coherence,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
     counters: &mut Counters,
 ) {
-    // SAFETY: the caller's promise.
+    // SAFETY: this function runs only where the processor has its features.
     let isa = unsafe { avx512::Avx512::new() };
     kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
 }

@@ -18,6 +18,7 @@ mod library;
 use super::{MeshError, read_regular_file};
 use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
+use scene_format::codes;
 use scene_format::desc::{Albedo, Color, Material, NamedMaterial, Texture, TextureFilter, TextureWrap};
 use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,6 +37,8 @@ pub(super) struct MeshMaterials {
     /// For each used name, which of `materials` it is; `None`: it is not defined.
     pub(super) index_of_name: Vec<Option<u32>>,
     pub(super) warning: Option<Diagnostic>,
+    /// The files that were read.
+    pub(super) libraries: Vec<PathBuf>,
 }
 
 /// Reads the MTL files that `mtllib` names in the OBJ file at `obj_path`, and turns the used materials.
@@ -54,6 +57,7 @@ pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result
                 continue;
             }
         };
+        found.libraries.push(path.clone());
         for material in Library::parse(&text, &path)?.materials {
             // Of two definitions the first counts.
             defined.entry(material.name.clone()).or_insert(material);
@@ -138,7 +142,7 @@ impl Notes {
         }
         (!parts.is_empty()).then(|| {
             let message = format!("the mesh's own materials are taken only in part: {}", parts.join("; "));
-            Diagnostic::warning("W0511", Span::NONE, message)
+            Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
                 .hint("a `material` in the scene replaces those of the file")
                 .at_line(path, 0)
         })

@@ -153,6 +153,7 @@ impl<'a> Assembly<'a> {
             uv_triangles: uvs.triangles,
             materials: materials.materials,
             triangle_material,
+            libraries: materials.libraries,
             warnings: materials.warning.into_iter().collect(),
         })
     }

@@ -5,7 +5,7 @@ mod repeat;
 
 use crate::args::RenderArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::{compile, is_dash, load, use_threads};
+use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
@@ -18,7 +18,7 @@ use outputs::Output;
 use scene_format::SceneDesc;
 use std::io::Write;
 use std::mem::ManuallyDrop;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use tracer_core::{Crop, Film, RenderOptions, Scene, develop, render};
@@ -33,9 +33,13 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
     check_memory(crop, desc.render.clamp.is_some())?;
+    let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
+    outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
 
-    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?.with_level(level));
+    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
+    // Only now it is known what the meshes' own materials name.
+    outputs::spare_inputs(&outputs, args, &scene.files)?;
     let compiled = clock.lap();
 
     interrupt::listen(*shell)?;
@@ -56,7 +60,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let interrupted = fewest < scene.samples;
     if most == 0 {
         shell.say("interrupted before the first sample: no picture is written");
-        return Ok(ExitCode::from(exit::INTERRUPTED));
+        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
     let image = develop(&film, &scene.look);
     let developed = clock.lap();
@@ -108,7 +112,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
         let asked = scene.samples;
         shell.say(&format!("interrupted: {} holds {held} of {asked} samples per pixel", names(&outputs)));
-        return Ok(ExitCode::from(exit::INTERRUPTED));
+        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
     Ok(ExitCode::from(exit::DONE))
 }

@@ -4,9 +4,9 @@ use super::place;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::loading::is_dash;
-use crate::write::{Bits, Encoding, Place, real_place};
+use crate::write::{Bits, Encoding, Place, is_one_file};
 use std::io::IsTerminal;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A picture to write.
 pub(super) struct Output {
@@ -29,7 +29,6 @@ pub(super) fn name(place: &Place) -> String {
 pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     let bits = args.bits.unwrap_or_default();
     let mut outputs: Vec<Output> = Vec::new();
-    let scene = Some(&args.scene.scene).filter(|scene| !is_dash(scene));
     for path in &args.output {
         let place = place(path);
         if let Some(other) = outputs.iter().find(|output| is_same(&output.place, &place)) {
@@ -42,14 +41,6 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         }
         outputs.push(Output { encoding: encoding(path, args, bits)?, place });
     }
-    if let (Some(scene), Some(report)) = (scene, args.report.as_deref())
-        && is_same(&super::place(report), &super::place(scene))
-    {
-        return Err(Failure::wrong(format!(
-            "--report {} would replace the scene; name another file",
-            report.display()
-        )));
-    }
     if args.format.is_some() && args.output.iter().all(|path| path.extension().is_some()) {
         return Err(Failure::wrong(
             "--format is for `-o -` and names without an extension; others say their kind by it",
@@ -61,12 +52,32 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     Ok(outputs)
 }
 
+/// Sees that nothing that is written would replace what the scene was made of: its own file, meshes, materials,
+/// placements, pictures.
+///
+/// # Errors
+/// The first place that would.
+pub(super) fn spare_inputs(outputs: &[Output], args: &RenderArgs, files: &[PathBuf]) -> Result<(), Failure> {
+    let scene = Some(&args.scene.scene).filter(|scene| !is_dash(scene)).map(|scene| ("the scene", scene));
+    let inputs: Vec<(&str, &PathBuf)> =
+        scene.into_iter().chain(files.iter().map(|f| ("a file of the scene", f))).collect();
+    let report = args.report.as_deref().map(|report| ("--report", super::place(report)));
+    for (option, place) in outputs.iter().map(|output| ("-o", output.place.clone())).chain(report) {
+        let Place::File(path) = &place else { continue };
+        let Some((what, input)) = inputs.iter().find(|(_, input)| is_one_file(path, input)) else { continue };
+        let also = if path == *input { String::new() } else { format!(" (it is {})", input.display()) };
+        return Err(Failure::wrong(format!(
+            "{option} {} would replace {what}{also}; name another file",
+            path.display()
+        )));
+    }
+    Ok(())
+}
+
 /// Whether two places are one: by name, or because both names lead to the same file.
 fn is_same(a: &Place, b: &Place) -> bool {
     match (a, b) {
-        (Place::File(a), Place::File(b)) => {
-            a == b || matches!((real_place(a), real_place(b)), (Ok(a), Ok(b)) if a == b)
-        }
+        (Place::File(a), Place::File(b)) => is_one_file(a, b),
         _ => a == b,
     }
 }

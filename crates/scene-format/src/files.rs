@@ -1,0 +1,72 @@
+//! The files that a text names, as far as it could be read: they can be looked at even where the text itself is wrong.
+
+use crate::diagnostic::{Diagnostic, Span};
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What a file that a scene names holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FileKind {
+    /// Triangles: OFF or OBJ.
+    Mesh,
+    /// Placements of a mesh, one a line.
+    Placements,
+    /// A picture.
+    Texture,
+}
+
+/// A file that a scene names, and where it first does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedFile {
+    /// What it should hold.
+    pub kind: FileKind,
+    /// As it is written, relative to the scene's folder.
+    pub path: Arc<Path>,
+    /// The place in the scene.
+    pub span: Span,
+}
+
+/// More files than this are not kept: as many faults as are listed.
+const MAX_FILES: usize = 1000;
+
+/// Files in the order in which they were read, each once.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    list: Vec<NamedFile>,
+    known: HashSet<(FileKind, Arc<Path>)>,
+}
+
+impl Files {
+    pub fn add(&mut self, kind: FileKind, path: &Arc<Path>, span: Span) {
+        let last = self.list.last().is_some_and(|last| last.kind == kind && Arc::ptr_eq(&last.path, path));
+        if !last && self.list.len() < MAX_FILES && self.known.insert((kind, Arc::clone(path))) {
+            self.list.push(NamedFile { kind, path: Arc::clone(path), span });
+        }
+    }
+
+    /// Those that stand on none of these lines.
+    pub fn outside(self, lines: &[Range<u32>]) -> Vec<NamedFile> {
+        let mut list = self.list;
+        list.retain(|file| file.span.source != 0 || !lines.iter().any(|line| line.contains(&file.span.start)));
+        list
+    }
+}
+
+/// The lines on which the syntax is broken: where a quote is missing, what stands between two others is no name.
+pub(crate) fn broken_lines(text: &str, faults: &[Diagnostic]) -> Vec<Range<u32>> {
+    let bytes = text.as_bytes();
+    let mut lines: Vec<Range<u32>> = Vec::new();
+    for fault in faults.iter().filter(|fault| fault.code.is_syntax() && fault.span.source == 0) {
+        let at = (fault.span.start as usize).min(bytes.len());
+        // A long line with many faults is looked for once.
+        if lines.iter().any(|line| line.contains(&(at as u32))) {
+            continue;
+        }
+        let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+        let end = bytes[at..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |newline| at + newline + 1);
+        lines.push(start as u32..end as u32);
+    }
+    lines
+}

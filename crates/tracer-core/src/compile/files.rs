@@ -1,0 +1,75 @@
+//! The files of a scene whose text is wrong: what is wrong with them is told in the same run.
+
+use super::nearby;
+use crate::mesh::{self, placements::load_placements};
+use crate::texture;
+use rayon::prelude::*;
+use scene_format::desc::Material;
+use scene_format::diagnostic::{Source, Span};
+use scene_format::{Diagnostics, FileKind, NamedFile};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it,
+/// and its faults come back in order of their places in the scene. Warnings are left out, as the scene is going to be
+/// mended first. Paths start from `base_dir`; `sources` are the texts that the places point into.
+pub fn check_files(files: &[NamedFile], base_dir: &Path, sources: &[Source]) -> Diagnostics {
+    let faults: Vec<Diagnostics> = files.par_iter().map(|file| faults_of(file, &base_dir.join(&file.path))).collect();
+    let mut faults: Diagnostics = faults.into_iter().flatten().collect();
+    faults.sort_by_key(|fault| fault.span);
+    let wanted: BTreeMap<Span, &Path> = files.iter().map(|file| (file.span, &*file.path)).collect();
+    nearby::suggest(base_dir, sources, &wanted, &mut faults);
+    faults
+}
+
+fn faults_of(file: &NamedFile, path: &Path) -> Diagnostics {
+    let of_texture = |path: &Path| texture::load(path).err().map(|error| error.to_diagnostic(file.span));
+    match file.kind {
+        FileKind::Texture => of_texture(path).into_iter().collect(),
+        FileKind::Placements => {
+            load_placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
+        }
+        FileKind::Mesh => match mesh::load(path) {
+            Err(error) => vec![error.to_diagnostic(file.span)],
+            Ok(data) => {
+                let mut textures: Vec<PathBuf> =
+                    data.materials.iter().filter_map(|named| picture(&named.material)).collect();
+                textures.sort();
+                textures.dedup();
+                textures.iter().filter_map(|path| of_texture(path)).collect()
+            }
+        },
+    }
+}
+
+/// The picture that a material of an MTL file names; its path is complete.
+fn picture(material: &Material) -> Option<PathBuf> {
+    material.texture().map(|texture| texture.file.value.to_path_buf())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene_format::{LoadError, Syntax, load_str};
+
+    #[test]
+    fn the_files_of_a_scene_with_a_mistyped_word_are_looked_at() {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("broken.obj"), "v 0 0\n").expect("a file");
+        let text = r#"Scene(backgrond: 1, objects: [
+            Mesh(file: "broken.obj", colour: 1), Mesh(file: "none.obj", placements: "none.txt"), Mesh(file: "none.obj"),
+            Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: Texture(file: "none.png"))),
+        ])"#;
+        let load = |text: &str| load_str("s.ron", text, Syntax::Ron, folder.path(), &[]);
+        let Err(LoadError::Invalid { files, sources, .. }) = load(text) else { panic!("two words are wrong") };
+        let faults = check_files(&files, folder.path(), &sources);
+        let codes: Vec<&str> = faults.iter().map(|fault| fault.code.as_str()).collect();
+        assert_eq!(codes, ["E0510", "E0501", "E0501", "E0501"]);
+        // Where a quote is missing, nobody knows what on that line is a name.
+        let Err(LoadError::Invalid { files, .. }) = load(&text.replacen("broken.obj\"", "broken.obj", 1)) else {
+            panic!("a quote is missing")
+        };
+        let left: Vec<&Path> = files.iter().map(|file| &*file.path).collect();
+        assert_eq!(left, [Path::new("none.png")]);
+    }
+}
