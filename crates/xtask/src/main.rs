@@ -53,6 +53,9 @@ enum Command {
         /// Only scenes of this kind, as the table at the end names it.
         #[arg(long, default_value = "")]
         kind: String,
+        /// Holds the plain path tracer against itself: what is found then is a false alarm.
+        #[arg(long)]
+        itself: bool,
         /// Instead: the fixed list of exact pairs, with so many pictures of each side.
         #[arg(long)]
         pairs: Option<usize>,
@@ -93,8 +96,8 @@ fn main() -> anyhow::Result<()> {
             anyhow::ensure!(failing == 0, "{failing} pairs differ");
             return Ok(());
         }
-        Command::Truth { scenes, seed, size, keep, jobs, shrink, kind, pairs: None } => {
-            let options = xtask::truth::Options { scenes, seed, size, keep, jobs, shrink, kind };
+        Command::Truth { scenes, seed, size, keep, jobs, shrink, kind, itself, pairs: None } => {
+            let options = xtask::truth::Options { scenes, seed, size, keep, jobs, shrink, kind, itself };
             let failing = xtask::truth::run(&options)?;
             anyhow::ensure!(failing == 0, "{failing} of {scenes} scenes have findings");
             return Ok(());

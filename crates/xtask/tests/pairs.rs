@@ -83,7 +83,16 @@ fn a_room_without_light_is_black() {
 #[test]
 fn all_pairs_are_tested() {
     let tested = [
-        "bulb", "pane", "shells", "flat mirror", "tinted", "two lamps", "mirror image", "twice", "finer", "instances",
+        "bulb",
+        "pane",
+        "shells",
+        "flat mirror",
+        "tinted",
+        "two lamps",
+        "mirror image",
+        "twice",
+        "finer",
+        "instances",
         "a room",
     ];
     for pair in all() {

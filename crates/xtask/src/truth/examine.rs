@@ -4,7 +4,7 @@ use super::judge::{self, Question, Told};
 use super::kinds::Case;
 use super::relation::Relation;
 use super::squares::{LIMIT, squares};
-use super::trial::{Picture, Source};
+use super::trial::{Picture, Pictures as _, Source};
 use super::world::World;
 use scene_format::desc::{Material, Object};
 use std::panic::AssertUnwindSafe;
@@ -102,12 +102,10 @@ impl Compiled {
         Source { scenes: &self.ours, plain: false, samples, threads, flip: false }
     }
 
-    /// Both sides.
-    pub fn question(&self, relation: Relation, samples: u32, threads: usize) -> Question<'_> {
-        let plain = relation == Relation::Path;
-        let flip = relation == Relation::Flipped;
-        let theirs = Source { scenes: &self.theirs, plain, samples, threads, flip };
-        Question { ours: self.ours(samples, threads), theirs, brightest: self.brightest }
+    /// The other side.
+    pub fn theirs(&self, relation: Relation, samples: u32, threads: usize) -> Source<'_> {
+        let (plain, flip) = (relation == Relation::Path, relation == Relation::Flipped);
+        Source { scenes: &self.theirs, plain, samples, threads, flip }
     }
 }
 
@@ -116,9 +114,18 @@ pub fn first_seed(case: &Case) -> u32 {
     (case.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as u32
 }
 
+/// Which picture is held against the truth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// The default.
+    Truth,
+    /// The plain path tracer's, with other seeds: a difference is a false alarm.
+    Itself,
+}
+
 /// Asks everything; a panic is a finding.
-pub fn examine(case: &Case, threads: usize) -> Examined {
-    match std::panic::catch_unwind(AssertUnwindSafe(|| unguarded(case, threads))) {
+pub fn examine(case: &Case, against: Against, threads: usize) -> Examined {
+    match std::panic::catch_unwind(AssertUnwindSafe(|| unguarded(case, against, threads))) {
         Ok(Ok(examined)) => examined,
         Ok(Err(error)) => only(Fault::Refused, format!("{error}")),
         Err(panic) => {
@@ -133,17 +140,32 @@ fn only(fault: Fault, text: String) -> Examined {
     Examined { findings: vec![Finding { fault, text }], ..Examined::default() }
 }
 
-fn unguarded(case: &Case, threads: usize) -> anyhow::Result<Examined> {
+fn unguarded(case: &Case, against: Against, threads: usize) -> anyhow::Result<Examined> {
     let compiled = Compiled::new(&case.world, case.relation)?;
     let seed = first_seed(case);
     let mut examined = Examined::default();
+    if against == Against::Itself && case.relation != Relation::Path {
+        return Ok(examined);
+    }
     if case.relation == Relation::Dark {
         let pictures = compiled.ours(SAMPLES, threads).pictures(seed, 4);
         examined.findings.extend(light_in_the_dark(&pictures));
         return Ok(examined);
     }
-    examined.told = judge::judge(&compiled.question(case.relation, SAMPLES, threads), seed);
+    let (mut ours, theirs) = (compiled.ours(SAMPLES, threads), compiled.theirs(case.relation, SAMPLES, threads));
+    ours.plain = against == Against::Itself;
+    let question = Question {
+        ours: &ours,
+        theirs: &theirs,
+        across: ours.across(),
+        samples: SAMPLES,
+        brightest: compiled.brightest,
+    };
+    examined.told = judge::judge(&question, seed);
     examined.findings.extend(differences(&examined.told));
+    if against == Against::Itself {
+        return Ok(examined);
+    }
     examined.findings.extend(below_zero(&examined.told.ours, SAMPLES));
     examined.findings.extend(dropped(&examined.told.ours));
     let few = compiled.ours(FEW, threads).pictures(seed + 3000, 2);
@@ -227,7 +249,7 @@ fn in_squares(compiled: &Compiled, samples: u32, seed: u32, threads: usize) -> (
 /// Whether a scene still has a fault of this kind, by a test that is quicker and less strict than the one that found it.
 pub fn still(case: &Case, fault: Fault, threads: usize) -> Option<Finding> {
     let any = || {
-        let examined = examine(&Case { hard: false, ..case.clone() }, threads);
+        let examined = examine(&Case { hard: false, ..case.clone() }, Against::Truth, threads);
         examined.findings.into_iter().find(|finding| finding.fault == fault)
     };
     if fault == Fault::Panic {

@@ -36,7 +36,7 @@
 //! Where the allowance or the standard error is larger than what is to be told, nothing is told, and the report says so with the error that was
 //! reached ([`Told::error`]). This is a stricter rule than a median of means, which needs the variance to bound its error, and the variance is just what rare light hides.
 
-use super::trial::{Picture, Region, Source, regions};
+use super::trial::{CELL, Picture, Pictures, Region, regions};
 use tracer_reference::statistics::Estimate;
 
 /// What the whole picture may be off, relative to the truth.
@@ -68,9 +68,13 @@ pub const GAIN: f64 = 4.0;
 #[derive(Clone, Copy)]
 pub struct Question<'a> {
     /// What is doubted.
-    pub ours: Source<'a>,
+    pub ours: &'a dyn Pictures,
     /// The truth.
-    pub theirs: Source<'a>,
+    pub theirs: &'a dyn Pictures,
+    /// Cells along a side of the pictures.
+    pub across: usize,
+    /// Samples of the truth in a pixel.
+    pub samples: u32,
     /// The most that a sample of the plain path tracer brings by chance alone; zero where light samples find all light.
     pub brightest: f64,
 }
@@ -120,7 +124,7 @@ impl Comparison {
         let pictures = if lower { ours } else { theirs };
         let brightest = if lower { 0.0 } else { question.brightest };
         let cells = (region.cells.len() * pictures.len()) as f64;
-        let per_cell = f64::from(super::trial::CELL * super::trial::CELL) * f64::from(question.theirs.samples);
+        let per_cell = f64::from(CELL * CELL) * f64::from(question.samples);
         let mut lump = 0.0f64;
         for &cell in &region.cells {
             let mean = pictures.iter().map(|p| p.cells[cell]).sum::<f64>() / pictures.len() as f64;
@@ -169,7 +173,7 @@ fn tolerance(region: usize) -> f64 {
 
 /// Asks until it is told, or until the last stage.
 pub fn judge(question: &Question<'_>, first_seed: u32) -> Told {
-    let regions = regions(question.ours.across());
+    let regions = regions(question.across);
     let level = SUSPICION / (STAGES.len() * regions.len() * 2) as f64;
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     let mut told = Told::default();
@@ -180,8 +184,7 @@ pub fn judge(question: &Question<'_>, first_seed: u32) -> Told {
         theirs.extend(question.theirs.pictures(from + 0x4000_0000, new));
         let compared: Vec<Comparison> =
             regions.iter().map(|region| Comparison::new(region, &ours, &theirs, question)).collect();
-        let suspected: Vec<usize> =
-            (0..regions.len()).filter(|&k| compared[k].differ(tolerance(k), level)).collect();
+        let suspected: Vec<usize> = (0..regions.len()).filter(|&k| compared[k].differ(tolerance(k), level)).collect();
         let whole = compared[0].theirs.mean.abs();
         told.error = compared[0].told(whole);
         told.tile_error = median(compared[1..].iter().map(|tile| tile.told(whole)).collect());
@@ -218,8 +221,7 @@ fn confirm(
     first_seed: u32,
 ) -> Vec<Difference> {
     let first = first_seed + 1000;
-    let (ours, theirs) =
-        (question.ours.pictures(first, count), question.theirs.pictures(first + 0x4000_0000, count));
+    let (ours, theirs) = (question.ours.pictures(first, count), question.theirs.pictures(first + 0x4000_0000, count));
     let level = CONFIRMATION / suspected.len() as f64;
     let again = |&k: &usize| {
         let comparison = Comparison::new(&regions[k], &ours, &theirs, question);
@@ -228,4 +230,62 @@ fn confirm(
         (same && comparison.differ(tolerance(k), level)).then(|| comparison.difference(&regions[k], count))
     };
     suspected.iter().filter_map(again).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tracer_reference::Random;
+
+    /// Cells with even noise, and lumps of light that come seldom: `lump` in one cell of `seldom` pictures; both have this mean.
+    struct Made {
+        mean: f64,
+        lump: f64,
+        seldom: usize,
+    }
+
+    impl Pictures for Made {
+        fn pictures(&self, first: u32, count: usize) -> Vec<Picture> {
+            let picture = |seed: u32| {
+                let mut random = Random::new(u64::from(seed));
+                let cell = |random: &mut Random| {
+                    let noise = 0.1 * self.mean * random.between(-1.0, 1.0);
+                    let found = self.seldom > 0 && random.below(self.seldom) == 0;
+                    let chance = if self.seldom > 0 { 1.0 / self.seldom as f64 } else { 0.0 };
+                    self.mean - self.lump * chance + noise + if found { self.lump } else { 0.0 }
+                };
+                let cells = (0..64).map(|_| cell(&mut random)).collect();
+                Picture { cells, negative: 0, lowest: 0.0, lit: 0, dropped: 0 }
+            };
+            (first..first + count as u32).map(picture).collect()
+        }
+    }
+
+    /// The chance of a finding in a scene without a fault is 1e-5, whatever the noise; `brightest` in units of a cell's lump.
+    fn findings(ours: &Made, theirs: &Made, brightest: f64, scenes: u32) -> usize {
+        let question = Question { ours, theirs, across: 8, samples: 1, brightest: 256.0 * brightest };
+        (0..scenes).filter(|k| !judge(&question, k * 5000).differences.is_empty()).count()
+    }
+
+    #[test]
+    fn sound_scenes_are_sound() {
+        let even = |mean| Made { mean, lump: 0.0, seldom: 0 };
+        assert_eq!(findings(&even(1.0), &even(1.0), 0.0, 300), 0);
+        // Light in lumps that few pictures have, so that most means are too low; on one side, or on both.
+        for (lump, seldom) in [(0.5, 50), (5.0, 500), (20.0, 5000), (100.0, 50_000)] {
+            let rare = Made { mean: 1.0, lump, seldom };
+            assert_eq!(findings(&even(1.0), &rare, lump, 300), 0, "{lump} once in {seldom}");
+            assert_eq!(findings(&rare, &rare, lump, 300), 0, "{lump} once in {seldom}, both");
+        }
+    }
+
+    #[test]
+    fn faults_are_found() {
+        let even = |mean| Made { mean, lump: 0.0, seldom: 0 };
+        let noisy = || Made { mean: 1.0, lump: 0.5, seldom: 50 };
+        for (mean, theirs) in [(0.95, even(1.0)), (1.05, even(1.0)), (0.9, noisy()), (1.1, noisy())] {
+            let found = findings(&even(mean), &theirs, 0.0, 100);
+            assert!(found >= 99, "{mean}: found in {found} of 100 scenes");
+        }
+    }
 }

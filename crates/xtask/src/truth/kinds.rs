@@ -36,11 +36,7 @@ const WALL: f64 = 0.1;
 
 impl Room {
     fn draw(random: &mut Random) -> Self {
-        Room {
-            half: random.between(2.0, 3.5),
-            height: random.between(2.5, 4.0),
-            deep: random.between(2.0, 3.5),
-        }
+        Room { half: random.between(2.0, 3.5), height: random.between(2.5, 4.0), deep: random.between(2.0, 3.5) }
     }
 
     /// Floor, ceiling and walls but those left out: 0 left, 1 right, 2 floor, 3 ceiling, 4 far, 5 near.
@@ -333,7 +329,11 @@ fn open_air(world: &mut World, random: &mut Random) {
     if once_in(random, 2) {
         world.sphere([0.0, -1000.0, 0.0], 1000.0, material);
     } else {
-        world.mesh("floor", &Shape::quad([[-20.0, 0.0, 20.0], [20.0, 0.0, 20.0], [20.0, 0.0, -20.0], [-20.0, 0.0, -20.0]]), material);
+        world.mesh(
+            "floor",
+            &Shape::quad([[-20.0, 0.0, 20.0], [20.0, 0.0, 20.0], [20.0, 0.0, -20.0], [-20.0, 0.0, -20.0]]),
+            material,
+        );
     }
     receivers(world, room, -0.7, 0.7, random);
     let casters = once_in(random, 2);
@@ -346,7 +346,11 @@ fn open_air(world: &mut World, random: &mut Random) {
     if !sunny || once_in(random, 2) {
         world.desc.background = draw::color(random);
     }
-    world.camera([random.between(-3.0, 3.0), random.between(1.0, 3.0), 5.0], [0.0, 0.5, 0.0], random.between(30.0, 60.0));
+    world.camera(
+        [random.between(-3.0, 3.0), random.between(1.0, 3.0), 5.0],
+        [0.0, 0.5, 0.0],
+        random.between(30.0, 60.0),
+    );
 }
 
 fn crowds(world: &mut World, random: &mut Random) {
@@ -505,4 +509,3 @@ pub fn case(seed: u64, size: u32) -> Case {
     }
     Case { seed, kind, world, relation, hard }
 }
-

@@ -19,7 +19,7 @@ pub mod squares;
 pub mod trial;
 pub mod world;
 
-use examine::{Examined, Finding};
+use examine::{Against, Examined, Finding};
 use kinds::Case;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -43,6 +43,8 @@ pub struct Options {
     pub shrink: u64,
     /// The kind of scenes to draw; all when empty.
     pub kind: String,
+    /// Whether to hold the plain path tracer against itself: every finding is a false alarm then.
+    pub itself: bool,
 }
 
 /// A scene that was examined.
@@ -99,7 +101,8 @@ pub fn run(options: &Options) -> anyhow::Result<usize> {
 fn one(seed: u64, options: &Options) -> anyhow::Result<Done> {
     let start = Instant::now();
     let case = kinds::case(seed, options.size);
-    let examined = examine::examine(&case, 1);
+    let against = if options.itself { Against::Itself } else { Against::Truth };
+    let examined = examine::examine(&case, against, 1);
     let seconds = start.elapsed().as_secs_f64();
     let kept = match examined.findings.first() {
         None => None,
@@ -111,12 +114,11 @@ fn one(seed: u64, options: &Options) -> anyhow::Result<Done> {
 /// Makes a failing scene smaller and writes it, with the original beside it.
 fn keep(case: &Case, first: &Finding, examined: &Examined, options: &Options) -> anyhow::Result<PathBuf> {
     let folder = options.keep.join(format!("{}-{}", case.seed, case.kind.replace(' ', "-")));
-    let measured = |findings: &[Finding]| {
-        findings.iter().map(|f| format!("{:?}: {}\n", f.fault, f.text)).collect::<String>()
-    };
+    let measured =
+        |findings: &[Finding]| findings.iter().map(|f| format!("{:?}: {}\n", f.fault, f.text)).collect::<String>();
     let title = format!("Seed {}: {}, held against {:?}.\n", case.seed, case.kind, case.relation);
     case.world.write(&folder, "drawn", &(title.clone() + &measured(&examined.findings)))?;
-    if options.shrink == 0 {
+    if options.shrink == 0 || options.itself {
         return Ok(folder.join("drawn.ron"));
     }
     let smallest = shrink::shrink(case, first, Duration::from_secs(options.shrink), 1);

@@ -8,7 +8,7 @@
 use super::meshes::Shape;
 use super::receivers::Receiver;
 use super::relation::{PLANE_MIRROR, Relation};
-use super::trial::{Picture, Source, TILE, regions};
+use super::trial::{Picture, Pictures as _, Source, TILE, regions};
 use super::world::{World, diffuse, glass, matt, mirror, tinted};
 use scene_format::desc::{Instances, Material, Placements, Transform};
 use scene_format::diagnostic::Spanned;
@@ -36,14 +36,8 @@ const FAMILY: f64 = 0.01;
 const FILM_STEP: f64 = 1.0 / (1u64 << 48) as f64;
 
 /// Thin, folded and low-poly ones, and a slab as the control.
-const RECEIVERS: [Receiver; 6] = [
-    Receiver::Rods,
-    Receiver::Slats,
-    Receiver::Grass,
-    Receiver::Corrugated,
-    Receiver::LowPoly,
-    Receiver::Slab,
-];
+const RECEIVERS: [Receiver; 6] =
+    [Receiver::Rods, Receiver::Slats, Receiver::Grass, Receiver::Corrugated, Receiver::LowPoly, Receiver::Slab];
 
 /// One of each sort, for pairs of which the receiver is not the point.
 const A_FEW: [Receiver; 3] = [Receiver::Grass, Receiver::Corrugated, Receiver::LowPoly];
@@ -405,7 +399,11 @@ impl Outcome {
     /// What came of it, in a line and one more for each fault.
     pub fn line(&self) -> String {
         let [off, error, least] = self.whole.map(|x| 100.0 * x);
-        let mut line = format!("{:<46} {off:+7.2} % +- {error:.2}; would notice {least:.1}, in a tile {:.1}", self.name, 100.0 * self.tile);
+        let mut line = format!(
+            "{:<46} {off:+7.2} % +- {error:.2}; would notice {least:.1}, in a tile {:.1}",
+            self.name,
+            100.0 * self.tile
+        );
         for fault in &self.faults {
             line += &format!("\n    {fault}");
         }

@@ -21,7 +21,11 @@ pub(crate) fn progress(done: &[Done], scenes: usize, start: Instant) {
     }
     if done.len() % 20 == 0 || done.len() == scenes {
         let failing = done.iter().filter(|scene| !scene.examined.findings.is_empty()).count();
-        println!("{} of {scenes} scenes in {:.0} s, {failing} with findings", done.len(), start.elapsed().as_secs_f64());
+        println!(
+            "{} of {scenes} scenes in {:.0} s, {failing} with findings",
+            done.len(),
+            start.elapsed().as_secs_f64()
+        );
     }
 }
 
@@ -35,7 +39,10 @@ pub(crate) fn summary(done: &[Done], start: Instant) {
             *faults.entry(finding.fault).or_default() += 1;
         }
     }
-    println!("\n{:<14}{:>7}{:>9}{:>11}{:>12}{:>10}{:>8}", "kind", "scenes", "findings", "undecided", "known to", "a tile", "s each");
+    println!(
+        "\n{:<14}{:>7}{:>9}{:>11}{:>12}{:>10}{:>8}",
+        "kind", "scenes", "findings", "undecided", "known to", "a tile", "s each"
+    );
     for (kind, scenes) in &kinds {
         let failing = scenes.iter().filter(|scene| !scene.examined.findings.is_empty()).count();
         let undecided = scenes.iter().filter(|scene| scene.examined.told.error > UNDECIDED).count();
@@ -47,7 +54,9 @@ pub(crate) fn summary(done: &[Done], start: Instant) {
             100.0 * middle(scenes, |scene| scene.examined.told.tile_error),
         );
     }
-    println!("known to: three standard errors and the allowance for rare light, relative; the scene in the middle of its kind");
+    println!(
+        "known to: three standard errors and the allowance for rare light, relative; the scene in the middle of its kind"
+    );
     for scene in done.iter().filter(|scene| scene.examined.told.error > UNDECIDED) {
         let error = 100.0 * scene.examined.told.error;
         println!("undecided: seed {} ({}), known to {error:.1} %", scene.case.seed, scene.case.kind);

@@ -39,6 +39,18 @@ pub struct Picture {
     pub dropped: u64,
 }
 
+/// What makes pictures with independent seeds.
+pub trait Pictures {
+    /// Pictures of seeds from `first` on.
+    fn pictures(&self, first: u32, count: usize) -> Vec<Picture>;
+}
+
+impl Pictures for Source<'_> {
+    fn pictures(&self, first: u32, count: usize) -> Vec<Picture> {
+        (first..first + count as u32).map(|seed| self.picture(seed)).collect()
+    }
+}
+
 impl Source<'_> {
     /// Cells along a side.
     pub fn across(&self) -> usize {
@@ -78,11 +90,6 @@ impl Source<'_> {
             sum.dropped += picture.dropped;
         }
         sum
-    }
-
-    /// Pictures of seeds from `first` on.
-    pub fn pictures(&self, first: u32, count: usize) -> Vec<Picture> {
-        (first..first + count as u32).map(|seed| self.picture(seed)).collect()
     }
 }
 

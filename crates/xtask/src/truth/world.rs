@@ -30,7 +30,8 @@ impl World {
     /// Adds a file; the name says what is in it, so that equal files are one.
     pub fn file(&mut self, name: &str, ending: &str, bytes: Vec<u8>) -> PathBuf {
         // Fowler, Noll and Vo: FNV-1a.
-        let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+        let hash =
+            bytes.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
         let name = format!("{name}-{:08x}.{ending}", hash as u32);
         self.files.insert(name.clone(), bytes);
         PathBuf::from(name)
@@ -65,9 +66,9 @@ impl World {
     /// Adds a lamp of this radiance.
     pub fn lamp(&mut self, center: Point, radius: f64, radiance: Color) {
         let emission = Emission::Radiance(radiance).into();
-        self.desc.lights.push(
-            Light::SphereLight(SphereLight { center: center.into(), radius: radius.into(), emission }).into(),
-        );
+        self.desc
+            .lights
+            .push(Light::SphereLight(SphereLight { center: center.into(), radius: radius.into(), emission }).into());
     }
 
     /// Where the camera stands.
