@@ -50,13 +50,13 @@ enum Command {
         /// Seconds to make a failing scene smaller; 0 keeps it as it was drawn.
         #[arg(long, default_value_t = 60)]
         shrink: u64,
-        /// Only scenes of this kind, as the table at the end names it.
+        /// Only scenes of this kind, as the table at the end names it; only pairs whose names contain this.
         #[arg(long, default_value = "")]
         kind: String,
-        /// Holds the plain path tracer against itself: what is found then is a false alarm.
+        /// Holds the plain path tracer against itself: what is found then is a false alarm, or a pair that is none.
         #[arg(long)]
         itself: bool,
-        /// Instead: the fixed list of exact pairs, with so many pictures of each side.
+        /// Instead of random scenes: the fixed list of exact pairs, with so many pictures of each side.
         #[arg(long)]
         pairs: Option<usize>,
     },
@@ -91,8 +91,8 @@ fn main() -> anyhow::Result<()> {
         Command::Mutants { names, limit, .. } => {
             return xtask::mutants::run(&root, &xtask::mutants::Options { names, limit });
         }
-        Command::Truth { pairs: Some(pictures), kind, .. } => {
-            let failing = xtask::truth::pairs::run(pictures, &kind)?;
+        Command::Truth { pairs: Some(pictures), kind, itself, .. } => {
+            let failing = xtask::truth::pairs::run(pictures, &kind, itself)?;
             anyhow::ensure!(failing == 0, "{failing} pairs differ");
             return Ok(());
         }

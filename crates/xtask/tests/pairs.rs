@@ -15,7 +15,7 @@ fn hold(beginning: &str) {
     assert!(!chosen.is_empty(), "no pair begins with {beginning:?}");
     let mut failing = Vec::new();
     for pair in chosen {
-        let outcome = pair.judge(PICTURES, level).unwrap_or_else(|error| panic!("{}: {error}", pair.name));
+        let outcome = pair.judge(PICTURES, level, false).unwrap_or_else(|error| panic!("{}: {error}", pair.name));
         println!("{}", outcome.line());
         if !outcome.faults.is_empty() {
             failing.push(outcome.line());

@@ -166,10 +166,12 @@ fn unguarded(case: &Case, against: Against, threads: usize) -> anyhow::Result<Ex
     if against == Against::Itself {
         return Ok(examined);
     }
-    examined.findings.extend(below_zero(&examined.told.ours, SAMPLES));
-    examined.findings.extend(dropped(&examined.told.ours));
     let few = compiled.ours(FEW, threads).pictures(seed + 3000, 2);
-    examined.findings.extend(below_zero(&few, FEW));
+    let negative = [below_zero(&examined.told.ours, SAMPLES), below_zero(&few, FEW)];
+    examined.findings.extend(
+        negative.into_iter().flatten().reduce(|a, b| Finding { fault: Fault::Negative, text: a.text + "\n" + &b.text }),
+    );
+    examined.findings.extend(dropped(&examined.told.ours));
     if let Some(samples) = asked_at(case).filter(|_| case.hard) {
         let (found, upper) = in_squares(&compiled, samples, seed + 4000, threads);
         examined.findings.extend(found);

@@ -294,14 +294,15 @@ pub fn level(pairs: usize) -> f64 {
 }
 
 impl Pair {
-    /// Renders so many pictures of each side, and compares them.
+    /// Renders so many pictures of each side, and compares them; `plain`: those of the plain path tracer, which shows whether the pair is
+    /// a pair.
     ///
     /// # Errors
     /// A scene is refused.
-    pub fn judge(&self, pictures: usize, level: f64) -> anyhow::Result<Outcome> {
+    pub fn judge(&self, pictures: usize, level: f64, plain: bool) -> anyhow::Result<Outcome> {
         let ours = [self.ours.compiled()?];
         let theirs: Vec<Scene> = self.theirs.iter().map(World::compiled).collect::<Result<_, _>>()?;
-        let source = |scenes, flip| Source { scenes, plain: false, samples: SAMPLES, threads: 1, flip };
+        let source = |scenes, flip| Source { scenes, plain, samples: SAMPLES, threads: 1, flip };
         let (ours, theirs) = (source(&ours[..], false), source(&theirs[..], self.claim == Claim::MirrorImage));
         let outcome = |faults| Outcome { name: self.name.clone(), faults, whole: [0.0; 3], tile: 0.0 };
         match self.claim {
@@ -379,12 +380,12 @@ fn critical(level: f64, freedom: f64) -> f64 {
 ///
 /// # Errors
 /// A scene is refused.
-pub fn run(pictures: usize, filter: &str) -> anyhow::Result<usize> {
+pub fn run(pictures: usize, filter: &str, plain: bool) -> anyhow::Result<usize> {
     use rayon::prelude::*;
     let pairs = all();
     let level = level(pairs.len());
     let judged = |pair: &Pair| {
-        let outcome = pair.judge(pictures, level)?;
+        let outcome = pair.judge(pictures, level, plain)?;
         println!("{}", outcome.line());
         Ok(outcome)
     };
