@@ -60,7 +60,11 @@ pub(crate) struct Done {
 /// # Errors
 /// The picture's size is no multiple of a tile's; no such kind; a failing scene cannot be written.
 pub fn run(options: &Options) -> anyhow::Result<usize> {
-    anyhow::ensure!(options.size > 0 && options.size % trial::TILE == 0, "--size: not a multiple of {}", trial::TILE);
+    anyhow::ensure!(
+        options.size > 0 && options.size.is_multiple_of(trial::TILE),
+        "--size: not a multiple of {}",
+        trial::TILE
+    );
     let known = kinds::KINDS.iter().any(|kind| kind.0 == options.kind);
     let names = || kinds::KINDS.map(|kind| kind.0).join(", ");
     anyhow::ensure!(options.kind.is_empty() || known, "--kind: none of {}", names());

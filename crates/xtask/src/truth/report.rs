@@ -19,7 +19,7 @@ pub(crate) fn progress(done: &[Done], scenes: usize, start: Instant) {
     if let Some(path) = &last.kept {
         println!("    kept: {}", path.display());
     }
-    if done.len() % 20 == 0 || done.len() == scenes {
+    if done.len().is_multiple_of(20) || done.len() == scenes {
         let failing = done.iter().filter(|scene| !scene.examined.findings.is_empty()).count();
         println!(
             "{} of {scenes} scenes in {:.0} s, {failing} with findings",

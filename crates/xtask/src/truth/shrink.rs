@@ -71,7 +71,7 @@ fn simpler(world: &World, step: usize) -> Option<Option<World>> {
             plainer(world, &mut other, k);
         }
         _ if step < 4 + 2 * objects + lights => {
-            let least = if step % 2 == 0 { 1 } else { 2 };
+            let least = if step.is_multiple_of(2) { 1 } else { 2 };
             if desc.render.max_bounces.value > least && desc.render.max_bounces.value < 16 {
                 desc.render.max_bounces = least.into();
             }
