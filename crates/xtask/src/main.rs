@@ -9,12 +9,14 @@ use std::path::{Path, PathBuf};
 enum Command {
     /// The cat: its meshes and texture in assets/.
     Cat,
-    /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the scenes.
+    /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the
+    /// scenes.
     Gallery,
     /// Golden pictures.
     #[command(subcommand)]
     Golden(Golden),
-    /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not noticed.
+    /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not
+    /// noticed.
     ///
     /// All of them take about an hour on two cores. The copy lies in target/mutants.
     Mutants {
@@ -29,8 +31,9 @@ enum Command {
     },
     /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
     ///
-    /// The truth is the plain path tracer, or another scene that must look the same. Failing scenes are made smaller and kept with what was
-    /// measured. A thousand take about an hour on two cores.
+    /// The truth is the plain path tracer, or another scene that must look the same. Failing scenes are made smaller
+    /// and kept with what was
+    /// measured. A thousand take an hour or more on two cores.
     Truth {
         /// How many scenes.
         #[arg(long, default_value_t = 20)]

@@ -1,6 +1,7 @@
 //! Exact pairs: scenes whose default pictures are the same on average by construction (`xtask::truth::pairs`).
 //!
-//! No truth but these tells what photons do to thin, folded and low-poly things: the plain path tracer hardly finds a lamp in glass.
+//! No truth but these tells what photons do to thin, folded and low-poly things: the plain path tracer hardly finds a
+//! lamp in glass.
 
 use xtask::truth::pairs::{all, level};
 

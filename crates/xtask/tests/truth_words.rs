@@ -1,4 +1,5 @@
-//! The generator of `cargo xtask truth` draws every word of the language: it is held against the schema that prints the manual.
+//! The generator of `cargo xtask truth` draws every word of the language: it is held against the schema that prints the
+//! manual.
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

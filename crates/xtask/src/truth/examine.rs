@@ -22,7 +22,8 @@ const SELDOM: f64 = 10_000.0;
 /// Lobes of larger exponents find lamps by chance rather than by light samples.
 const NARROW: f64 = 20.0;
 
-/// The chance of squares by chance in a scene: with two sizes of blocks at three numbers of samples, in a third of a thousand scenes, that
+/// The chance of squares by chance in a scene: with two sizes of blocks at three numbers of samples, in a third of a
+/// thousand scenes, that
 /// is one in a thousand at most.
 const SQUARES_LEVEL: f64 = 5e-7;
 
@@ -222,7 +223,8 @@ fn dropped(pictures: &[Picture]) -> Option<Finding> {
     (dropped > 0).then(|| Finding { fault: Fault::Dropped, text: format!("{dropped} samples are no numbers") })
 }
 
-/// At how many samples per pixel a scene is asked for squares: seventeen pictures of 64 samples cost more than all else that is asked of a
+/// At how many samples per pixel a scene is asked for squares: seventeen pictures of 64 samples cost more than all else
+/// that is asked of a
 /// scene, so few are; `None` is not asked. Half of the kinds of rooms where light is hard to find are.
 fn asked_at(case: &Case) -> Option<u32> {
     let turn = (first_seed(case) % 12) as usize;
@@ -237,7 +239,8 @@ fn in_squares(compiled: &Compiled, samples: u32, seed: u32, threads: usize) -> (
         upper = upper.max(s.upper());
         if s.chance() < SQUARES_LEVEL {
             lines.push(format!(
-                "steps at borders of {} pixels are {:.2} times the others (+- {:.2}; right is at most {LIMIT}) at {samples} samples",
+                "steps at borders of {} pixels are {:.2} times the others (+- {:.2}; right is at most {LIMIT}) at {samples} \
+                 samples",
                 s.block,
                 s.ratio,
                 s.ratio * s.error
@@ -248,7 +251,8 @@ fn in_squares(compiled: &Compiled, samples: u32, seed: u32, threads: usize) -> (
     (finding, upper)
 }
 
-/// Whether a scene still has a fault of this kind, by a test that is quicker and less strict than the one that found it.
+/// Whether a scene still has a fault of this kind, by a test that is quicker and less strict than the one that found
+/// it.
 pub fn still(case: &Case, fault: Fault, threads: usize) -> Option<Finding> {
     let any = || {
         let examined = examine(&Case { hard: false, ..case.clone() }, Against::Truth, threads);

@@ -2,39 +2,58 @@
 //!
 //! # What is tested
 //!
-//! For the whole picture and each of its tiles, a and b being the expectations of the two ways, b the truth: H0: |a - b| <= t b, with t the
-//! tolerance ([`TOLERANCE_PICTURE`], [`TOLERANCE_TILE`]). Whole pictures with independent seeds are the independent values: however the pixels
+//! For the whole picture and each of its tiles, a and b being the expectations of the two ways, b the truth: H0: |a -
+//! b| <= t b, with t the
+//! tolerance ([`TOLERANCE_PICTURE`], [`TOLERANCE_TILE`]). Whole pictures with independent seeds are the independent
+//! values: however the pixels
 //! of one hang together, the spread over pictures tells the variance of a region's mean.
 //!
 //! # Levels
 //!
-//! A thousand scenes shall give a finding by chance once in a hundred times: 1e-5 a scene. That is a product of two. The pictures of the
-//! stages ([`STAGES`]) may raise a suspicion, at the level [`SUSPICION`] a scene, divided (Bonferroni) among stages, regions and the two
-//! directions; so it does not matter that stages share pictures. A suspicion is tried anew on as many fresh pictures as raised it, sixteen or more, for the
-//! suspected regions and directions only, at the level [`CONFIRMATION`], divided among these. Fresh pictures know nothing of the old ones: the chance of
+//! A thousand scenes shall give a finding by chance once in a hundred times: 1e-5 a scene. That is a product of two.
+//! The pictures of the
+//! stages ([`STAGES`]) may raise a suspicion, at the level [`SUSPICION`] a scene, divided (Bonferroni) among stages,
+//! regions and the two
+//! directions; so it does not matter that stages share pictures. A suspicion is tried anew on as many fresh pictures as
+//! raised it, sixteen or more, for the
+//! suspected regions and directions only, at the level [`CONFIRMATION`], divided among these. Fresh pictures know
+//! nothing of the old ones: the chance of
 //! both is at most 1e-2 x 1e-3.
 //!
 //! # Rare light
 //!
-//! Welch's t is safe against what is there: one value that outweighs all others moves the mean by x/n and the standard error by as
-//! much, so |t| is about 1 and nothing is suspected. It is not safe against what is not there. Light that is found once in a thousand pictures is
-//! missing from most means, and from their standard errors. So only the side with the *lower* mean can fool, by light that it has not found, and it gets
-//! an allowance. Were the light in question spread over events of value v (per sample) and probability p, then N samples miss them all with
-//! probability (1-p)^N <= exp(-pN); at level l that excludes p > ln(1/l)/N, so what is missed at level l is at most v ln(1/l)/N: the rule of three for other levels than 5 %.
+//! Welch's t is safe against what is there: one value that outweighs all others moves the mean by x/n and the standard
+//! error by as
+//! much, so |t| is about 1 and nothing is suspected. It is not safe against what is not there. Light that is found once
+//! in a thousand pictures is
+//! missing from most means, and from their standard errors. So only the side with the *lower* mean can fool, by light
+//! that it has not found, and it gets
+//! an allowance. Were the light in question spread over events of value v (per sample) and probability p, then N
+//! samples miss them all with
+//! probability (1-p)^N <= exp(-pN); at level l that excludes p > ln(1/l)/N, so what is missed at level l is at most v
+//! ln(1/l)/N: the rule of three for other levels than 5 %.
 //! What v may be depends on which side is lower:
 //!
-//! * What comes in lumps (a path that lights 64 pixels, a photon that lights a disc): the largest deviation of a cell of 16x16
+//! * What comes in lumps (a path that lights 64 pixels, a photon that lights a disc): the largest deviation of a cell
+//!   of 16x16
 //!   pixels from its mean over the pictures; N is the number of such cells. This is allowed for on either side.
-//! * Light that only chance finds: the plain path tracer's rays that leave a matt surface, pass mirrors or glass and meet a lamp bring all of its
-//!   radiance, and a small lamp is met so seldom that it may not have been met at all. A sample brings at most what the brightest lamp has, since
-//!   throughputs are at most one (times [`GAIN`] where a material reflects more than it gets); N is the number of samples in the region. This is
-//!   allowed for where the plain path tracer is lower ([`Question::brightest`]) and the scene has mirrors, glass or narrow lobes. Without these, light samples
+//! * Light that only chance finds: the plain path tracer's rays that leave a matt surface, pass mirrors or glass and
+//!   meet a lamp bring all of its
+//!   radiance, and a small lamp is met so seldom that it may not have been met at all. A sample brings at most what the
+//!   brightest lamp has, since
+//!   throughputs are at most one (times [`GAIN`] where a material reflects more than it gets); N is the number of
+//!   samples in the region. This is
+//!   allowed for where the plain path tracer is lower ([`Question::brightest`]) and the scene has mirrors, glass or
+//!   narrow lobes. Without these, light samples
 //!   find every lamp, and bring what its solid angle lets them, which the cells show.
-//!   Where the default picture is lower, its light was found by plain paths often enough to be measured, and a default that finds it more seldom
+//!   Where the default picture is lower, its light was found by plain paths often enough to be measured, and a default
+//!   that finds it more seldom
 //!   than these is what this test is to find.
 //!
-//! Where the allowance or the standard error is larger than what is to be told, nothing is told, and the report says so with the error that was
-//! reached ([`Told::error`]). This is a stricter rule than a median of means, which needs the variance to bound its error, and the variance is just what rare light hides.
+//! Where the allowance or the standard error is larger than what is to be told, nothing is told, and the report says so
+//! with the error that was
+//! reached ([`Told::error`]). This is a stricter rule than a median of means, which needs the variance to bound its
+//! error, and the variance is just what rare light hides.
 
 use super::trial::{CELL, Picture, Pictures, Region, regions};
 use tracer_reference::statistics::Estimate;
@@ -54,7 +73,8 @@ pub const SUSPICION: f64 = 1e-2;
 /// The chance to confirm a false one.
 pub const CONFIRMATION: f64 = 1e-3;
 
-/// More pictures are made where a region differs by more than half of the tolerance at this level: the sixteen tiles of a sound scene
+/// More pictures are made where a region differs by more than half of the tolerance at this level: the sixteen tiles of
+/// a sound scene
 /// have a chance of one in six at most to ask for them.
 const DOUBT: f64 = 0.01;
 
@@ -99,7 +119,8 @@ pub struct Difference {
 pub struct Told {
     /// Confirmed differences, the whole picture first.
     pub differences: Vec<Difference>,
-    /// Three standard errors and the allowance for rare light, of the whole picture, relative: what differs by less was not told.
+    /// Three standard errors and the allowance for rare light, of the whole picture, relative: what differs by less was
+    /// not told.
     pub error: f64,
     /// The same of the tile in the middle of all tiles, when they are sorted by it.
     pub tile_error: f64,
@@ -237,7 +258,8 @@ mod tests {
     use super::*;
     use tracer_reference::Random;
 
-    /// Cells with even noise, and lumps of light that come seldom: `lump` in one cell of `seldom` pictures; both have this mean.
+    /// Cells with even noise, and lumps of light that come seldom: `lump` in one cell of `seldom` pictures; both have
+    /// this mean.
     struct Made {
         mean: f64,
         lump: f64,
@@ -261,7 +283,8 @@ mod tests {
         }
     }
 
-    /// The chance of a finding in a scene without a fault is 1e-5, whatever the noise; `brightest` in units of a cell's lump.
+    /// The chance of a finding in a scene without a fault is 1e-5, whatever the noise; `brightest` in units of a cell's
+    /// lump.
     fn findings(ours: &Made, theirs: &Made, brightest: f64, scenes: u32) -> usize {
         let question = Question { ours, theirs, across: 8, samples: 1, brightest: 256.0 * brightest };
         (0..scenes).filter(|k| !judge(&question, k * 5000).differences.is_empty()).count()

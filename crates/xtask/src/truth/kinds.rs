@@ -390,7 +390,8 @@ fn chaos(world: &mut World, random: &mut Random) {
     room.camera(world, -0.9, 0.9, random);
 }
 
-/// A few receivers of low albedo on a floor: what is cut off after many bounces is nothing, so that passing a surface that is not there
+/// A few receivers of low albedo on a floor: what is cut off after many bounces is nothing, so that passing a surface
+/// that is not there
 /// does not show.
 fn dim_things(world: &mut World, random: &mut Random) {
     world.mesh("floor", &Shape::block([-3.0, -0.1, -3.0], [3.0, 0.0, 3.0]), matt(random.between(0.2, 0.4)));

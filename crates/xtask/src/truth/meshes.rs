@@ -1,4 +1,5 @@
-//! Meshes of the generator's scenes: thin, folded, low-poly and closed ones, written as OBJ or OFF files beside the scene.
+//! Meshes of the generator's scenes: thin, folded, low-poly and closed ones, written as OBJ or OFF files beside the
+//! scene.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

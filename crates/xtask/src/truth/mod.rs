@@ -1,9 +1,13 @@
-//! `cargo xtask truth`: random scenes of everything that the language has, held against the plain path tracer and against scenes that must look the
+//! `cargo xtask truth`: random scenes of everything that the language has, held against the plain path tracer and
+//! against scenes that must look the
 //! same.
 //!
-//! A scene's way: drawn from a seed (`kinds`), written as RON with its files, loaded and compiled as a person's would be (`world`), rendered with
-//! independent seeds (`trial`), judged (`judge`, where the statistics are derived; `squares`). One that fails is made smaller while it still
-//! fails (`shrink`) and kept with what was measured. `pairs` is a fixed list of scenes with exact truths, which CI runs.
+//! A scene's way: drawn from a seed (`kinds`), written as RON with its files, loaded and compiled as a person's would
+//! be (`world`), rendered with
+//! independent seeds (`trial`), judged (`judge`, where the statistics are derived; `squares`). One that fails is made
+//! smaller while it still
+//! fails (`shrink`) and kept with what was measured. `pairs` is a fixed list of scenes with exact truths, which CI
+//! runs.
 
 pub mod draw;
 pub mod examine;

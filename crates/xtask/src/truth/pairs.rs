@@ -1,9 +1,13 @@
-//! Pairs of scenes whose pictures are the same on average, by construction: truths that need no other renderer and no patience, for
+//! Pairs of scenes whose pictures are the same on average, by construction: truths that need no other renderer and no
+//! patience, for
 //! both sides are the default picture.
 //!
-//! Each is tested on the difference: whole picture and tiles of 32x32 pixels, pictures with independent seeds on both sides, Welch's
-//! test, at a level that all regions of all pairs together fail by chance once in a hundred (Šidák). Passing glass and meeting a mirror count as
-//! bounces; so scenes have [`BOUNCES`] of these, albedos of a half and less, and are open to the dark: what is cut off is less than [`CUT_OFF`].
+//! Each is tested on the difference: whole picture and tiles of 32x32 pixels, pictures with independent seeds on both
+//! sides, Welch's
+//! test, at a level that all regions of all pairs together fail by chance once in a hundred (Šidák). Passing glass and
+//! meeting a mirror count as
+//! bounces; so scenes have [`BOUNCES`] of these, albedos of a half and less, and are open to the dark: what is cut off
+//! is less than [`CUT_OFF`].
 
 use super::meshes::Shape;
 use super::receivers::Receiver;
@@ -25,7 +29,8 @@ const SAMPLES: u32 = 18;
 /// So many that what is cut off does not show.
 const BOUNCES: u32 = 30;
 
-/// Fifteen bounces of an albedo of a half and as many passages are left where each bounce comes with one: 2^-15 at most. Doubled; single
+/// Fifteen bounces of an albedo of a half and as many passages are left where each bounce comes with one: 2^-15 at
+/// most. Doubled; single
 /// precision is better than that.
 const CUT_OFF: f64 = 6e-5;
 
@@ -294,7 +299,8 @@ pub fn level(pairs: usize) -> f64 {
 }
 
 impl Pair {
-    /// Renders so many pictures of each side, and compares them; `plain`: those of the plain path tracer, which shows whether the pair is
+    /// Renders so many pictures of each side, and compares them; `plain`: those of the plain path tracer, which shows
+    /// whether the pair is
     /// a pair.
     ///
     /// # Errors

@@ -65,7 +65,8 @@ impl Receiver {
         world.mesh(&name, &shape, material);
     }
 
-    /// The same, with what the language has for meshes besides: OFF files, shading, transforms that lead to the same place.
+    /// The same, with what the language has for meshes besides: OFF files, shading, transforms that lead to the same
+    /// place.
     pub fn add_somehow(self, world: &mut World, scale: f64, at: Point, random: &mut Random) {
         let material = draw::matt(world, random);
         let plain = random.below(2) == 0 || self == Receiver::Pebbles;

@@ -12,9 +12,11 @@ pub const PLANE_MIRROR: &str = "plane-mirror";
 pub enum Relation {
     /// It is that of the plain path tracer.
     Path,
-    /// It is that without glass of index 1.0. Passing such glass counts as a bounce, so scenes for this have many bounces and low albedos.
+    /// It is that without glass of index 1.0. Passing such glass counts as a bounce, so scenes for this have many
+    /// bounces and low albedos.
     Shells,
-    /// It is that of the mirrored world where the mirror in the plane x = 0 was. All things are on one side of it, and no ray that
+    /// It is that of the mirrored world where the mirror in the plane x = 0 was. All things are on one side of it, and
+    /// no ray that
     /// matters passes beside it.
     Unfolded,
     /// It is the mirror image of the mirrored scene's.

@@ -1,10 +1,15 @@
 //! Squares in the noise: steps of the error across the borders of blocks of pixels against those elsewhere.
 //!
-//! The error of a picture is the picture less the mean of the others. Pixels that hang together within blocks have errors alike
-//! there, and a step to the next block. Were there no blocks, the mean squared step would be the same at every column and row, whatever the
-//! noise and however it varies over the picture: blocks begin at multiples of 8 or 16, and what is in the picture knows nothing of that. Each
-//! picture gives a sum of squared steps at borders and elsewhere; their ratio over all pictures has its variance by the jackknife
-//! (pictures left out one at a time; Efron 1982), so a few pixels that hold most of the noise make the bound wide and not wrong.
+//! The error of a picture is the picture less the mean of the others. Pixels that hang together within blocks have
+//! errors alike
+//! there, and a step to the next block. Were there no blocks, the mean squared step would be the same at every column
+//! and row, whatever the
+//! noise and however it varies over the picture: blocks begin at multiples of 8 or 16, and what is in the picture knows
+//! nothing of that. Each
+//! picture gives a sum of squared steps at borders and elsewhere; their ratio over all pictures has its variance by the
+//! jackknife
+//! (pictures left out one at a time; Efron 1982), so a few pixels that hold most of the noise make the bound wide and
+//! not wrong.
 
 use super::trial::Source;
 use super::world::grey;
@@ -70,7 +75,8 @@ fn pixels(source: &Source<'_>, seed: u32) -> Vec<f64> {
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(pixel).collect()
 }
 
-/// Mean squared steps at borders of blocks, and elsewhere. Borders of 16 pixels are left out of the others of 8, and the other way around:
+/// Mean squared steps at borders of blocks, and elsewhere. Borders of 16 pixels are left out of the others of 8, and
+/// the other way around:
 /// blocks of one size must not hide behind those of another.
 fn steps(error: &[f64], width: usize, block: usize) -> [f64; 2] {
     let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
