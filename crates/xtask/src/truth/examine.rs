@@ -239,8 +239,8 @@ fn in_squares(compiled: &Compiled, samples: u32, seed: u32, threads: usize) -> (
         upper = upper.max(s.upper());
         if s.chance() < SQUARES_LEVEL {
             lines.push(format!(
-                "steps at borders of {} pixels are {:.2} times the others (+- {:.2}; right is at most {LIMIT}) at {samples} \
-                 samples",
+                "steps at borders of {} pixels are {:.2} times the others (+- {:.2}; at most {LIMIT} is right) at \
+                 {samples} samples",
                 s.block,
                 s.ratio,
                 s.ratio * s.error

@@ -54,9 +54,7 @@ pub(crate) fn summary(done: &[Done], start: Instant) {
             100.0 * middle(scenes, |scene| scene.examined.told.tile_error),
         );
     }
-    println!(
-        "known to: three standard errors and the allowance for rare light, relative; the scene in the middle of its kind"
-    );
+    println!("known to: three standard errors and the allowance for rare light, relative; the middle one of its kind");
     for scene in done.iter().filter(|scene| scene.examined.told.error > UNDECIDED) {
         let error = 100.0 * scene.examined.told.error;
         println!("undecided: seed {} ({}), known to {error:.1} %", scene.case.seed, scene.case.kind);
