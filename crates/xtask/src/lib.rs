@@ -1,4 +1,4 @@
-//! Programs that make what the repository holds, and [`mutants`], which tries its tests; but for these and [`golden`], each is a pure function from nothing to files: no randomness,
+//! Programs that make what the repository holds, and [`mutants`] and [`truth`], which try its tests and its pictures; but for these and [`golden`], each is a pure function from nothing to files: no randomness,
 //! no network.
 
 #![forbid(unsafe_code)]
@@ -9,6 +9,7 @@ pub mod golden;
 pub mod mutants;
 pub mod noise;
 pub mod picture;
+pub mod truth;
 
 /// A file to be written.
 pub struct File {

@@ -3,19 +3,21 @@
 
 use anyhow::Context as _;
 use clap::Parser;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Makes files that the repository holds, and tries its tests.
 #[derive(Parser)]
 enum Command {
     /// The cat: its meshes and texture in assets/.
     Cat,
-    /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the scenes.
+    /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the
+    /// scenes.
     Gallery,
     /// Golden pictures.
     #[command(subcommand)]
     Golden(Golden),
-    /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not noticed.
+    /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not
+    /// noticed.
     ///
     /// All of them take about an hour on two cores. The copy lies in target/mutants.
     Mutants {
@@ -27,6 +29,40 @@ enum Command {
         /// Seconds that the tests of one fault may run.
         #[arg(long, default_value_t = 300)]
         limit: u64,
+    },
+    /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
+    ///
+    /// The truth is the plain path tracer, or another scene that must look the same. Failing scenes are made smaller
+    /// and kept with what was
+    /// measured. A thousand take an hour or more on two cores.
+    Truth {
+        /// How many scenes.
+        #[arg(long, default_value_t = 20)]
+        scenes: usize,
+        /// Seed of the first scene; the others follow it.
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+        /// Pixels along a side, a multiple of 32.
+        #[arg(long, default_value_t = 128)]
+        size: u32,
+        /// Where failing scenes are kept.
+        #[arg(long, default_value = "target/truth")]
+        keep: PathBuf,
+        /// Scenes at a time; 0: one for each core.
+        #[arg(long, default_value_t = 0)]
+        jobs: usize,
+        /// Seconds to make a failing scene smaller; 0 keeps it as it was drawn.
+        #[arg(long, default_value_t = 60)]
+        shrink: u64,
+        /// Only scenes of this kind, as the table at the end names it; only pairs whose names contain this.
+        #[arg(long, default_value = "")]
+        kind: String,
+        /// Holds the plain path tracer against itself: what is found then is a false alarm, or a pair that is none.
+        #[arg(long)]
+        itself: bool,
+        /// Instead of random scenes: the fixed list of exact pairs, with so many pictures of each side.
+        #[arg(long)]
+        pairs: Option<usize>,
     },
 }
 
@@ -58,6 +94,17 @@ fn main() -> anyhow::Result<()> {
         }
         Command::Mutants { names, limit, .. } => {
             return xtask::mutants::run(&root, &xtask::mutants::Options { names, limit });
+        }
+        Command::Truth { pairs: Some(pictures), kind, itself, .. } => {
+            let failing = xtask::truth::pairs::run(pictures, &kind, itself)?;
+            anyhow::ensure!(failing == 0, "{failing} pairs differ");
+            return Ok(());
+        }
+        Command::Truth { scenes, seed, size, keep, jobs, shrink, kind, itself, pairs: None } => {
+            let options = xtask::truth::Options { scenes, seed, size, keep, jobs, shrink, kind, itself };
+            let failing = xtask::truth::run(&options)?;
+            anyhow::ensure!(failing == 0, "{failing} of {scenes} scenes have findings");
+            return Ok(());
         }
     };
     for file in files {

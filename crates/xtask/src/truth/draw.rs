@@ -1,0 +1,238 @@
+//! What is drawn at random for scenes of every kind: colours, materials, textures, lamps, lenses, filters.
+
+use super::meshes::{Point, Shape};
+use super::world::{World, diffuse, glossy, inline, tinted};
+use crate::picture::Picture;
+use glam::DVec3;
+use scene_format::desc::{
+    Albedo, Color, Emission, Instances, Light, Material, MaterialRef, Mesh, NamedMaterial, Object, PixelFilter,
+    Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
+};
+use scene_format::diagnostic::Spanned;
+use std::sync::Arc;
+use tracer_reference::Random;
+
+/// One of several.
+pub fn one_of<T: Clone>(random: &mut Random, from: &[T]) -> T {
+    from[random.below(from.len())].clone()
+}
+
+/// Whether something happens that does so once in `n` times.
+pub fn once_in(random: &mut Random, n: usize) -> bool {
+    random.below(n) == 0
+}
+
+/// Spread evenly over the decades between.
+pub fn magnitude(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.number())
+}
+
+/// A colour that may be vivid.
+pub fn color(random: &mut Random) -> Color {
+    let brightness = random.between(0.2, 0.9);
+    if once_in(random, 2) { [brightness; 3] } else { [0; 3].map(|_| random.between(0.05, 0.9)) }
+}
+
+/// A small picture, coarse enough that its texels show.
+fn texture(world: &mut World, random: &mut Random) -> Albedo {
+    let (a, b, n) = (color(random), color(random), 2.0 + random.below(4) as f64);
+    let paint = |u: f64, v: f64| {
+        let checked = ((u * n).floor() + (v * n).floor()) % 2.0 == 0.0;
+        DVec3::from_array(if checked { a } else { b }) * (0.6 + 0.4 * u)
+    };
+    let picture = Picture::from_fn(8, 8, paint);
+    // Eight by eight pixels: the encoder has nothing to refuse.
+    let Ok(bytes) = picture.png() else { return Albedo::default() };
+    let file = world.file("texture", "png", bytes).into();
+    let filter = one_of(random, &[TextureFilter::Bilinear, TextureFilter::Nearest]);
+    let wrap = one_of(random, &[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]);
+    Albedo::Texture(Texture { file, filter, wrap })
+}
+
+/// A colour or a texture.
+pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
+    if once_in(random, 4) { texture(world, random) } else { Albedo::Color(color(random).into()) }
+}
+
+/// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.
+pub fn shiny(world: &mut World, low: f64, high: f64, random: &mut Random) -> Material {
+    let conserving = !once_in(random, 3);
+    // The report's lobe reflects up to four times its share.
+    let share = random.between(0.05, if conserving { 1.0 } else { 0.25 });
+    glossy(albedo(world, random), magnitude(random, low, high), share, conserving)
+}
+
+/// Lambert, or dull enough to count as such.
+pub fn matt(world: &mut World, random: &mut Random) -> Material {
+    match random.below(8) {
+        0 => shiny(world, 1.0, 45.0, random),
+        _ => Material::Diffuse { albedo: albedo(world, random) },
+    }
+}
+
+/// What throws caustics: glass, mirrors, shiny lobes.
+pub fn caster(world: &mut World, random: &mut Random) -> Material {
+    match random.below(5) {
+        0 => Material::Mirror { reflectance: color(random).map(|c| (c + 0.1).min(1.0)).into() },
+        1 => Material::Mirror { reflectance: [1.0; 3].into() },
+        2 => shiny(world, 50.0, 5000.0, random),
+        _ => clear(random),
+    }
+}
+
+/// Glass of any index, clear or coloured.
+pub fn clear(random: &mut Random) -> Material {
+    let ior = one_of(random, &[1.0, 1.05, 1.33, 1.5, 1.5, 2.4]);
+    tinted(ior, if once_in(random, 3) { [0; 3].map(|_| random.between(0.5, 1.0)) } else { [1.0; 3] })
+}
+
+/// Adds a thing of a material: a sphere, or a mesh placed by every kind of step.
+pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    if once_in(random, 2) {
+        return world.sphere(center, radius, material);
+    }
+    let (name, shape) = match random.below(4) {
+        0 => ("ball", Shape::ball(random.below(3) as u32)),
+        1 => ("ring", Shape::ring(0.4, 16, 8)),
+        2 => ("cube", Shape::block([-1.0; 3], [1.0; 3])),
+        _ => ("ball", Shape { normals: Vec::new(), ..Shape::ball(1) }),
+    };
+    let file = if once_in(random, 3) {
+        world.file(name, "off", shape.off().into_bytes())
+    } else {
+        world.file(name, "obj", shape.obj().into_bytes())
+    };
+    let size = 0.7 * radius;
+    let factor = if once_in(random, 4) { [size, 0.6 * size, -size] } else { [size; 3] };
+    let steps = vec![
+        Transform::Scale { factor, about: None },
+        Transform::Rotate { axis: random.direction().to_array(), degrees: random.between(0.0, 360.0), about: None },
+        Transform::Translate(center),
+    ];
+    world.placed(file, material, steps);
+}
+
+/// Changes the mesh that was added last.
+pub fn last_mesh(world: &mut World, change: impl FnOnce(&mut Mesh)) {
+    if let Some(Object::Mesh(mesh)) = world.desc.objects.last_mut().map(|object| &mut object.value) {
+        change(mesh);
+    }
+}
+
+/// Many copies of a mesh on the floor, written in the scene or in a file.
+pub fn crowd(world: &mut World, count: usize, reach: f64, floor: f64, material: Material, random: &mut Random) {
+    let (name, shape) = match random.below(3) {
+        0 => ("ball", Shape::ball(1)),
+        1 => ("cube", Shape::block([-1.0; 3], [1.0; 3])),
+        _ => ("blade", Shape::grass(6, random)),
+    };
+    let file = world.file(name, "obj", shape.obj().into_bytes());
+    world.placed(file, material, Vec::new());
+    let mut lines = String::new();
+    let mut list = Vec::new();
+    for _ in 0..count {
+        let size = random.between(0.03, 0.12);
+        let at = [random.between(-reach, reach), floor + size, random.between(-reach, reach)];
+        lines += &format!("{} {} {} {size}\n", at[0], at[1], at[2]);
+        let turn = random.between(0.0, 360.0);
+        list.push(vec![
+            Spanned::from(Transform::Scale { factor: [size; 3], about: None }),
+            Spanned::from(Transform::Rotate { axis: [0.0, 1.0, 0.0], degrees: turn, about: None }),
+            Spanned::from(Transform::Translate(at)),
+        ]);
+    }
+    let placements = if once_in(random, 2) {
+        Placements::File(Box::new(world.file("crowd", "txt", lines.into_bytes()).into()))
+    } else {
+        Placements::List(Box::new(list.into_iter().collect()))
+    };
+    let instances = one_of(random, &[Instances::Auto, Instances::Always, Instances::Never]);
+    last_mesh(world, |mesh| (mesh.placements, mesh.instances) = (placements, instances));
+}
+
+/// Adds a lamp, small or wide, that gives about as much light as any other.
+pub fn lamp(world: &mut World, center: Point, largest: f64, random: &mut Random) -> f64 {
+    let radius = magnitude(random, 0.15 * largest, largest);
+    let power = magnitude(random, 0.5, 5.0);
+    let tint = if once_in(random, 3) { color(random) } else { [1.0; 3] };
+    world.lamp(center, radius, tint.map(|c| c * power / (radius * radius)));
+    radius
+}
+
+/// Filter, lens, exposure, tone map and the words that say the same in another way.
+pub fn film(world: &mut World, random: &mut Random) {
+    let desc = &mut world.desc;
+    desc.effects.antialiasing = match random.below(5) {
+        0 => PixelFilter::None,
+        1 => PixelFilter::Box,
+        2 => PixelFilter::Gaussian { sigma: random.between(0.2, 1.0).into() },
+        3 => PixelFilter::BlackmanHarris { radius: random.between(1.0, 2.5).into() },
+        _ => PixelFilter::default(),
+    };
+    if once_in(random, 6) {
+        let (aperture, focus_distance) = (random.between(0.02, 0.3), random.between(1.0, 6.0));
+        desc.effects.depth_of_field =
+            Some(ThinLens { aperture: aperture.into(), focus_distance: focus_distance.into() });
+    }
+    if once_in(random, 8) {
+        desc.effects.exposure = random.between(-3.0, 3.0).into();
+    }
+    desc.effects.tone_map = one_of(random, &[ToneMap::None, ToneMap::None, ToneMap::Filmic, ToneMap::AgX]);
+    if once_in(random, 8) {
+        desc.camera.up = random.direction().to_array().into();
+    }
+    for light in &mut desc.lights {
+        let Light::SphereLight(lamp) = &mut light.value;
+        let Emission::Radiance(color) = lamp.emission.value else { continue };
+        let area = std::f64::consts::PI * lamp.radius.value.powi(2);
+        lamp.emission = match random.below(3) {
+            0 => Emission::Intensity(color.map(|c| c * area)).into(),
+            1 => Emission::Power(color.map(|c| c * 4.0 * std::f64::consts::PI * area)).into(),
+            _ => continue,
+        };
+    }
+}
+
+/// Gives names to the materials, as a person would who uses one twice.
+pub fn name_materials(world: &mut World) {
+    for (k, object) in world.desc.objects.iter_mut().enumerate() {
+        let material = match &mut object.value {
+            Object::Sphere(sphere) => &mut sphere.material,
+            Object::Mesh(mesh) => &mut mesh.material,
+        };
+        if let MaterialRef::Inline(inner) = material {
+            let name: Arc<str> = format!("m{k}").into();
+            let named = NamedMaterial { name: (*name).to_owned().into(), material: inner.value.clone() };
+            world.desc.materials.push(named);
+            *material = MaterialRef::Named { name, span: scene_format::diagnostic::Span::NONE };
+        }
+    }
+}
+
+/// The material of an object, whether it is named or written in place.
+pub fn material_of<'a>(world: &'a World, object: &'a Object) -> Option<&'a Material> {
+    let material = match object {
+        Object::Sphere(sphere) => &sphere.material,
+        Object::Mesh(mesh) => &mesh.material,
+    };
+    match material {
+        MaterialRef::Inline(inner) => Some(&inner.value),
+        MaterialRef::Named { name, .. } => {
+            world.desc.materials.iter().find(|named| named.name.value == *name).map(|named| &named.material)
+        }
+        MaterialRef::Default => None,
+    }
+}
+
+/// Writes another material for an object.
+pub fn set_material(object: &mut Object, material: Material) {
+    match object {
+        Object::Sphere(sphere) => sphere.material = inline(material),
+        Object::Mesh(mesh) => mesh.material = inline(material),
+    }
+}
+
+/// A wall's colour.
+pub fn wall(random: &mut Random) -> Material {
+    diffuse(if once_in(random, 4) { [0.9; 3] } else { color(random) })
+}

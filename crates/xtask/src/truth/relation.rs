@@ -1,0 +1,157 @@
+//! What a picture is held against: plain path tracing, or a scene that must look the same.
+
+use super::draw::material_of;
+use super::world::World;
+use scene_format::desc::{Emission, Instances, Light, Material, Mesh, Object, Transform};
+
+/// How the file of a mirror begins that fills the plane x = 0.
+pub const PLANE_MIRROR: &str = "plane-mirror";
+
+/// What is true of a scene's picture, on average over seeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// It is that of the plain path tracer.
+    Path,
+    /// It is that without glass of index 1.0. Passing such glass counts as a bounce, so scenes for this have many
+    /// bounces and low albedos.
+    Shells,
+    /// It is that of the mirrored world where the mirror in the plane x = 0 was. All things are on one side of it, and
+    /// no ray that
+    /// matters passes beside it.
+    Unfolded,
+    /// It is the mirror image of the mirrored scene's.
+    Flipped,
+    /// It is the sum of those with each lamp alone, a black ball in place of the others.
+    Sum,
+    /// It is half of that with twice the light, but for the film's rounding.
+    Twice,
+    /// It is that with copies stored in the other way.
+    Instances,
+    /// It is black.
+    Dark,
+}
+
+impl Relation {
+    /// The scenes whose pictures sum to this one's.
+    pub fn others(self, world: &World) -> Vec<World> {
+        match self {
+            Relation::Path => vec![world.clone()],
+            Relation::Shells => vec![without_shells(world)],
+            Relation::Unfolded => vec![unfolded(world)],
+            Relation::Flipped => vec![flipped(world)],
+            Relation::Sum => (0..world.desc.lights.len()).map(|k| with_one_lamp(world, k)).collect(),
+            Relation::Twice => vec![with_light_times(world, 2.0)],
+            Relation::Instances => vec![stored_otherwise(world)],
+            Relation::Dark => Vec::new(),
+        }
+    }
+}
+
+fn without_shells(world: &World) -> World {
+    let shell = |object: &Object| {
+        matches!(material_of(world, object), Some(Material::Transparent { ior, transmittance })
+            if ior.value == 1.0 && transmittance.value == [1.0; 3])
+    };
+    let mut other = world.clone();
+    other.desc.objects.retain(|object| !shell(&object.value));
+    other
+}
+
+fn mirror_x(p: [f64; 3]) -> [f64; 3] {
+    [-p[0], p[1], p[2]]
+}
+
+/// An object on the other side of the plane x = 0.
+fn mirrored(object: &Object) -> Object {
+    let mut object = object.clone();
+    match &mut object {
+        Object::Sphere(sphere) => sphere.center = mirror_x(sphere.center.value).into(),
+        // Scenes with placements are not mirrored: those would have to be turned, not followed by one more step.
+        Object::Mesh(Mesh { transform, .. }) => {
+            transform.push(Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) }.into());
+        }
+    }
+    object
+}
+
+fn mirrored_light(light: &Light) -> Light {
+    let Light::SphereLight(lamp) = light;
+    let mut lamp = lamp.clone();
+    lamp.center = mirror_x(lamp.center.value).into();
+    Light::SphereLight(lamp)
+}
+
+fn unfolded(world: &World) -> World {
+    let mut other = world.clone();
+    let is_mirror = |object: &Object| match object {
+        Object::Mesh(mesh) => mesh.file.value.to_string_lossy().starts_with(PLANE_MIRROR),
+        Object::Sphere(_) => false,
+    };
+    other.desc.objects.retain(|object| !is_mirror(&object.value));
+    let behind: Vec<_> = other.desc.objects.iter().map(|object| mirrored(&object.value).into()).collect();
+    other.desc.objects.extend(behind);
+    let behind: Vec<_> = other.desc.lights.iter().map(|light| mirrored_light(&light.value).into()).collect();
+    other.desc.lights.extend(behind);
+    other
+}
+
+fn flipped(world: &World) -> World {
+    let mut other = world.clone();
+    for object in &mut other.desc.objects {
+        *object = mirrored(&object.value).into();
+    }
+    for light in &mut other.desc.lights {
+        *light = mirrored_light(&light.value).into();
+    }
+    let camera = &mut other.desc.camera;
+    camera.position = mirror_x(camera.position.value).into();
+    camera.look_at = mirror_x(camera.look_at.value).into();
+    camera.up = mirror_x(camera.up.value).into();
+    other
+}
+
+fn with_one_lamp(world: &World, k: usize) -> World {
+    let mut other = world.clone();
+    let lights = std::mem::take(&mut other.desc.lights);
+    for (j, light) in lights.into_iter().enumerate() {
+        let Light::SphereLight(lamp) = &light.value;
+        if j == k {
+            other.desc.lights.push(light);
+        } else {
+            other.sphere(lamp.center.value, lamp.radius.value, super::world::matt(0.0));
+        }
+    }
+    if k > 0 {
+        other.desc.background = [0.0; 3];
+    }
+    other
+}
+
+fn with_light_times(world: &World, factor: f64) -> World {
+    let mut other = world.clone();
+    other.desc.background = other.desc.background.map(|c| factor * c);
+    for light in &mut other.desc.lights {
+        let Light::SphereLight(lamp) = &mut light.value;
+        let times = |color: [f64; 3]| color.map(|c| factor * c);
+        lamp.emission = match lamp.emission.value {
+            Emission::Radiance(color) => Emission::Radiance(times(color)),
+            Emission::Intensity(color) => Emission::Intensity(times(color)),
+            Emission::Power(color) => Emission::Power(times(color)),
+        }
+        .into();
+    }
+    other
+}
+
+fn stored_otherwise(world: &World) -> World {
+    let mut other = world.clone();
+    for object in &mut other.desc.objects {
+        if let Object::Mesh(mesh) = &mut object.value {
+            mesh.instances = match mesh.instances {
+                Instances::Always => Instances::Never,
+                Instances::Never | Instances::Auto => Instances::Always,
+            };
+        }
+    }
+    other
+}
