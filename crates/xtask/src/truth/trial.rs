@@ -69,7 +69,6 @@ impl Source<'_> {
                 threads: self.threads,
                 reuse: off,
                 caustics: off,
-                indirect: off,
                 ..RenderOptions::default()
             };
             tracer_core::render(scene, &options, &Unobserved)

@@ -115,7 +115,7 @@ impl World {
         let folder = tempfile::tempdir()?;
         let path = self.write(folder.path(), "scene", "")?;
         let loaded = scene_format::load(&path).map_err(|error| match error {
-            scene_format::LoadError::Invalid { diagnostics, sources } => {
+            scene_format::LoadError::Invalid { diagnostics, sources, .. } => {
                 let style = scene_format::render::Style { color: false, width: 120 };
                 anyhow::anyhow!("{}", scene_format::render::text(&diagnostics, &sources, style))
             }
