@@ -340,6 +340,9 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BLACK_PICTURE "W0301" "the picture will be black";
+    /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not hold it beside the
+    /// other. Bring the radiances closer together, or leave it out.
+    LIGHT_TOO_DARK "W0302" "a light is too dark beside the others";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -241,7 +241,7 @@ fn items([width, height]: [u32; 2], seed: u32, number: u32, most: u64) -> Vec<It
         let quarter = first + hash3(seed ^ 0x001d_17ed, number, k as u32) % (end - first);
         let tile = (quarter / u64::from(QUARTERS)) as u32;
         let quarter = (quarter % u64::from(QUARTERS)) as u32;
-        Item { spread: true, ..Item::new(tile % across, tile / across, quarter, number) }
+        Item::new([tile % across, tile / across].map(|tile| (tile * TILE) as i32), quarter, number)
     };
     (0..count).map(item).collect()
 }

@@ -1,11 +1,12 @@
 //! The path engine: batches of paths through stages, over lanes, on all cores.
 //!
-//! A pass adds a range of sample indices to every tile of the picture. Tiles are independent and a pixel's sum is exact
-//! ([`crate::film`]), so threads take batches in any order and the film is the same.
+//! A pass adds a range of sample indices to every pixel of the picture, block by block ([`grid`]). Blocks are independent and a pixel's sum
+//! is exact ([`crate::film`]), so threads take batches in any order and the film is the same.
 
 mod batch;
 mod caustics;
 mod glints;
+mod grid;
 mod indirect;
 mod kernels;
 mod lane_io;
@@ -16,16 +17,18 @@ mod trace;
 pub use batch::Counters;
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Crop, Film, Tile};
+use crate::film::{Cells, Crop, Film, Overlap};
 use crate::lanes::level::Level;
 use crate::scene::{Scene, Sharing};
-use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
+use batch::{Batch, ITEMS, Item, QUARTERS};
 use caustics::Caustics;
+use glints::Glints;
+use grid::Grid;
 use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// What a caller may decide about a rendering; `None` and zero take what the scene says.
@@ -101,10 +104,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
-    let mut film = Film::new(scene.size, crop, pass_options.seed, clamp);
-    let tiles: Vec<(u32, u32)> = film.tile_positions().collect();
-    let samples_total = tiles.len() as u64 * u64::from(samples) * u64::from(TILE * TILE);
-    let done = AtomicUsize::new(0);
+    let mut film = Film::new(scene.size, crop, pass_options.seed, scene.radiance_unit, clamp);
+    let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
+    let done = AtomicU64::new(0);
     let stopped = AtomicBool::new(false);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
     for worker in &workers {
@@ -117,19 +119,20 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     };
     // A second vertex scatters once more.
     let may_map = sharing != Sharing::Never && scene.max_bounces > 1 && options.indirect.unwrap_or(scene.indirect);
-    let has_second = if (may_map || sharing == Sharing::Indoors) && !tiles.is_empty() {
+    let has_second = if (may_map || sharing == Sharing::Indoors) && samples_total > 0 {
         indirect::trial(scene, &kernels, pass_options, &workers)
     } else {
         0.0
     };
     pass_options.reuse = sharing == Sharing::Always || sharing == Sharing::Indoors && has_second >= INDOORS;
     let wants_indirect = may_map && pass_options.reuse && has_second >= indirect::WORTH;
-    let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
+    let wants_photons = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
     let mut caustics = if wants_photons { Caustics::new(scene, &kernels, pass_options.seed, &workers) } else { None };
     let glints = match &caustics {
-        Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
-        None => vec![false; tiles.len()],
+        Some(_) => glints::pilot(scene, &kernels, pass_options, crop, &workers),
+        None => Glints::default(),
     };
+    let grid = Grid::new(crop, pass_options.seed, pass_options.reuse);
     let has_maps = caustics.is_some() || wants_indirect;
     for pass in passes(samples, if has_maps { 4 * SAMPLES } else { 16 * SAMPLES }) {
         if let Some(caustics) = &mut caustics {
@@ -140,16 +143,16 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         } else {
             Vec::new()
         };
-        // Whole tiles per batch: a tile's samples of one pass are added by one thread. A batch has one map of photons and one of indirect
-        // light, and each sample index its own.
+        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to stay in the cache. A
+        // batch has one map of photons and one of indirect light, and each sample index its own.
         let at_once = if has_maps { 1 } else { (pass.end - pass.start).min(SAMPLES) };
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
-        let cells: Vec<Mutex<&mut Tile>> = film.tiles_mut().map(Mutex::new).collect();
+        let cells = Cells::new(&mut film);
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {
                 let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
-                let Some(mine) = tiles.get(first..tiles.len().min(first + per_batch)) else { break };
+                let mine = first..grid.len().min(first + per_batch);
                 if mine.is_empty() {
                     break;
                 }
@@ -159,30 +162,32 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                     let batch = &mut worker.batch;
                     batch.items.clear();
                     batch.glints = 0;
-                    for (&(tile_x, tile_y), &glints) in mine.iter().zip(&glints[first..]) {
-                        if glints {
-                            batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
-                        }
+                    for place in mine.clone() {
                         for sample in sample..sample + count {
-                            let quarters = 0..QUARTERS;
-                            batch.items.extend(quarters.map(|quarter| Item::new(tile_x, tile_y, quarter, sample)));
+                            let Some(block) = grid.block(place, sample) else { continue };
+                            if glints.in_block(block) {
+                                batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
+                            }
+                            batch.items.extend((0..QUARTERS).map(|quarter| Item::new(block, quarter, sample)));
                         }
+                    }
+                    if batch.items.is_empty() {
+                        sample += count;
+                        continue;
                     }
                     batch.watch.start(options.statistics);
                     let start = Instant::now();
                     let photons = caustics.as_ref().and_then(|c| c.map(sample));
                     let indirect = indirect.get((sample - pass.start) as usize);
                     trace::trace(scene, &kernels, trace::Pass { photons, indirect, ..pass_options }, batch);
-                    let cells = &cells[first..first + mine.len()];
                     if let Some(limit) = clamp {
-                        clamp_samples(limit, count, cells, batch);
+                        clamp_samples(f64::from(limit) / scene.radiance_unit, &cells, batch);
                     }
-                    add_samples(count, cells, batch);
+                    let added = add_samples(&cells, batch);
                     batch.watch.lap(Stage::Film);
                     batch.watch.costs.total += start.elapsed().as_secs_f64();
                     sample += count;
-                    let added = batch.items.len() * batch::BLOCK_PIXELS;
-                    let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
+                    let samples_done = done.fetch_add(added, Ordering::Relaxed) + added;
                     if observer.progress(Progress { samples_done, samples_total }).is_break() {
                         stopped.store(true, Ordering::Relaxed);
                         break;
@@ -218,33 +223,41 @@ fn slots_of(item: usize) -> Range<usize> {
     item * batch::BLOCK_PIXELS..(item + 1) * batch::BLOCK_PIXELS
 }
 
-/// Adds the samples of a batch to its tiles: `count` sample indices of each.
-fn add_samples(count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
-    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
-        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        for item in first..first + (count * QUARTERS) as usize {
-            let samples = batch.radiance.each_ref().map(|channel| &channel[slots_of(item)]);
-            batch.counters.dropped += tile.add(samples, batch.items[item].pixels());
-        }
-        tile.count(count);
+/// Adds the samples of a batch to the film; how many they are.
+fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+    let mut added = 0;
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
+            for quarter in 0..QUARTERS {
+                let slots = slots_of(first + quarter as usize);
+                let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+                let left_out = tile.add(samples, overlap.of_quarter(quarter));
+                batch.counters.dropped += left_out.dropped;
+                batch.counters.beyond += left_out.beyond;
+            }
+            added += overlap.pixels();
+        });
     }
+    added
 }
 
 /// Clamps the samples of a batch before they are added. A pass of its own, so that its time is known and nothing is asked where none is
 /// wanted.
-fn clamp_samples(limit: f32, count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
+fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
     let start = Instant::now();
-    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
-        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        for item in first..first + (count * QUARTERS) as usize {
-            let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots_of(item)]);
-            tile.clamp(limit, samples, batch.items[item].pixels());
-        }
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
+            for quarter in 0..QUARTERS {
+                let slots = slots_of(first + quarter as usize);
+                let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
+                tile.clamp(limit, samples, overlap.of_quarter(quarter));
+            }
+        });
     }
     batch.watch.costs.clamp += start.elapsed().as_secs_f64();
 }
 
-/// Samples of a tile that fill a batch.
+/// Samples of a block that fill a batch.
 const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
 
 /// A thread's memory.
@@ -318,8 +331,13 @@ fn passes(samples: u32, longest: u32) -> impl Iterator<Item = std::ops::Range<u3
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// The first pixel of a quarter of a block, for the tests of the film.
+    pub fn first_pixel(block: [i32; 2], quarter: u32) -> [i32; 2] {
+        Item::new(block, quarter, 0).first_pixel()
+    }
 
     #[test]
     fn passes_cover_all_samples_once() {

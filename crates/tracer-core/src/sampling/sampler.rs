@@ -40,6 +40,8 @@ pub enum Purpose {
     Aim,
     /// Direction of an aimed ray.
     AimedDirection,
+    /// Where the blocks lie whose pixels share.
+    Grid,
 }
 
 impl Purpose {
@@ -50,6 +52,8 @@ impl Purpose {
             Purpose::Lens => 1,
             Purpose::Aim => 2,
             Purpose::AimedDirection => 3,
+            // That of no vertex.
+            Purpose::Grid => u32::MAX,
             Purpose::Direction(k) => 4 + 4 * k,
             Purpose::Light(k) => 5 + 4 * k,
             Purpose::Choice(k) => 6 + 4 * k,
@@ -188,7 +192,7 @@ mod tests {
         (a[0], b[0])
     }
 
-    const PURPOSES: [Purpose; 7] = [
+    const PURPOSES: [Purpose; 8] = [
         Purpose::Pixel,
         Purpose::Lens,
         Purpose::Direction(0),
@@ -196,6 +200,7 @@ mod tests {
         Purpose::Light(0),
         Purpose::Choice(2),
         Purpose::Roulette(7),
+        Purpose::Grid,
     ];
 
     /// 2^n samples of one pixel hit every one of 2^n strata of each dimension once.

@@ -119,9 +119,9 @@ fn items_lie_in_the_picture() {
             assert!((least..=32768 / BLOCK_PIXELS as u64).contains(&(items.len() as u64)), "{}", items.len());
             let mut seen = std::collections::BTreeSet::new();
             for item in items {
-                assert!(item.tile_x < tiles[0] && item.tile_y < tiles[1] && item.quarter < QUARTERS);
-                assert!(item.spread && item.sample == number);
-                assert!(seen.insert((item.tile_x, item.tile_y, item.quarter)));
+                assert!((0..width as i32).contains(&item.x) && (0..height as i32).contains(&item.y));
+                assert!(item.quarter < QUARTERS && item.sample == number);
+                assert!(seen.insert((item.x, item.y, item.quarter)));
             }
         }
     }
@@ -132,7 +132,7 @@ fn items_lie_in_the_picture() {
 fn trials_see_the_whole_picture() {
     let items = items([512, 512], 7, u32::MAX, ITEMS as u64);
     assert_eq!(items.len(), ITEMS);
-    let columns: std::collections::BTreeSet<u32> = items.iter().map(|item| item.tile_x).collect();
-    let rows: std::collections::BTreeSet<u32> = items.iter().map(|item| item.tile_y).collect();
+    let columns: std::collections::BTreeSet<i32> = items.iter().map(|item| item.x).collect();
+    let rows: std::collections::BTreeSet<i32> = items.iter().map(|item| item.y).collect();
     assert!(columns.len() >= 8 && rows.len() == 16, "{columns:?} {rows:?}");
 }

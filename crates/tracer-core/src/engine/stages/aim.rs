@@ -74,13 +74,13 @@ pub fn density<F: Lanes>(aims: &Aims, p: V3<F>, n: V3<F>, w: V3<F>) -> F {
 pub fn aim<F: Lanes>(aims: &Aims, seed: u32, first: usize, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let choices = PairPoints::<F>::new(seed, Purpose::Aim, &batch.items, &batch.item_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection, &batch.items, &batch.item_z);
+    let choices = PairPoints::<F>::new(seed, Purpose::Aim, &batch.items);
+    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection, &batch.items);
     let (members, paths) = (&batch.members, &mut batch.paths);
     let before = paths.len;
     for i in (first..members.len).step_by(F::N) {
         let slot = F::U::load(&members.slot[i..]);
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
         let (choice, _) = choices.points(&pixel);
         let mut aimed = F::first(members.len - i) & choice.lt(c(CHANCE));
         if !aimed.any() {
@@ -207,11 +207,8 @@ mod tests {
         let mut batch = Batch::new();
         let (mut area, mut squares, mut members) = (0.0, 0.0, 0.0);
         for sample in 0..256 {
-            let item = Item::new(1, 2, 1, sample);
-            let (shift, offset) = item.z_of_pixels();
-            batch.items = vec![item];
-            batch.item_z[0] = z_order(item.tile_x, item.tile_y) << 8 | offset;
-            batch.item_scale[0] = 1 << shift;
+            batch.items = vec![Item::new([16, 32], 1, sample)];
+            batch.item_z[0] = batch.items[0].z();
             batch.paths.len = 0;
             batch.members.len = BLOCK_PIXELS;
             for k in 0..BLOCK_PIXELS {

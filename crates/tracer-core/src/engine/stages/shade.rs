@@ -39,11 +39,11 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
-    let (items, item_z) = (&batch.items, &batch.item_z);
-    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items, item_z);
-    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items, item_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items, item_z);
-    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, item_z);
+    let items = &batch.items;
+    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items);
+    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items);
+    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items);
+    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items);
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     let several = tables.lights.len > 1;
@@ -172,7 +172,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let lit_here = rough & of_use;
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid & !known };
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
         let (mut of_choice, mut of_roulette) = ((zero, zero), (zero, zero));

@@ -9,7 +9,7 @@
 //!
 //! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is counted does not
 //! depend on who has found it. Testing all 64 segments to a suffix would cost more than the paths. So the segments are put into
-//! 16 or 32 classes ([`classes_of`]), and those of one class, chosen by hash, are traced. When none is blocked, the sums are taken as if none at
+//! 16 classes ([`CLASSES`]), and those of one class, chosen by hash, are traced. When none is blocked, the sums are taken as if none at
 //! all were: W. When one is, all others are traced too, which gives W', and W + (W' - W)/Q is taken, where Q, the share of classes
 //! that hold a blocked segment, is the probability that this was noticed. The expectation is W'; single samples can be negative.
 //! A suffix is always seen by the member that has found it.
@@ -36,14 +36,8 @@ const fn classes<const COUNT: usize>() -> [u64; COUNT] {
     class
 }
 
-/// The classes of an item. More of them mean fewer segments, and stronger corrections where one is blocked: those are seen while there
-/// are few samples.
-#[inline(always)]
-fn classes_of(item: &Item) -> &'static [u64] {
-    static EARLY: [u64; 16] = classes();
-    static LATE: [u64; 32] = classes();
-    if item.spread { &EARLY } else { &LATE }
-}
+/// The classes. More of them would mean fewer segments, and stronger corrections where one is blocked.
+static CLASSES: [u64; 16] = classes();
 
 /// Adds the lanes of the mask to the members.
 #[inline(always)]
@@ -114,8 +108,7 @@ pub enum Round {
 #[inline(always)]
 fn looked_at(seed: u32, item_z: u32, item: &Item, slot: u32) -> u64 {
     let salt = hash3(seed, item.sample, 0x5e6_3e47) as u32;
-    let classes = classes_of(item);
-    classes[hash3(salt, item_z, slot & 63) as usize % classes.len()]
+    CLASSES[hash3(salt, item_z, slot & 63) as usize % CLASSES.len()]
 }
 
 /// A suffix, the same in all lanes.
@@ -270,12 +263,11 @@ pub fn share_gather<F: Lanes>(batch: &mut Batch) {
         let (seen, hidden) = if blocked == 0 {
             (1.0 / all, 1.0 / all)
         } else {
-            let classes = classes_of(&batch.items[(batch.suffixes.slot[j] >> 6) as usize]);
             let mut noticing = 0;
-            for class in classes {
+            for class in &CLASSES {
                 noticing += usize::from(class & blocked != 0);
             }
-            let noticed = noticing as f32 / classes.len() as f32;
+            let noticed = noticing as f32 / CLASSES.len() as f32;
             let untested = (1.0 - 1.0 / noticed) / all;
             (untested + 1.0 / (unblocked * noticed), untested)
         };
