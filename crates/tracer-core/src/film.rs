@@ -360,8 +360,8 @@ mod tests {
                 filled(|pixel| {
                     let h = (k * 64 + pixel as u32).wrapping_mul(0x9e37_79b9);
                     let sign = if h & 16 == 0 { 1.0 } else { -1.0 };
-                    // From 2^-63 to 2^26: sums of doubles would round nearly all of them.
-                    f32::from_bits(0x2000_0000 + h % 0x2c80_0000) * sign
+                    // From 2^-63 to 2^25: sums of doubles would round nearly all of them.
+                    f32::from_bits(0x2000_0000 + h % 0x2c00_0000) * sign
                 })
             })
             .collect();

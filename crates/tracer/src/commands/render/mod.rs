@@ -99,7 +99,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     }
     if film.counters.beyond > 0 {
         shell.say(&format!(
-            "warning: {} samples were more than 1e8 times the brightest light and are left out",
+            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
             film.counters.beyond
         ));
     }
