@@ -86,11 +86,11 @@ impl Tracer<'_> {
     /// Radiance that arrives along the ray, which has been scattered `scatterings` times.
     fn radiance(&self, ray: Ray, scatterings: u32, random: &mut Random) -> DVec3 {
         let Some(hit) = self.world.closest(&ray) else {
-            return DVec3::from(self.scene.background.map(f64::from));
+            return DVec3::from(self.scene.background.map(f64::from)) * self.scene.radiance_unit;
         };
         if let Some(light) = self.world.light_of(&hit) {
             let Light::Sphere { radiance, .. } = self.scene.lights[light];
-            return DVec3::from(radiance);
+            return DVec3::from(radiance) * self.scene.radiance_unit;
         }
         if scatterings > self.scene.max_bounces {
             return DVec3::ZERO;

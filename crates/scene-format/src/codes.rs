@@ -399,6 +399,9 @@ codes! {
     /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5, energy_conserving: true)
     /// ```
     REFLECTS_MORE "W0302" "a material reflects more than it gets";
+    /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not hold it beside the
+    /// other. Bring the radiances closer together, or leave it out.
+    LIGHT_TOO_DARK "W0303" "a light is too dark beside the others";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

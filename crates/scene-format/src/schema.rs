@@ -187,8 +187,8 @@ pub(crate) struct Rule {
 pub(crate) const MAX_LENGTH: f64 = 1e12;
 /// Lengths below this are refused, for the same reason.
 pub(crate) const MIN_LENGTH: f64 = 1e-12;
-/// Light beyond this is refused, for the same reason.
-pub(crate) const MAX_LIGHT: f64 = 1e20;
+/// Light beyond this is refused: pictures hold 32-bit floats, and brighter things than lamps are in them.
+pub(crate) const MAX_LIGHT: f64 = 1e30;
 
 impl Rule {
     pub const ANY: Rule = Rule {

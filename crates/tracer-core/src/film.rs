@@ -1,13 +1,18 @@
 //! The film: per pixel, exact sums of radiance over its samples.
 //!
-//! Sums do not depend on their order, so threads, resumed renderings and parts of a picture rendered elsewhere give the same bytes.
-//! A sample is split into a multiple of 2^-20 and a rest that is rounded to a multiple of 2^-50; each part is summed in its own f64, exactly as long as the sum of up to 2^20 samples stays below 2^32
-//! (Demmel and Nguyen: Fast Reproducible Floating-Point Summation, 2013, with two fixed bins).
+//! Sums do not depend on their order, so threads, resumed renderings and parts of a picture rendered elsewhere give the same bytes: they
+//! are whole numbers in a window that goes by the scene's brightest light ([`exact`]). All that is read is in the scene's own units.
+
+mod cells;
+mod exact;
+
+pub(crate) use cells::{Cells, Overlap};
 
 use crate::engine::{Costs, Counters, Statistics};
 use crate::level::Level;
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
+use exact::{LARGEST, Squares, Sums, fixed};
 
 /// Pixels along a tile's side; see `engine::batch`.
 const TILE: u32 = 16;
@@ -40,24 +45,6 @@ impl Crop {
     }
 }
 
-/// Exact sums of radiance per pixel of a tile.
-#[derive(Clone, Debug, PartialEq, Zeroable)]
-struct Sums {
-    coarse: [[f64; PIXELS]; 3],
-    fine: [[f64; PIXELS]; 3],
-}
-
-impl Sums {
-    /// Mean of a pixel over so many samples.
-    #[inline]
-    fn mean(&self, pixel: usize, samples: u32) -> [f64; 3] {
-        let n = f64::from(samples.max(1));
-        // Written out: `map` is not always inlined.
-        let mean = |c: usize| (self.coarse[c][pixel] + self.fine[c][pixel]) / n;
-        [mean(0), mean(1), mean(2)]
-    }
-}
-
 /// What clamping took from the pixels of a tile.
 #[derive(Clone, Debug, PartialEq, Zeroable)]
 struct Taken {
@@ -71,18 +58,12 @@ struct Taken {
 pub(crate) struct Tile {
     sums: Sums,
     /// Sum of squares of the luminance, for the noise estimate.
-    squares: [f64; PIXELS],
-    /// Samples so far, dropped ones included.
-    samples: u32,
+    squares: Squares,
+    /// Samples of each pixel so far, dropped ones included.
+    samples: [u32; PIXELS],
     /// Where samples are clamped.
     taken: Option<Box<Taken>>,
 }
-
-/// Adding and taking away 1.5 * 2^52 * q rounds to a multiple of q, ties to even.
-const ROUND_COARSE: f64 = 1.5 * 4_503_599_627_370_496.0 / 1_048_576.0;
-const ROUND_FINE: f64 = 1.5 * 4_503_599_627_370_496.0 / 1_125_899_906_842_624.0;
-/// Larger samples than this are dropped as not finite: their coarse part would not be exact.
-const LARGEST: f32 = 4_294_967_296.0;
 
 /// Whether a sample can be summed; false for NaN too.
 #[inline(always)]
@@ -90,13 +71,13 @@ fn counts(sample: [f32; 3]) -> bool {
     sample.iter().all(|&x| x.abs() <= LARGEST)
 }
 
-/// The two parts of a sample.
-#[inline(always)]
-fn parts(x: f32) -> (f64, f64) {
-    let x = f64::from(x);
-    let coarse = (x + ROUND_COARSE) - ROUND_COARSE;
-    let fine = ((x - coarse) + ROUND_FINE) - ROUND_FINE;
-    (coarse, fine)
+/// Samples that a film could not add.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct LeftOut {
+    /// Not finite.
+    pub dropped: u64,
+    /// Finite, but above [`LARGEST`].
+    pub beyond: u64,
 }
 
 /// Luminance of linear sRGB.
@@ -111,59 +92,59 @@ impl Tile {
     }
 
     /// Scales those samples of an item whose largest channel is above the limit down to it, and keeps what that takes; samples and pixels
-    /// are those of [`Tile::add`], which comes after. Parts are subtracted from parts, so that what is taken and what is left sum to
+    /// are those of [`Tile::add`], which comes after. Whole numbers are subtracted, so that what is taken and what is left sum to
     /// what there was, exactly. Samples that will be dropped stay as they are.
-    pub(crate) fn clamp(&mut self, limit: f32, mut samples: [&mut [f32]; 3], pixels: &[u8; 64]) {
+    pub(crate) fn clamp(
+        &mut self,
+        limit: f64,
+        mut samples: [&mut [f32]; 3],
+        pixels: impl Iterator<Item = (usize, usize)>,
+    ) {
         let Some(taken) = &mut self.taken else { return };
-        for (k, &pixel) in pixels.iter().enumerate() {
+        for (k, pixel) in pixels {
             let sample = samples.each_ref().map(|channel| channel[k]);
             let largest = sample[0].max(sample[1]).max(sample[2]);
-            if largest <= limit || !counts(sample) {
+            if f64::from(largest) <= limit || !counts(sample) {
                 continue;
             }
-            let pixel = usize::from(pixel);
             taken.samples[pixel] += 1;
             for (c, channel) in samples.iter_mut().enumerate() {
                 // The product is exact, so that the largest channel becomes the limit itself.
-                let after = (f64::from(sample[c]) * f64::from(limit) / f64::from(largest)) as f32;
-                let (before, left) = (parts(sample[c]), parts(after));
-                taken.sums.coarse[c][pixel] += before.0 - left.0;
-                taken.sums.fine[c][pixel] += before.1 - left.1;
+                let after = (f64::from(sample[c]) * limit / f64::from(largest)) as f32;
+                taken.sums.add(c, pixel, fixed(sample[c]) - fixed(after));
                 channel[k] = after;
             }
         }
     }
 
-    /// Adds one sample of each pixel of an item, the k-th being of pixel `pixels[k]`; gives the number of pixels whose sample was
-    /// dropped. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
-    pub(crate) fn add(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[u8; 64]) -> u64 {
-        let mut dropped = 0;
-        for (&pixel, ((&r, &g), &b)) in pixels.iter().zip(red.iter().zip(green).zip(blue)) {
-            let pixel = usize::from(pixel);
-            let sample = [r, g, b];
+    /// Adds samples of an item, those numbered by the first of each of `pixels` to the pixels numbered by the second; gives how many
+    /// samples were left out. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
+    pub(crate) fn add(
+        &mut self,
+        [red, green, blue]: [&[f32]; 3],
+        pixels: impl Iterator<Item = (usize, usize)>,
+    ) -> LeftOut {
+        let mut left_out = LeftOut::default();
+        for (k, pixel) in pixels {
+            let sample = [red[k], green[k], blue[k]];
+            self.samples[pixel] += 1;
             if !counts(sample) {
-                dropped += 1;
+                let finite = sample.iter().all(|x| x.is_finite());
+                left_out.beyond += u64::from(finite);
+                left_out.dropped += u64::from(!finite);
                 continue;
             }
-            for ((x, coarse_sums), fine_sums) in sample.iter().zip(&mut self.sums.coarse).zip(&mut self.sums.fine) {
-                let (coarse, fine) = parts(*x);
-                coarse_sums[pixel] += coarse;
-                fine_sums[pixel] += fine;
+            for (c, &x) in sample.iter().enumerate() {
+                self.sums.add(c, pixel, fixed(x));
             }
-            let y = luminance(sample.map(f64::from));
-            self.squares[pixel] += y * y;
+            self.squares.add(pixel, luminance(sample.map(f64::from)));
         }
-        dropped
+        left_out
     }
 
     /// Bytes of memory that a tile takes.
     fn bytes(clamped: bool) -> usize {
         size_of::<Tile>() + if clamped { size_of::<Taken>() } else { 0 }
-    }
-
-    /// Says that all pixels have been given `samples` more.
-    pub(crate) fn count(&mut self, samples: u32) {
-        self.samples += samples;
     }
 }
 
@@ -186,6 +167,8 @@ pub struct Film {
     size: [u32; 2],
     crop: Crop,
     seed: u32,
+    /// What a radiance of one in the sums stands for; a power of two.
+    unit: f64,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -208,7 +191,7 @@ pub struct Film {
 }
 
 impl Film {
-    pub(crate) fn new(size: [u32; 2], crop: Crop, seed: u32, clamp: Option<f32>) -> Self {
+    pub(crate) fn new(size: [u32; 2], crop: Crop, seed: u32, unit: f64, clamp: Option<f32>) -> Self {
         let first_tile = [crop.x / TILE, crop.y / TILE];
         let end = [(crop.x + crop.width).div_ceil(TILE), (crop.y + crop.height).div_ceil(TILE)];
         let tile_columns = end[0].saturating_sub(first_tile[0]);
@@ -222,6 +205,7 @@ impl Film {
             size,
             crop,
             seed,
+            unit,
             first_tile,
             tile_columns,
             tiles,
@@ -253,7 +237,12 @@ impl Film {
 
     /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended early.
     pub fn samples(&self) -> std::ops::RangeInclusive<u32> {
-        let counts = || self.tiles.iter().map(|t| t.samples);
+        let counts = || {
+            self.pixels().map(|(x, y)| {
+                let (tile, pixel) = self.place(x, y);
+                tile.samples[pixel]
+            })
+        };
         counts().min().unwrap_or(0)..=counts().max().unwrap_or(0)
     }
 
@@ -268,16 +257,6 @@ impl Film {
         tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * Tile::bytes(clamped) as u64
     }
 
-    /// Column and row of each tile.
-    pub(crate) fn tile_positions(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
-        let (first, columns) = (self.first_tile, self.tile_columns.max(1));
-        (0..self.tiles.len() as u32).map(move |k| (first[0] + k % columns, first[1] + k / columns))
-    }
-
-    pub(crate) fn tiles_mut(&mut self) -> impl Iterator<Item = &mut Tile> {
-        self.tiles.iter_mut()
-    }
-
     /// Tile and place in it of a pixel of the crop.
     fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
         let column = x / TILE - self.first_tile[0];
@@ -290,14 +269,15 @@ impl Film {
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        tile.sums.mean(pixel, tile.samples)
+        let [r, g, b] = tile.sums.mean(pixel, tile.samples[pixel]);
+        [r * self.unit, g * self.unit, b * self.unit]
     }
 
     /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without clamping, but for the
     /// rounding of that sum. Black where nothing was taken.
     pub fn taken(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        tile.taken.as_ref().map_or([0.0; 3], |taken| taken.sums.mean(pixel, tile.samples))
+        tile.taken.as_ref().map_or([0.0; 3], |taken| taken.sums.mean(pixel, tile.samples[pixel]).map(|x| x * self.unit))
     }
 
     /// What clamping took in all; `None` where samples are not clamped.
@@ -330,12 +310,12 @@ impl Film {
     /// samples.
     pub fn variance(&self, x: u32, y: u32) -> f64 {
         let (tile, pixel) = self.place(x, y);
-        let n = f64::from(tile.samples);
-        if tile.samples < 2 {
+        if tile.samples[pixel] < 2 {
             return 0.0;
         }
-        let mean = luminance(self.radiance(x, y));
-        ((tile.squares[pixel] / n - mean * mean) / (n - 1.0)).max(0.0)
+        let n = f64::from(tile.samples[pixel]);
+        let mean = luminance(tile.sums.mean(pixel, tile.samples[pixel]));
+        ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0) * self.unit * self.unit
     }
 
     /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of the
@@ -343,8 +323,9 @@ impl Film {
     pub fn relative_noise(&self) -> f64 {
         let (mut variance, mut mean) = (0.0, 0.0);
         for (x, y) in self.pixels() {
-            variance += self.variance(x, y);
-            mean += luminance(self.radiance(x, y));
+            // In the sums' own unit: squares of the scene's might leave the range of numbers.
+            variance += self.variance(x, y) / self.unit / self.unit;
+            mean += luminance(self.radiance(x, y)) / self.unit;
         }
         let n = f64::from(self.crop.width) * f64::from(self.crop.height);
         if mean > 0.0 { (variance / n).sqrt() / (mean / n) } else { 0.0 }
@@ -365,8 +346,8 @@ mod tests {
     }
 
     /// Sample k is pixel k's.
-    fn first_pixels() -> [u8; 64] {
-        std::array::from_fn(|k| k as u8)
+    fn first_pixels() -> impl Iterator<Item = (usize, usize)> {
+        (0..64).map(|k| (k, k))
     }
 
     #[test]
@@ -376,15 +357,15 @@ mod tests {
                 filled(|pixel| {
                     let h = (k * 64 + pixel as u32).wrapping_mul(0x9e37_79b9);
                     let sign = if h & 16 == 0 { 1.0 } else { -1.0 };
-                    // From 2^-31 to 1: the least leave rests of 2^-54 to 2^-51, which sums of the largest would round.
-                    f32::from_bits(0x3000_0000 + h % 0x0f80_0000) * sign
+                    // From 2^-63 to 2^25: sums of doubles would round nearly all of them.
+                    f32::from_bits(0x2000_0000 + h % 0x2c00_0000) * sign
                 })
             })
             .collect();
         let (mut forwards, mut backwards) = (Tile::zeroed(), Tile::zeroed());
-        samples.iter().for_each(|s| assert_eq!(forwards.add(slices(s), &first_pixels()), 0));
-        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(slices(s), &first_pixels()), 0));
-        assert_eq!(forwards.sums, backwards.sums);
+        samples.iter().for_each(|s| assert_eq!(forwards.add(slices(s), first_pixels()), LeftOut::default()));
+        samples.iter().rev().for_each(|s| assert_eq!(backwards.add(slices(s), first_pixels()), LeftOut::default()));
+        assert!(forwards == backwards);
     }
 
     #[test]
@@ -393,7 +374,7 @@ mod tests {
             [Crop::whole([17, 8]), Crop { x: 7, y: 3, width: 2, height: 6 }, Crop { x: 16, y: 8, width: 16, height: 1 }]
         {
             for clamp in [None, Some(1.0)] {
-                let film = Film::new([40, 40], crop, 0, clamp);
+                let film = Film::new([40, 40], crop, 0, 1.0, clamp);
                 assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some()));
             }
         }
@@ -402,13 +383,15 @@ mod tests {
     #[test]
     fn wrong_samples_are_dropped_and_counted() {
         let mut tile = Tile::zeroed();
-        let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY][k % 4]);
-        assert_eq!(tile.add(slices(&samples), &first_pixels()), 32);
-        assert_eq!([0, 1, 2, 3].map(|k: usize| tile.sums.coarse[0][k]), [1.0, 0.0, -1.0, 0.0]);
+        let samples = filled(|k| [1.0, f32::NAN, -1.0, f32::INFINITY, -1e30, LARGEST, 2.0 * LARGEST, 0.0][k % 8]);
+        let left_out = tile.add(slices(&samples), first_pixels());
+        assert_eq!(left_out, LeftOut { dropped: 16, beyond: 16 });
+        let sums = [1.0, 0.0, -1.0, 0.0, 0.0, LARGEST, 0.0, 0.0].map(fixed);
+        assert_eq!(std::array::from_fn(|k| tile.sums.of(0, k)), sums);
     }
 
     /// Samples of all signs and sizes, some of them far above the limit: per pixel and channel, what is taken and what is left sum to
-    /// what there was to the last bit of both parts; nothing is above the limit, and the rest is as it was.
+    /// what there was to the last bit; nothing is above the limit, and the rest is as it was.
     #[test]
     fn what_is_taken_and_what_is_left_are_the_whole() {
         const LIMIT: f32 = 0.7;
@@ -416,7 +399,7 @@ mod tests {
             filled(|pixel| {
                 let h = crate::sampling::sampler::hash3(k, pixel as u32, channel);
                 let sign = if h >> 62 == 0 { -1.0 } else { 1.0 };
-                // From 2^-31 to 2^23: 200 of them stay below 2^32.
+                // From 2^-31 to 2^23.
                 f32::from_bits(0x3000_0000 + h as u32 % 0x1b00_0000) * sign
             })[0]
                 .clone()
@@ -426,9 +409,9 @@ mod tests {
         for k in 0..200 {
             let before = [0, 1, 2].map(|channel| sample(k, channel));
             let mut after = before.clone();
-            whole.add(slices(&before), &first_pixels());
-            clamped.clamp(LIMIT, after.each_mut().map(Vec::as_mut_slice), &first_pixels());
-            clamped.add(slices(&after), &first_pixels());
+            whole.add(slices(&before), first_pixels());
+            clamped.clamp(f64::from(LIMIT), after.each_mut().map(Vec::as_mut_slice), first_pixels());
+            clamped.add(slices(&after), first_pixels());
             for slot in 0..64 {
                 let [before, after] = [&before, &after].map(|s| s.each_ref().map(|channel| channel[slot]));
                 let largest = before.iter().fold(f32::MIN, |a, &b| a.max(b));
@@ -448,9 +431,8 @@ mod tests {
         assert!(taken.samples[..64].iter().all(|&n| (50..200).contains(&n)), "{:?}", &taken.samples[..64]);
         for c in 0..3 {
             for pixel in 0..64 {
-                let sum = |of: &Sums| (of.coarse[c][pixel], of.fine[c][pixel]);
-                let (left, took, all) = (sum(&clamped.sums), sum(&taken.sums), sum(&whole.sums));
-                assert_eq!((left.0 + took.0, left.1 + took.1), all, "channel {c}, pixel {pixel}");
+                let (left, took) = (clamped.sums.of(c, pixel), taken.sums.of(c, pixel));
+                assert_eq!(left + took, whole.sums.of(c, pixel), "channel {c}, pixel {pixel}");
             }
         }
     }
@@ -460,13 +442,13 @@ mod tests {
         let mut tile = Tile::zeroed();
         tile.keep_taken();
         let mut samples = filled(|k| [9.0, f32::NAN, -9.0, f32::INFINITY][k % 4]);
-        tile.clamp(3.0, samples.each_mut().map(Vec::as_mut_slice), &first_pixels());
-        assert_eq!(tile.add(slices(&samples), &first_pixels()), 32);
-        assert_eq!([0, 1, 2, 3].map(|k: usize| tile.sums.coarse[0][k]), [3.0, 0.0, -9.0, 0.0]);
+        tile.clamp(3.0, samples.each_mut().map(Vec::as_mut_slice), first_pixels());
+        assert_eq!(tile.add(slices(&samples), first_pixels()), LeftOut { dropped: 32, beyond: 0 });
+        assert_eq!([0, 1, 2, 3].map(|k| tile.sums.of(0, k)), [3.0, 0.0, -9.0, 0.0].map(fixed));
         let taken = tile.taken.expect("it was clamped");
         assert_eq!(
-            [0, 1, 2, 3].map(|k: usize| (taken.samples[k], taken.sums.coarse[0][k])),
-            [(1, 6.0), (0, 0.0), (0, 0.0), (0, 0.0)]
+            [0, 1, 2, 3].map(|k| (taken.samples[k], taken.sums.of(0, k))),
+            [(1, 6.0), (0, 0.0), (0, 0.0), (0, 0.0)].map(|(n, x)| (n, fixed(x)))
         );
     }
 }

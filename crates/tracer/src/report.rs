@@ -320,6 +320,8 @@ pub struct Samples {
     pub per_second: f64,
     /// Not finite, and left out of the picture.
     pub dropped: u64,
+    /// Finite, but more than 6.7e7 times the scene's brightest light, and left out of the picture.
+    pub beyond: u64,
 }
 
 /// Noise of the picture.

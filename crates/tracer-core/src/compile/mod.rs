@@ -6,6 +6,7 @@ mod materials;
 mod meshes;
 mod nearby;
 mod placing;
+mod radiances;
 
 use crate::bvh;
 use crate::scene::{
@@ -16,7 +17,7 @@ pub use files::check_files;
 use glam::DVec3;
 use materials::MaterialBuilder;
 use scene_format::codes;
-use scene_format::desc::{Acceleration, Caustics, Emission, Integrator, Object, PixelFilter, Reuse, SphereLight};
+use scene_format::desc::{Acceleration, Caustics, Integrator, Object, PixelFilter, Reuse};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
@@ -88,7 +89,9 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
     let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
-    let (spheres, lights) = spheres_and_lights(desc, &frame, &sphere_materials);
+    let radiance_unit = radiances::unit(desc);
+    diagnostics.extend(radiances::too_dark(desc, radiance_unit));
+    let (spheres, lights) = spheres_and_lights(desc, &frame, radiance_unit, &sphere_materials);
     let built = meshes::build(&frame, desc, &loaded, &placed, &assigned);
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials);
@@ -116,7 +119,8 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
-        background: desc.background.map(|x| x as f32),
+        radiance_unit,
+        background: desc.background.map(|x| (x / radiance_unit) as f32),
         spheres,
         materials,
         lights,
@@ -153,7 +157,12 @@ fn marks(desc: &SceneDesc, placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3
 }
 
 /// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), and the lights.
-fn spheres_and_lights(desc: &SceneDesc, frame: &Frame, sphere_materials: &[u32]) -> (Vec<Sphere>, Vec<Light>) {
+fn spheres_and_lights(
+    desc: &SceneDesc,
+    frame: &Frame,
+    radiance_unit: f64,
+    sphere_materials: &[u32],
+) -> (Vec<Sphere>, Vec<Light>) {
     let objects = desc.objects.iter().filter_map(|object| match &object.value {
         Object::Sphere(sphere) => Some(sphere),
         Object::Mesh(_) => None,
@@ -172,7 +181,8 @@ fn spheres_and_lights(desc: &SceneDesc, frame: &Frame, sphere_materials: &[u32])
     for light in &desc.lights {
         let desc::Light::SphereLight(light) = &light.value;
         spheres.push(render_space(light.center.value, light.radius.value, NONE, lights.len() as u32));
-        lights.push(Light::Sphere { sphere: NONE, radiance: radiance(light) });
+        let radiance = radiances::of_light(light).map(|x| x / radiance_unit);
+        lights.push(Light::Sphere { sphere: NONE, radiance });
     }
     SphereTable::order(&mut spheres);
     for (k, sphere) in spheres.iter().enumerate() {
@@ -181,16 +191,6 @@ fn spheres_and_lights(desc: &SceneDesc, frame: &Frame, sphere_materials: &[u32])
         }
     }
     (spheres, lights)
-}
-
-/// L = I / (pi r^2) = P / (4 pi^2 r^2).
-fn radiance(light: &SphereLight) -> [f64; 3] {
-    let disc = std::f64::consts::PI * light.radius.value * light.radius.value;
-    match light.emission.value {
-        Emission::Radiance(l) => l,
-        Emission::Intensity(i) => i.map(|x| x / disc),
-        Emission::Power(p) => p.map(|x| x / (4.0 * std::f64::consts::PI * disc)),
-    }
 }
 
 fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {

@@ -57,7 +57,8 @@ pub fn develop(film: &Film, look: &Look) -> Image {
                 ToneMap::AgX => agx(exposed),
             };
             for (to, from) in linear.iter_mut().zip(exposed) {
-                *to = from as f32;
+                // What is beyond the range of f32 is its largest number: files and what reads them want finite ones.
+                *to = from.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
             }
             for (to, from) in display.iter_mut().zip(mapped) {
                 *to = encoder.encode(from.clamp(0.0, 1.0));

@@ -1,17 +1,20 @@
 //! The state of one batch: structures of arrays, allocated once per thread, small enough to stay in the L2 cache.
 //!
-//! A batch is up to [`ITEMS`] items; an item is a quarter of a tile of 16x16 pixels, 64 of them, at one sample index. Slot s is
-//! pixel s % 64 of item s / 64; a slot's radiance is summed in the order of its path's vertices, whatever the schedule.
+//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 16x16 pixels at one sample index: every other pixel of every other
+//! row, 64 of them. Where the blocks lie, [`super::grid`] says. Slot s is pixel s % 64 (in Z-order) of item s / 64; slots whose pixel lies
+//! outside of the picture have no path. A slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
 use super::glints::WEIGHT;
 use super::stages::shade::BRANCHING;
 use super::statistics::Watch;
+use crate::lanes::{Bits, Lanes};
+use crate::math::V3;
 use crate::sampling::sampler::z_order;
 use crate::scene::NONE;
 
-/// Pixels along a tile's side.
+/// Pixels along the side of a block, and of a tile of sampler and film.
 pub const TILE: u32 = 16;
-/// Items that make a tile at one sample index.
+/// Items that make a block at one sample index.
 pub const QUARTERS: u32 = 4;
 /// Pixels in an item.
 pub const BLOCK_PIXELS: usize = 64;
@@ -46,52 +49,50 @@ fn columns() -> Columns {
     [floats(), floats(), floats()]
 }
 
-/// One item.
+/// One item. Its pixels lie two apart: what they share makes their errors alike, and pixels that touch would show it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Item {
-    /// Tile column.
-    pub tile_x: u32,
-    /// Tile row.
-    pub tile_y: u32,
-    /// Which quarter of the tile.
+    /// First column of its block; below zero where the block begins outside of the picture.
+    pub x: i32,
+    /// First row of its block.
+    pub y: i32,
+    /// Which quarter of the block.
     pub quarter: u32,
     /// Sample index; while glint chains are traced, their index ([`super::glints`]).
     pub sample: u32,
-    /// Its pixels lie two apart.
-    pub spread: bool,
 }
 
-/// From this sample index on a quarter is a square of 8x8 pixels; before, it is every other pixel of every other row. What the pixels
-/// of an item share makes their errors alike: squares would show as such while there are few samples, and are better with many.
-const SQUARE_FROM: u32 = 16;
-
 impl Item {
-    /// A quarter of a tile at a sample index.
-    pub fn new(tile_x: u32, tile_y: u32, quarter: u32, sample: u32) -> Self {
-        Item { tile_x, tile_y, quarter, sample, spread: sample < SQUARE_FROM }
+    /// A quarter of the block that begins at this pixel.
+    pub fn new([x, y]: [i32; 2], quarter: u32, sample: u32) -> Self {
+        Item { x, y, quarter, sample }
     }
 
-    /// The Z-order number in the tile of its pixel k is (k << `shift`) | `offset`.
+    /// Its first pixel; pixel k lies twice the Z-order position of k from there.
     #[inline(always)]
-    pub fn z_of_pixels(&self) -> (u32, u32) {
-        if self.spread { (2, self.quarter) } else { (0, self.quarter << 6) }
+    pub fn first_pixel(&self) -> [i32; 2] {
+        [self.x + (self.quarter & 1) as i32, self.y + (self.quarter >> 1) as i32]
     }
 
-    /// Its pixels by their Z-order numbers in the tile.
-    pub fn pixels(&self) -> &'static [u8; BLOCK_PIXELS] {
-        const fn table(shift: u32, offset: u32) -> [u8; BLOCK_PIXELS] {
-            let mut pixels = [0; BLOCK_PIXELS];
-            let mut k = 0;
-            while k < BLOCK_PIXELS {
-                pixels[k] = ((k as u32) << shift | offset) as u8;
-                k += 1;
+    /// Z-order number of its first pixel. Coordinates below zero wrap, and come right where a pixel's offset is added (`stages::points`).
+    pub fn z(&self) -> u32 {
+        let [x, y] = self.first_pixel().map(|x| x as u32 & 0xffff);
+        z_order(x, y)
+    }
+
+    /// The tiles of the sampler that its block touches, by the lowest bits of their columns (times two) and rows; `None` left of and above
+    /// the picture. They are numbered in Z-order.
+    pub fn tiles(&self) -> [Option<u32>; 4] {
+        let mut tiles = [None; 4];
+        let last = TILE as i32 - 1;
+        for row in [self.y, self.y + last].map(|y| y.div_euclid(TILE as i32)) {
+            for column in [self.x, self.x + last].map(|x| x.div_euclid(TILE as i32)) {
+                if column >= 0 && row >= 0 {
+                    tiles[((column & 1) << 1 | row & 1) as usize] = Some(z_order(column as u32, row as u32));
+                }
             }
-            pixels
         }
-        static SPREAD: [[u8; BLOCK_PIXELS]; 4] = [table(2, 0), table(2, 1), table(2, 2), table(2, 3)];
-        static SQUARE: [[u8; BLOCK_PIXELS]; 4] = [table(0, 0), table(0, 64), table(0, 128), table(0, 192)];
-        let tables = if self.spread { &SPREAD } else { &SQUARE };
-        &tables[(self.quarter % QUARTERS) as usize]
+        tiles
     }
 }
 
@@ -157,6 +158,15 @@ impl Paths {
             from_primitive: filled(NONE),
             from_instance: filled(NONE),
         }
+    }
+
+    /// Leaves those from `from` on that have a bit set in the mask, which is for one vector of camera rays.
+    #[inline(always)]
+    pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M) {
+        V3::<F>::load(&self.origin, from).compress(mask, &mut self.origin, from);
+        V3::<F>::load(&self.direction, from).compress(mask, &mut self.direction, from);
+        // All else is the same for all camera rays.
+        F::U::load(&self.slot[from..]).compress(mask, &mut self.slot[from..]);
     }
 
     /// Adds those of another, which come from glass, behind these.
@@ -363,6 +373,8 @@ pub struct Counters {
     pub chain_rays: u64,
     /// Samples that were not finite.
     pub dropped: u64,
+    /// Samples that were finite, but too far above the scene's brightest light (see `film::exact`).
+    pub beyond: u64,
 }
 
 impl Counters {
@@ -375,6 +387,7 @@ impl Counters {
         self.photon_rays += other.photon_rays;
         self.chain_rays += other.chain_rays;
         self.dropped += other.dropped;
+        self.beyond += other.beyond;
     }
 }
 
@@ -382,12 +395,14 @@ impl Counters {
 pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
-    /// Z-order number of each item's tile, shifted by eight, and the offset of [`Item::z_of_pixels`].
+    /// Z-order number of each item's first pixel.
     pub item_z: [u32; ITEMS],
-    /// The shift of [`Item::z_of_pixels`] as a factor.
-    pub item_scale: [u32; ITEMS],
     /// Items with glint chains ([`super::glints`]), a bit each.
     pub glints: u32,
+    /// Items whose pixels share, a bit each, where any do.
+    pub shares: u32,
+    /// The same as words, one or zero.
+    pub item_shares: [u32; ITEMS],
     /// Per item: the weight of what a path sees that has met mirrors and glass only: one, or what glint chains leave to it.
     pub glint_weight: [f32; ITEMS],
     /// The living paths.
@@ -430,8 +445,9 @@ impl Batch {
         Batch {
             items: Vec::with_capacity(ITEMS),
             item_z: [0; ITEMS],
-            item_scale: [0; ITEMS],
             glints: 0,
+            shares: u32::MAX,
+            item_shares: [1; ITEMS],
             glint_weight: [1.0; ITEMS],
             paths: Paths::new(),
             next: Paths::new(),
@@ -474,9 +490,8 @@ impl Batch {
     /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is [`WEIGHT`].
     pub fn start(&mut self) {
         for (k, item) in self.items.iter().enumerate() {
-            let (shift, offset) = item.z_of_pixels();
-            self.item_z[k] = z_order(item.tile_x, item.tile_y) << 8 | offset;
-            self.item_scale[k] = 1 << shift;
+            self.item_z[k] = item.z();
+            self.item_shares[k] = self.shares >> k & 1;
             self.glint_weight[k] = if self.glints >> k & 1 == 1 { WEIGHT } else { 1.0 };
         }
         let slots = self.items.len() * BLOCK_PIXELS;

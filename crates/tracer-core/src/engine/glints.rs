@@ -1,16 +1,17 @@
 //! Glint chains: what mirrors and glass show of the lamps, sampled more often than all else.
 //!
 //! A lamp in a bent mirror or behind glass is smaller than a pixel and as bright as the lamp: few of the pixel's paths find it. To follow a
-//! path over mirrors and glass only is cheap beside the rest of a sample. So in tiles where a mirror or glass is seen every pixel follows
+//! path over mirrors and glass only is cheap beside the rest of a sample. So where a mirror or glass is seen every pixel follows
 //! [`CHAINS`] more at each sample index, which end at all other surfaces, and what a path sees that has met mirrors and glass only is the
 //! mean over its own and theirs. Where, a pilot tells, whose random choices are its own, so that weights do not depend on what they weigh:
-//! unbiased. It depends on scene, seed and tile: the same for any crop and any number of samples.
+//! unbiased. It depends on scene, seed and place: the same for any crop and any number of samples.
 
-use super::batch::{BLOCK_PIXELS, Batch, Counters, ITEMS, Item, path};
+use super::batch::{BLOCK_PIXELS, Batch, Counters, ITEMS, Item, TILE, path};
 use super::kernels::Kernels;
 use super::statistics::Stage;
 use super::trace::{Pass, Task, closest};
 use super::{Worker, each};
+use crate::film::Crop;
 use crate::sampling::sampler::hash3;
 use crate::scene::{Material, Scene};
 use std::sync::Mutex;
@@ -21,25 +22,53 @@ pub const CHAINS: u32 = 3;
 /// What is left to the path's own share.
 pub const WEIGHT: f32 = 1.0 / (CHAINS as f32 + 1.0);
 
-/// Which of these tiles have chains: those where the camera ray of a pixel, of one in four, meets a mirror or glass.
-pub fn pilot(
-    scene: &Scene,
-    kernels: &Kernels,
-    pass: Pass<'_>,
-    tiles: &[(u32, u32)],
-    workers: &[Mutex<Worker>],
-) -> Vec<bool> {
+/// Which tiles have chains.
+#[derive(Clone, Debug, Default)]
+pub struct Glints {
+    first: [u32; 2],
+    columns: u32,
+    flags: Vec<bool>,
+}
+
+impl Glints {
+    /// Whether the pixels of the block that begins here have chains: where any of the tiles that it touches has. All pixels of a block are
+    /// traced alike, and the grid of blocks moves, whereas tiles do not: no border shows.
+    pub fn in_block(&self, [x, y]: [i32; 2]) -> bool {
+        let side = TILE as i32;
+        let tiles = |first: i32| first.div_euclid(side)..=(first + side - 1).div_euclid(side);
+        tiles(y).any(|row| tiles(x).any(|column| self.of_tile(column, row)))
+    }
+
+    fn of_tile(&self, column: i32, row: i32) -> bool {
+        let (Ok(column), Ok(row)) = (u32::try_from(column), u32::try_from(row)) else { return false };
+        let (Some(column), Some(row)) = (column.checked_sub(self.first[0]), row.checked_sub(self.first[1])) else {
+            return false;
+        };
+        column < self.columns && self.flags.get((row * self.columns + column) as usize).is_some_and(|&flag| flag)
+    }
+}
+
+/// Which tiles have chains: those where the camera ray of a pixel, of one in four, meets a mirror or glass. All tiles of the picture are
+/// asked that a block may touch which touches the crop.
+pub fn pilot(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, crop: Crop, workers: &[Mutex<Worker>]) -> Glints {
     let specular = |material: &Material| matches!(material, Material::Mirror { .. } | Material::Transparent { .. });
     if !scene.materials.iter().any(specular) {
-        return vec![false; tiles.len()];
+        return Glints::default();
     }
+    let first = [crop.x, crop.y].map(|x| x.saturating_sub(TILE - 1) / TILE);
+    let end = [crop.x + crop.width, crop.y + crop.height];
+    let end = [0, 1].map(|axis| (end[axis] + TILE - 1).min(scene.size[axis]).div_ceil(TILE));
+    let (columns, rows) = (end[0] - first[0], end[1] - first[1]);
+    let count = columns as usize * rows as usize;
     let pass = of_chains(pass, 0x0091_1075);
-    let of_batch = each(workers, tiles.len().div_ceil(ITEMS), |k, worker| {
+    let of_batch = each(workers, count.div_ceil(ITEMS), |k, worker| {
         let batch = &mut worker.batch;
         batch.watch.resume();
         let start = Instant::now();
         batch.items.clear();
-        batch.items.extend(tiles.iter().skip(k * ITEMS).take(ITEMS).map(|&(x, y)| Item::new(x, y, 0, 0)));
+        let tiles = (k * ITEMS..count.min((k + 1) * ITEMS)).map(|tile| tile as u32);
+        let corner = |tile: u32| [first[0] + tile % columns, first[1] + tile / columns].map(|x| (x * TILE) as i32);
+        batch.items.extend(tiles.map(|tile| Item::new(corner(tile), 0, 0)));
         batch.glints = 0;
         batch.start();
         follow(scene, kernels, pass, u32::MAX, 1, batch);
@@ -48,7 +77,8 @@ pub fn pilot(
         batch.watch.costs.photons_since(start);
         items
     });
-    (0..tiles.len()).map(|k| of_batch[k / ITEMS] >> (k % ITEMS) & 1 == 1).collect()
+    let flags = (0..count).map(|k| of_batch[k / ITEMS] >> (k % ITEMS) & 1 == 1).collect();
+    Glints { first, columns, flags }
 }
 
 /// The pass of chains with random choices of their own.

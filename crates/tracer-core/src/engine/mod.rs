@@ -1,10 +1,11 @@
 //! The path engine: batches of paths through stages, over lanes, on all cores.
 //!
-//! A pass adds a range of sample indices to every tile of the picture. Tiles are independent and a pixel's sum is exact
-//! ([`crate::film`]), so threads take batches in any order and the film is the same.
+//! A pass adds a range of sample indices to every pixel of the picture, block by block ([`grid`]). Blocks are independent and a pixel's sum
+//! is exact ([`crate::film`]), so threads take batches in any order and the film is the same.
 
 mod batch;
 mod glints;
+mod grid;
 mod guide;
 #[allow(unsafe_code)]
 mod kernels;
@@ -16,17 +17,19 @@ mod trace;
 pub use batch::Counters;
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Crop, Film, Tile};
+use crate::film::{Cells, Crop, Film, Overlap};
 use crate::level::Level;
 use crate::sampling::sampler::hash3;
 use crate::scene::{Scene, Sharing};
 use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
+use glints::Glints;
+use grid::Grid;
 use guide::Guides;
 use kernels::Kernels;
 use std::ops::ControlFlow;
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// What a caller may decide about a rendering; `None` and zero take what the scene says.
@@ -54,9 +57,11 @@ pub struct RenderOptions {
     pub statistics: bool,
 }
 
-/// Under a background pixels share where such a share of the paths has a second vertex: in rooms with a window or without a wall. What a ray
-/// sees where it leaves the scene is its own pixel's; outdoors to share never paid (docs/noise.md).
-const INDOORS: f32 = 0.8;
+/// Under a background pixels share in all blocks where such a share of the paths has a second vertex, as in rooms with a window, in none where
+/// it is [`OUTDOORS`] or less, and in a part of the blocks between, so that pictures of a sequence, or of other seeds, do not differ in
+/// kind. What a ray sees where it leaves the scene is its own pixel's; outdoors to share never paid (docs/noise.md).
+const INDOORS: f32 = 0.9;
+const OUTDOORS: f32 = 0.6;
 
 /// How far a rendering is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,10 +104,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
-    let mut film = Film::new(scene.size, crop, pass_options.seed, clamp);
-    let tiles: Vec<(u32, u32)> = film.tile_positions().collect();
-    let samples_total = tiles.len() as u64 * u64::from(samples) * u64::from(TILE * TILE);
-    let done = AtomicUsize::new(0);
+    let mut film = Film::new(scene.size, crop, pass_options.seed, scene.radiance_unit, clamp);
+    let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
+    let done = AtomicU64::new(0);
     let stopped = AtomicBool::new(false);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
     for worker in &workers {
@@ -113,32 +117,38 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         Some(true) => Sharing::Always,
         Some(false) => Sharing::Never,
     };
-    let has_second = if sharing == Sharing::Indoors && !tiles.is_empty() {
+    let has_second = if sharing == Sharing::Indoors && samples_total > 0 {
         second_vertices(scene, &kernels, pass_options, &workers)
     } else {
         0.0
     };
-    pass_options.reuse = sharing == Sharing::Always || sharing == Sharing::Indoors && has_second >= INDOORS;
-    let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples > 0 && !tiles.is_empty();
+    let share_of_blocks = match sharing {
+        Sharing::Always => 1.0,
+        Sharing::Never => 0.0,
+        Sharing::Indoors => ((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0),
+    };
+    pass_options.reuse = share_of_blocks > 0.0;
+    let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
     let mut guides = if wants_guide { Guides::new(scene, pass_options.seed) } else { None };
     let glints = match &guides {
-        Some(_) => glints::pilot(scene, &kernels, pass_options, &tiles, &workers),
-        None => vec![false; tiles.len()],
+        Some(_) => glints::pilot(scene, &kernels, pass_options, crop, &workers),
+        None => Glints::default(),
     };
+    let grid = Grid::new(crop, pass_options.seed, pass_options.reuse);
     for pass in passes(samples, 16 * SAMPLES) {
         if let Some(guides) = &mut guides {
             guides.prepare(scene, &kernels, &pass, &workers);
         }
         let pass_options = trace::Pass { guide: guides.as_ref().map(Guides::guide), ..pass_options };
-        // Whole tiles per batch: a tile's samples of one pass are added by one thread.
+        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to stay in the cache.
         let at_once = (pass.end - pass.start).min(SAMPLES);
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
-        let cells: Vec<Mutex<&mut Tile>> = film.tiles_mut().map(Mutex::new).collect();
+        let cells = Cells::new(&mut film);
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {
                 let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
-                let Some(mine) = tiles.get(first..tiles.len().min(first + per_batch)) else { break };
+                let mine = first..grid.len().min(first + per_batch);
                 if mine.is_empty() {
                     break;
                 }
@@ -147,29 +157,34 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
                     let count = (pass.end - sample).min(at_once);
                     let batch = &mut worker.batch;
                     batch.items.clear();
-                    batch.glints = 0;
-                    for (&(tile_x, tile_y), &glints) in mine.iter().zip(&glints[first..]) {
-                        if glints {
-                            batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
-                        }
+                    (batch.glints, batch.shares) = (0, 0);
+                    for place in mine.clone() {
                         for sample in sample..sample + count {
-                            let quarters = 0..QUARTERS;
-                            batch.items.extend(quarters.map(|quarter| Item::new(tile_x, tile_y, quarter, sample)));
+                            let Some(block) = grid.block(place, sample) else { continue };
+                            if glints.in_block(block) {
+                                batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
+                            }
+                            if shares(pass_options.seed, block, sample, share_of_blocks) {
+                                batch.shares |= ((1 << QUARTERS) - 1) << batch.items.len();
+                            }
+                            batch.items.extend((0..QUARTERS).map(|quarter| Item::new(block, quarter, sample)));
                         }
+                    }
+                    if batch.items.is_empty() {
+                        sample += count;
+                        continue;
                     }
                     batch.watch.start(options.statistics);
                     let start = Instant::now();
                     trace::trace(scene, &kernels, pass_options, batch);
-                    let cells = &cells[first..first + mine.len()];
                     if let Some(limit) = clamp {
-                        clamp_samples(limit, count, cells, batch);
+                        clamp_samples(f64::from(limit) / scene.radiance_unit, &cells, batch);
                     }
-                    add_samples(count, cells, batch);
+                    let added = add_samples(&cells, batch);
                     batch.watch.lap(Stage::Film);
                     batch.watch.costs.total += start.elapsed().as_secs_f64();
                     sample += count;
-                    let added = batch.items.len() * batch::BLOCK_PIXELS;
-                    let samples_done = (done.fetch_add(added, Ordering::Relaxed) + added) as u64;
+                    let samples_done = done.fetch_add(added, Ordering::Relaxed) + added;
                     if observer.progress(Progress { samples_done, samples_total }).is_break() {
                         stopped.store(true, Ordering::Relaxed);
                         break;
@@ -199,6 +214,12 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     film
 }
 
+/// Whether the pixels of a block share at a sample index: so large a share of the blocks does, by chance.
+fn shares(seed: u32, block: [i32; 2], sample: u32, share: f32) -> bool {
+    let salt = hash3(seed, sample, 0x05ba_5e55) as u32;
+    ((hash3(salt, block[0] as u32, block[1] as u32) >> 40) as f32) < share * (1u32 << 24) as f32
+}
+
 /// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
 fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, workers: &[Mutex<Worker>]) -> f32 {
     // Choices of its own: whether pixels share must not depend on the very paths that do.
@@ -217,9 +238,10 @@ fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, work
             let (first, end) = (all * k / count, all * (k + 1) / count);
             let quarter = first + hash3(pass.seed, 0x001d_17ed, k as u32) % (end - first);
             let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
-            batch.items.push(Item::new(tile % across, tile / across, quarter, 0));
+            batch.items.push(Item::new([tile % across, tile / across].map(|tile| (tile * TILE) as i32), quarter, 0));
         }
         batch.glints = 0;
+        batch.shares = u32::MAX;
         batch.start();
         kernels.camera(scene, pass.seed, u32::MAX, batch);
         for vertex in 0..=scene.max_bounces {
@@ -238,33 +260,41 @@ fn slots_of(item: usize) -> Range<usize> {
     item * batch::BLOCK_PIXELS..(item + 1) * batch::BLOCK_PIXELS
 }
 
-/// Adds the samples of a batch to its tiles: `count` sample indices of each.
-fn add_samples(count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
-    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
-        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        for item in first..first + (count * QUARTERS) as usize {
-            let samples = batch.radiance.each_ref().map(|channel| &channel[slots_of(item)]);
-            batch.counters.dropped += tile.add(samples, batch.items[item].pixels());
-        }
-        tile.count(count);
+/// Adds the samples of a batch to the film; how many they are.
+fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+    let mut added = 0;
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
+            for quarter in 0..QUARTERS {
+                let slots = slots_of(first + quarter as usize);
+                let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+                let left_out = tile.add(samples, overlap.of_quarter(quarter));
+                batch.counters.dropped += left_out.dropped;
+                batch.counters.beyond += left_out.beyond;
+            }
+            added += overlap.pixels();
+        });
     }
+    added
 }
 
 /// Clamps the samples of a batch before they are added. A pass of its own, so that its time is known and nothing is asked where none is
 /// wanted.
-fn clamp_samples(limit: f32, count: u32, cells: &[Mutex<&mut Tile>], batch: &mut Batch) {
+fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
     let start = Instant::now();
-    for (cell, first) in cells.iter().zip((0..).step_by((count * QUARTERS) as usize)) {
-        let mut tile = cell.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        for item in first..first + (count * QUARTERS) as usize {
-            let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots_of(item)]);
-            tile.clamp(limit, samples, batch.items[item].pixels());
-        }
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
+            for quarter in 0..QUARTERS {
+                let slots = slots_of(first + quarter as usize);
+                let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
+                tile.clamp(limit, samples, overlap.of_quarter(quarter));
+            }
+        });
     }
     batch.watch.costs.clamp += start.elapsed().as_secs_f64();
 }
 
-/// Samples of a tile that fill a batch.
+/// Samples of a block that fill a batch.
 const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
 
 /// A thread's memory.
@@ -338,8 +368,13 @@ fn passes(samples: u32, longest: u32) -> impl Iterator<Item = std::ops::Range<u3
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// The first pixel of a quarter of a block, for the tests of the film.
+    pub fn first_pixel(block: [i32; 2], quarter: u32) -> [i32; 2] {
+        Item::new(block, quarter, 0).first_pixel()
+    }
 
     #[test]
     fn passes_cover_all_samples_once() {

@@ -40,6 +40,8 @@ pub enum Purpose {
     Aim(u32),
     /// Direction of an aimed ray.
     AimedDirection(u32),
+    /// Where the blocks lie whose pixels share.
+    Grid,
 }
 
 impl Purpose {
@@ -52,6 +54,8 @@ impl Purpose {
             Purpose::AimedDirection(0) => 3,
             Purpose::Aim(k) => (1 << 16) + 2 * k,
             Purpose::AimedDirection(k) => (1 << 16) + 2 * k + 1,
+            // That of no vertex.
+            Purpose::Grid => u32::MAX,
             Purpose::Direction(k) => 4 + 4 * k,
             Purpose::Light(k) => 5 + 4 * k,
             Purpose::Choice(k) => 6 + 4 * k,
@@ -187,7 +191,7 @@ pub(crate) fn z_order(x: u32, y: u32) -> u32 {
 mod tests {
     use super::*;
 
-    const PURPOSES: [Purpose; 7] = [
+    const PURPOSES: [Purpose; 8] = [
         Purpose::Pixel,
         Purpose::Lens,
         Purpose::Direction(0),
@@ -195,6 +199,7 @@ mod tests {
         Purpose::Light(0),
         Purpose::Choice(2),
         Purpose::Roulette(7),
+        Purpose::Grid,
     ];
 
     /// Numbers stay below one, whatever the bits: ln(1 - u) and the last stratum depend on it.

@@ -11,7 +11,7 @@ pub enum Light {
     Sphere {
         /// Index into `Scene::spheres`.
         sphere: u32,
-        /// Radiance in W/(sr m^2) per channel.
+        /// Radiance per channel, in `Scene::radiance_unit`.
         radiance: [f64; 3],
     },
 }

@@ -16,6 +16,7 @@ mod glints;
 mod indirect;
 mod matrix;
 mod random_scenes;
+mod range;
 mod reuse;
 mod same_bytes;
 mod sampler;

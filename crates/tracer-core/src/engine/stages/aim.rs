@@ -162,14 +162,14 @@ pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M
 pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items, &batch.item_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items, &batch.item_z);
+    let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items);
+    let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items);
     let (aimers, paths) = (&batch.aimers, &mut batch.paths);
     let before = paths.len;
     let casters = guide.casters.len().min(MOST_CASTERS);
     for i in (0..aimers.len).step_by(F::N) {
         let slot = F::U::load(&aimers.slot[i..]);
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
         let (choice, _) = choices.points(&pixel);
         let mut aimed = F::first(aimers.len - i);
         let p = V3::<F>::load(&aimers.start, i);

@@ -1,9 +1,10 @@
 //! Camera rays: a point in the pixel by its filter, a point on the lens.
 
-use crate::engine::batch::{BLOCK_PIXELS, Batch, TILE};
-use crate::lanes::{Bits, Lanes};
+use super::points::{PairPoints, PixelOf};
+use crate::engine::batch::{BLOCK_PIXELS, Batch};
+use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, ln, sincos_turns};
-use crate::sampling::sampler::{Pair, Purpose};
+use crate::sampling::sampler::Purpose;
 use crate::sampling::warp;
 use crate::scene::{Camera, Filter, NONE, Scene};
 
@@ -22,47 +23,43 @@ const fn z_order_coordinates(which: u32) -> [f32; BLOCK_PIXELS] {
     table
 }
 
-/// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`.
+/// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`: of their pixels in the picture.
 #[inline(always)]
 pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
     let c = F::splat;
     let camera: &Camera = &scene.camera;
-    let pixel = Pair::new(seed, Purpose::Pixel);
-    let lens = Pair::new(seed, Purpose::Lens);
+    let pixel_points = PairPoints::<F>::new(seed, Purpose::Pixel, &batch.items);
+    let lens_points = PairPoints::<F>::new(seed, Purpose::Lens, &batch.items);
     let [eye, forward, right, up] =
         [camera.eye, camera.forward, camera.right, camera.up].map(|v| v.as_vec3().to_array());
     let (eye, forward) = (V3::<F>::splat(eye), V3::<F>::splat(forward));
     let (right, up) = (V3::<F>::splat(right), V3::<F>::splat(up));
-    let [width, height] = scene.size;
-    let (scale_x, scale_y) = (c(2.0 / width as f32), c(-2.0 / height as f32));
+    // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
+    let middle = scene.size.map(|side| side as f32 / 2.0);
+    let (scale_x, scale_y) = (c(1.0 / middle[0]), c(-1.0 / middle[1]));
     let paths = &mut batch.paths;
     paths.len = 0;
     for (k, item) in batch.items.iter().enumerate() {
         if items >> k & 1 == 0 {
             continue;
         }
-        let item_z = batch.item_z[k];
-        let pixel_part = pixel.sample_part(item_z >> 8, item.sample);
-        let lens_part = lens.sample_part(item_z >> 8, item.sample);
-        // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
-        let (shift, offset) = item.z_of_pixels();
-        let side = f32::from(1u8 << (shift / 2));
-        let (offset_x, offset_y) = z_order_position(offset);
-        let left = c((item.tile_x * TILE + offset_x) as f32 + 0.5 - width as f32 / 2.0);
-        let top = c((item.tile_y * TILE + offset_y) as f32 + 0.5 - height as f32 / 2.0);
+        let first = item.first_pixel();
+        let left = c(first[0] as f32 + 0.5 - middle[0]);
+        let top = c(first[1] as f32 + 0.5 - middle[1]);
         for j in (0..BLOCK_PIXELS).step_by(F::N) {
-            let i = paths.len + j;
+            let i = paths.len;
             let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
-            let z = (F::U::splat(item_z) + F::U::load(&SLOTS[j..]) * F::U::splat(1 << shift)).reverse_bits();
-            let (u, v) = pixel.points::<F>(z, F::U::splat(pixel_part.x), F::U::splat(pixel_part.y));
+            let (x, y) = (F::load(&PIXEL_X[j..]).fma(c(2.0), left), F::load(&PIXEL_Y[j..]).fma(c(2.0), top));
+            let inside = x.abs().lt(c(middle[0])) & y.abs().lt(c(middle[1]));
+            let pixel = PixelOf::<F>::new(slot, &batch.item_z);
+            let (u, v) = pixel_points.points(&pixel);
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
-            let x = (F::load(&PIXEL_X[j..]).fma(c(side), left) + dx) * scale_x;
-            let y = (F::load(&PIXEL_Y[j..]).fma(c(side), top) + dy) * scale_y;
+            let (x, y) = ((x + dx) * scale_x, (y + dy) * scale_y);
             let mut direction = right.mad(x, up.mad(y, forward));
             let mut origin = eye;
             if camera.lens_radius > 0.0 {
                 // The plane of focus is met at focus_distance times the direction whose forward component is one.
-                let (u, v) = lens.points::<F>(z, F::U::splat(lens_part.x), F::U::splat(lens_part.y));
+                let (u, v) = lens_points.points(&pixel);
                 let (lx, ly) = warp::disc(u, v);
                 let radius = c(camera.lens_radius as f32);
                 let offset = right.normalise().mad(lx * radius, up.normalise().scale(ly * radius));
@@ -77,16 +74,14 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
             slot.store(&mut paths.slot[i..]);
             F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
             F::U::splat(NONE).store(&mut paths.from_instance[i..]);
+            let count = inside.count();
+            if count < F::N {
+                paths.keep::<F>(i, inside);
+            }
+            paths.len += count;
         }
-        paths.len += BLOCK_PIXELS;
     }
     batch.counters.camera_rays += paths.len as u64;
-}
-
-/// x and y of a Z-order number below 256.
-fn z_order_position(z: u32) -> (u32, u32) {
-    let squeeze = |b: u32| (b & 1) | (b >> 1 & 2) | (b >> 2 & 4) | (b >> 3 & 8);
-    (squeeze(z), squeeze(z >> 1))
 }
 
 static SLOTS: [u32; BLOCK_PIXELS] = {

@@ -8,45 +8,69 @@ use crate::sampling::sampler::{Pair, Purpose};
 pub struct PixelOf<F: Lanes> {
     reversed_z: F::U,
     item: F::U,
+    odd_column: F::M,
+    odd_row: F::M,
 }
 
 impl<F: Lanes> PixelOf<F> {
     /// `slot` may hold state beside the slot.
     #[inline(always)]
-    pub fn new(slot: F::U, item_z: &[u32; ITEMS], item_scale: &[u32; ITEMS]) -> Self {
-        let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
-        let z = F::U::gather(item_z, item) + (slot & F::U::splat(63)) * F::U::gather(item_scale, item);
-        PixelOf { reversed_z: z.reverse_bits(), item }
+    pub fn new(slot: F::U, item_z: &[u32; ITEMS]) -> Self {
+        let word = F::U::splat;
+        let item = (slot & word(path::SLOT)).shr::<6>();
+        let first = F::U::gather(item_z, item);
+        // Pixel k lies twice the Z-order position of k from the first. x and y are added each for itself, the bits of the other filled with
+        // ones, so that what is carried goes past them.
+        let offset = (slot & word(63)).shl::<2>();
+        let (of_x, of_y) = (word(0x5555_5555), word(0xaaaa_aaaa));
+        let z = ((first | of_y) + (offset & of_x)) & of_x | ((first | of_x) + (offset & of_y)) & of_y;
+        // The lowest bits of column and row of the sampler's tile.
+        let odd_column = !(z & word(1 << 8)).eq(word(0));
+        let odd_row = !(z & word(1 << 9)).eq(word(0));
+        PixelOf { reversed_z: z.reverse_bits(), item, odd_column, odd_row }
     }
 }
 
-/// A dimension pair with its per-item parts.
+/// A dimension pair with its parts for each item and each tile of the sampler that the item touches: four tables over the items, since
+/// tables of 16 words are looked up in registers.
 pub struct PairPoints<F: Lanes> {
     pair: Pair,
-    x: [u32; ITEMS],
-    y: [u32; ITEMS],
+    x: [[u32; ITEMS]; 4],
+    y: [[u32; ITEMS]; 4],
     lanes: std::marker::PhantomData<F>,
 }
 
 impl<F: Lanes> PairPoints<F> {
     /// For all items of a batch.
     #[inline(always)]
-    pub fn new(seed: u32, purpose: Purpose, items: &[Item], item_z: &[u32; ITEMS]) -> Self {
+    pub fn new(seed: u32, purpose: Purpose, items: &[Item]) -> Self {
         let pair = Pair::new(seed, purpose);
-        let (mut x, mut y) = ([0; ITEMS], [0; ITEMS]);
-        let mut last = None;
-        for (k, item) in items.iter().enumerate() {
-            // The quarters of a tile have the same part.
-            let of = (item_z[k] >> 8, item.sample);
-            if last == Some(of) {
-                (x[k], y[k]) = (x[k - 1], y[k - 1]);
-            } else {
-                let part = pair.sample_part(of.0, of.1);
-                (x[k], y[k]) = (part.x, part.y);
+        let (mut x, mut y) = ([[0; ITEMS]; 4], [[0; ITEMS]; 4]);
+        let (mut last, mut last_sample) = ([None; 4], 0);
+        for (k, item) in items.iter().enumerate().take(ITEMS) {
+            let tiles = item.tiles();
+            for (q, &tile) in tiles.iter().enumerate() {
+                let Some(of) = tile else { continue };
+                // The quarters of a block touch the same tiles, and blocks side by side have two in common.
+                if k > 0 && last_sample == item.sample && last[q] == tile {
+                    (x[q][k], y[q][k]) = (x[q][k - 1], y[q][k - 1]);
+                } else {
+                    let part = pair.sample_part(of, item.sample);
+                    (x[q][k], y[q][k]) = (part.x, part.y);
+                }
             }
-            last = Some(of);
+            (last, last_sample) = (tiles, item.sample);
         }
         PairPoints { pair, x, y, lanes: std::marker::PhantomData }
+    }
+    /// A table's words for these pixels.
+    #[inline(always)]
+    fn part(parts: &[[u32; ITEMS]; 4], pixel: &PixelOf<F>) -> F::U {
+        let upper =
+            F::U::select(pixel.odd_column, F::U::gather(&parts[2], pixel.item), F::U::gather(&parts[0], pixel.item));
+        let lower =
+            F::U::select(pixel.odd_column, F::U::gather(&parts[3], pixel.item), F::U::gather(&parts[1], pixel.item));
+        F::U::select(pixel.odd_row, lower, upper)
     }
     /// The pair's points for these pixels.
     #[inline(always)]
@@ -60,7 +84,7 @@ impl<F: Lanes> PairPoints<F> {
         let mut parts = [(pixel.item, pixel.item); K];
         let mut keys = [&pairs[0].pair; K];
         for (k, of) in pairs.iter().enumerate() {
-            parts[k] = (F::U::gather(&of.x, pixel.item), F::U::gather(&of.y, pixel.item));
+            parts[k] = (Self::part(&of.x, pixel), Self::part(&of.y, pixel));
             keys[k] = &of.pair;
         }
         Pair::points_of(keys, pixel.reversed_z, parts)

@@ -35,11 +35,11 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
-    let (items, item_z) = (&batch.items, &batch.item_z);
-    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items, item_z);
-    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items, item_z);
-    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items, item_z);
-    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items, item_z);
+    let items = &batch.items;
+    let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items);
+    let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items);
+    let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items);
+    let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items);
     let background = V3::<F>::splat(scene.background);
     let open = scene.background.iter().any(|&x| x > 0.0);
     let several = tables.lights.len > 1;
@@ -148,7 +148,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let lit_here = rough & valid;
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid };
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z, &batch.item_scale);
+        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
         let (mut of_choice, mut of_roulette) = ((zero, zero), (zero, zero));
@@ -248,7 +248,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let colored = throughput.mul(bsdf.color);
         if joins {
             let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
-            member = surfaces & rough & fresh & zero.lt(colored.max_component());
+            let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
+            let shares = !F::U::gather(&batch.item_shares, item).eq(F::U::splat(0));
+            member = surfaces & rough & fresh & shares & zero.lt(colored.max_component());
         }
         if vertex >= ROULETTE_FROM {
             // That a member goes on must not depend on where to: other pixels reckon with its density.

@@ -101,6 +101,12 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
             repeat::command(args, &desc)
         ));
     }
+    if film.counters.beyond > 0 {
+        shell.say(&format!(
+            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
+            film.counters.beyond
+        ));
+    }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
         write_report(path, report)?;
@@ -266,6 +272,7 @@ fn report(
             total: counters.camera_rays,
             per_second: per_second(counters.camera_rays),
             dropped: counters.dropped,
+            beyond: counters.beyond,
         },
         mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
         noise: Noise { relative: film.relative_noise() },
