@@ -21,9 +21,9 @@ TRIM = 0.001
 class Tracer:
     """tracer on one scene file."""
 
-    def __init__(self, arguments, file, folder, integrator, indirect="Map"):
+    def __init__(self, arguments, file, folder, integrator):
         self.command = [arguments.tracer, "render", file, "--quiet", "--threads", str(arguments.threads)]
-        for field in (f"integrator={integrator}", "reuse=Blocks", "caustics=Photons", f"indirect={indirect}"):
+        for field in (f"integrator={integrator}", "reuse=Blocks", "caustics=Photons"):
             self.command += ["--set", "render." + field]
         self.folder = folder
 
@@ -97,11 +97,6 @@ class Reference:
         return 0.5 * (self.pair[0] + self.pair[1]).mean()
 
 
-def unmapped(arguments, file, folder):
-    """What references are made with: without the indirect map, whose bias is to count as error."""
-    return Tracer(arguments, file, folder, FULL, "Paths")
-
-
 def measure(renderer, reference, marks, seeds, blurs=(0.0,), size=None):
     """Rows (samples, seconds, errors with each blur), means over the seeds; the seconds are the least."""
     rows = []
@@ -154,7 +149,7 @@ def peers(arguments):
             with open(file, "w") as f:
                 f.write(description.ron(size))
             full, plain = (Tracer(arguments, file, folder, i) for i in (FULL, PLAIN))
-            reference = Reference(unmapped(arguments, file, folder), arguments.reference)
+            reference = Reference(full, arguments.reference)
             contestants = [("tracer", full), ("plain", plain)]
             if not description.ours_only:
                 contestants.append(("Mitsuba", Mitsuba(mi, description, size)))
@@ -185,7 +180,7 @@ def plain(arguments):
             if arguments.scene not in name:
                 continue
             full, path = (Tracer(arguments, file, folder, i) for i in (FULL, PLAIN))
-            reference = Reference(unmapped(arguments, file, folder), arguments.reference, size)
+            reference = Reference(full, arguments.reference, size)
             rows = measure(full, reference, [early, late], arguments.seeds, size=size)
             others = measure(path, reference, [early, late, 4 * late], arguments.seeds, size=size)
             gains = [error_at(others, t) / e[0] for _, t, e in rows]
@@ -214,7 +209,7 @@ def pictures(arguments):
             with open(file, "w") as f:
                 f.write(description.ron(arguments.size))
             full, path = (Tracer(arguments, file, folder, i) for i in (FULL, PLAIN))
-            reference = Reference(unmapped(arguments, file, folder), arguments.reference)
+            reference = Reference(full, arguments.reference)
             truth = 0.5 * (reference.pair[0] + reference.pair[1])
             seen, errors = [], []
             for wanted in (0.5, 2.0, 8.0):

@@ -171,23 +171,3 @@ pub trait Lanes:
         Self::M::from_bits(if n >= Self::N { (((1u64 << Self::N) - 1) & 0xffff_ffff) as u32 } else { (1u32 << n) - 1 })
     }
 }
-
-/// Has the memory around an entry fetched into the cache; nothing where the processor has no such instruction.
-#[allow(unsafe_code)]
-#[inline(always)]
-pub fn prefetch(table: &[f32], index: usize) {
-    #[cfg(all(target_arch = "x86_64", not(miri)))]
-    if let Some(entry) = table.get(index) {
-        // SAFETY: every x86-64 processor has it, and the address is one of the table.
-        unsafe {
-            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-            _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(entry).cast());
-        }
-    }
-    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
-    let _ = (table, index);
-}
-
-#[cfg(test)]
-#[allow(unsafe_code)]
-mod tests;

@@ -1,7 +1,6 @@
-//! Rays aimed at mirrors, glass and glossy surfaces (`engine::stages::aim`): the same picture on average as without. They are sent only
-//! where pixels share and photons are; both sides of the comparison have photons.
+//! Rays aimed at mirrors, glass and glossy surfaces (`engine::stages::aim`): the same picture on average as without.
 
-use crate::support::compare::assert_aiming_is_unbiased;
+use crate::support::compare::assert_guiding_is_unbiased;
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, torus};
 use scene_format::SceneDesc;
@@ -31,7 +30,7 @@ fn balls() {
         sphere([4.0, 2.0, 3.0], 1.5, mirror([0.8; 3])),
         sphere([0.0, 7.5, -2.0], 1.2, glass(1.1)),
     ];
-    assert_aiming_is_unbiased("balls", &on_the_floor(balls), SCENES);
+    assert_guiding_is_unbiased("balls", &on_the_floor(balls), 256, SCENES);
 }
 
 /// Members with both lobes, and glossy things that aimed rays meet, within spheres that are aimed at and beyond them.
@@ -43,7 +42,7 @@ fn glossy_balls() {
         sphere([3.5, 2.5, 1.0], 2.5, glossy(grey(0.8), 400.0, 0.5, true)),
         sphere([0.0, 1.5, 4.0], 1.5, mirror([0.9; 3])),
     ];
-    assert_aiming_is_unbiased("glossy", &on_the_floor(objects), SCENES);
+    assert_guiding_is_unbiased("glossy", &on_the_floor(objects), 256, SCENES);
 }
 
 /// Meshes fill little of their spheres; smooth matt ones start their rays above themselves.
@@ -61,5 +60,5 @@ fn meshes() {
         mesh(&icosphere(1).obj("icosphere-1"), diffuse([0.7; 3]), Shading::Smooth, body(3.5)),
         mesh(&icosphere(1).obj("icosphere-1"), glass(1.5), Shading::Flat, body(-1.0)),
     ];
-    assert_aiming_is_unbiased("meshes", &on_the_floor(objects), SCENES);
+    assert_guiding_is_unbiased("meshes", &on_the_floor(objects), 256, SCENES);
 }

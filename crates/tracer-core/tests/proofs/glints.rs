@@ -2,7 +2,7 @@
 //! comes over mirrors and glass. They are followed only where photons are, so surfaces are nearly black here: what photons blur is
 //! a thousandth of the picture, and little of that.
 
-use crate::support::compare::{assert_chains_are_unbiased, noise};
+use crate::support::compare::{assert_guiding_is_unbiased, noise};
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, square};
 use scene_format::SceneDesc;
@@ -33,7 +33,7 @@ fn balls() -> SceneDesc {
 
 #[test]
 fn chains_see_what_paths_see() {
-    assert_chains_are_unbiased("balls", &balls(), SCENES);
+    assert_guiding_is_unbiased("balls", &balls(), 96, SCENES);
     // A mesh, and a background that chains and paths see, too.
     let place = vec![scale(3.0), Transform::Translate([2.0, 3.5, 0.0])];
     let open = nearly_black(vec![
@@ -41,7 +41,7 @@ fn chains_see_what_paths_see() {
         sphere([-3.5, 3.0, 0.0], 2.5, mirror([0.9; 3])),
     ])
     .background([0.2, 0.3, 0.4]);
-    assert_chains_are_unbiased("a mesh under a background", &open, SCENES);
+    assert_guiding_is_unbiased("a mesh under a background", &open, 96, SCENES);
 }
 
 /// At one sample a path's own share has a quarter of the weight and three chains the rest: 1/16 of the path's variance V and 9/16 of V/3, a

@@ -13,7 +13,6 @@ mod compiling;
 mod convergence;
 mod figures;
 mod glints;
-mod indirect;
 mod matrix;
 mod random_scenes;
 mod range;

@@ -3,7 +3,7 @@
 use crate::random_scenes::random_scene;
 use crate::support::compare::assert_sharing_is_unbiased;
 use crate::support::describe::*;
-use crate::support::meshes::{icosphere, picture, torus};
+use crate::support::meshes::{cube, icosphere, picture, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{Albedo, Material, Object, Reuse, Shading, TextureFilter, TextureWrap, Transform};
@@ -90,4 +90,27 @@ fn sharing_is_worth_it() {
         println!("{samples} samples: {gain:.1} times less squared error");
         assert!(gain > 6.4, "{samples} samples: only {gain:.2} times less squared error");
     }
+}
+
+/// A room that has half a wall to the sky: nine paths in ten have a second vertex, so pixels share. On a floor under the sky they do not.
+#[test]
+fn rooms_with_a_window() {
+    let mut walls = cube();
+    walls.triangles.pop();
+    let walls = mesh(&walls.obj("window"), diffuse([0.8, 0.7, 0.6]), Shading::Flat, vec![scale(60.0)]);
+    let ball = || sphere([-15.0, -40.0, 0.0], 20.0, diffuse([0.3, 0.4, 0.8]));
+    let under_a_sky = |lights, objects| {
+        scene(48, lights, objects)
+            .camera([0.0, 0.0, 55.0], [0.0, -10.0, 0.0], 60.0)
+            .bounces(6)
+            .background([4.0, 5.0, 7.0])
+    };
+    let window = under_a_sky(vec![], vec![walls, ball()]);
+    let floor = || sphere([0.0, -10_060.0, 0.0], 10_000.0, diffuse([0.8; 3]));
+    let rendered = |desc: &SceneDesc| film(&compiled(desc), 1, 1);
+    assert!(rendered(&window).reuse && rendered(&window).counters.segments > 0);
+    assert!(!rendered(&under_a_sky(vec![room_light()], vec![floor(), ball()])).reuse);
+    let mut alone = window;
+    alone.render.reuse = Reuse::None;
+    assert!(!rendered(&alone).reuse && rendered(&alone).counters.segments == 0);
 }

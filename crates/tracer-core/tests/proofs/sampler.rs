@@ -22,8 +22,8 @@ pub(crate) const PURPOSES: [Purpose; 12] = [
     Purpose::Choice(0),
     Purpose::Roulette(0),
     Purpose::Roulette(6),
-    Purpose::Aim,
-    Purpose::AimedDirection,
+    Purpose::Aim(0),
+    Purpose::AimedDirection(0),
 ];
 
 /// Pixels along the picture's side.

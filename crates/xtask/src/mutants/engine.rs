@@ -103,10 +103,17 @@ pub const MUTANTS: &[Mutant] = &[
     },
     // What pixels share.
     Mutant {
-        name: "sharing-without-one-over-the-chance-to-notice",
+        name: "shared-by-half-and-reckoned-with-all",
         file: SHARE,
-        find: "(untested + 1.0 / (unblocked * noticed), untested)",
-        replace: "(untested + 1.0 / unblocked, untested)",
+        find: "batch.groups.hidden[j] = segments.blocked | !users;",
+        replace: "batch.groups.hidden[j] = segments.blocked;",
+        caught_by: proofs(&["reuse::"]),
+    },
+    Mutant {
+        name: "sharing-through-spheres",
+        file: SHARE,
+        find: "let hidden = faces & !own & blocked(",
+        replace: "let hidden = !faces & !own & blocked(",
         caught_by: proofs(&["reuse::"]),
     },
     Mutant {

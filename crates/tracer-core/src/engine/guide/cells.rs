@@ -283,3 +283,6 @@ fn to_next(from: [f32; 3], photons: &[Photon]) -> f32 {
     let nearest = others.fold(f32::INFINITY, f32::min);
     if nearest.is_finite() { nearest.sqrt() } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests;

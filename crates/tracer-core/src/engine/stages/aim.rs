@@ -255,3 +255,6 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     }
     batch.counters.scattered_rays += (batch.paths.len - before) as u64;
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use super::{effort, film};
 use scene_format::SceneDesc;
-use scene_format::desc::{Caustics, Indirect, Reuse};
+use scene_format::desc::{Caustics, Reuse};
 use tracer_core::scene::Sharing;
 use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
@@ -56,12 +56,9 @@ impl Renderings {
 }
 
 /// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all tiles of all
-/// scenes together (Šidák), and the means of the channels within three standard errors. Without photons and the indirect map, which are
-/// right in the limit only: they have tests of their own ([`assert_photons_are_consistent`], [`assert_map_is_consistent`]).
+/// scenes together (Šidák), and the means of the channels within three standard errors. With all that is on by default.
 pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
-    let mut desc = desc.clone();
-    (desc.render.caustics, desc.render.indirect) = (Caustics::None, Indirect::Paths);
-    let scene = super::compiled(&desc);
+    let scene = super::compiled(desc);
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
     let engine = Renderings::new(&scene, engine_samples, 1000);
     let reference = render(&scene, samples.reference * effort(), 7, Smoothing::Hanika);
@@ -74,22 +71,16 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     assert_agree(name, scene.size, SCENES, &|r, c| engine.estimate(r, c), &theirs);
 }
 
-/// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture; enough samples
-/// that both shapes of items occur (see `engine::batch`). `scenes`: how many are compared so in all.
+/// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture. `scenes`: how many
+/// are compared so in all.
 pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
-    assert_shared_is_alone(name, desc, Caustics::None, scenes);
+    assert_shared_is_alone(name, desc, scenes);
 }
 
-/// The same with photons on both sides, where pixels that share also aim rays at casters. Both have the same photons on average, so what
-/// these blur drops out.
-pub fn assert_aiming_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
-    assert_shared_is_alone(name, desc, Caustics::Photons, scenes);
-}
-
-fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scenes: usize) {
+fn assert_shared_is_alone(name: &str, desc: &SceneDesc, scenes: usize) {
     let rendered = |reuse: Reuse, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
+        desc.render.caustics = Caustics::None;
         let mut scene = super::compiled(&desc);
         // Outdoors, too, where by itself the engine does not share.
         scene.reuse = if reuse == Reuse::Blocks { Sharing::Always } else { Sharing::Never };
@@ -100,23 +91,17 @@ fn assert_shared_is_alone(name: &str, desc: &SceneDesc, caustics: Caustics, scen
     assert_agree(name, size, scenes, &|r, c| shared.estimate(r, c), &|r, c| alone.estimate(r, c));
 }
 
-/// Asserts that glint chains beside photons change no picture in which photons bring next to nothing: to what surfaces that reflect a
-/// thousandth show of lamps, which is 3e-5 at most, photons may do what they may do elsewhere.
-pub fn assert_chains_are_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
+/// Asserts that rays which photons guide, and glint chains, change no picture: by all that is on with `render.caustics: Photons`, and by
+/// paths alone, with so many samples.
+pub fn assert_guiding_is_unbiased(name: &str, desc: &SceneDesc, plain: u32, scenes: usize) {
     let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
-        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
+        desc.render.caustics = caustics;
         Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
     };
     let size = [desc.image.width.value, desc.image.height.value];
-    let (chains, paths) = (rendered(Caustics::Photons, 24, 6000), rendered(Caustics::None, 96, 7000));
-    assert!(chains.0.iter().all(|film| film.caustics && film.counters.chain_rays > 0), "{name}: no chains");
-    let allow = |rectangle: Rectangle, channel: usize| {
-        let (ours, theirs) = (chains.estimate(rectangle, channel), paths.estimate(rectangle, channel));
-        let excess = ((ours.mean - theirs.mean).abs() - BLUR * 3e-5).max(0.0);
-        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
-    };
-    assert_agree(name, size, scenes, &allow, &|r, c| paths.estimate(r, c));
+    let (guided, plain) = (rendered(Caustics::Photons, 64, 4000), rendered(Caustics::None, plain, 5000));
+    assert_agree(name, size, scenes, &|r, c| guided.estimate(r, c), &|r, c| plain.estimate(r, c));
 }
 
 /// Variance of a picture with so many samples, summed over its pixels and channels.
@@ -129,55 +114,6 @@ pub fn noise(desc: &SceneDesc, samples: u32) -> f64 {
     };
     pixels([0, 0, width, height]).map(of_pixel).sum()
 }
-
-/// Asserts that a picture with photons is that without, but for a bias: of a tile, [`BLUR`] of what it holds, because the light of a
-/// caustic is spread over the radius of a map and tiles are small; of the whole picture, `bias` of its mean.
-pub fn assert_photons_are_consistent(name: &str, desc: &SceneDesc, plain: u32, bias: f64, scenes: usize) {
-    let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
-        let mut desc = desc.clone();
-        (desc.render.caustics, desc.render.indirect) = (caustics, Indirect::Paths);
-        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
-    };
-    let size = [desc.image.width.value, desc.image.height.value];
-    let (photons, plain) = (rendered(Caustics::Photons, 64, 4000), rendered(Caustics::None, plain, 5000));
-    let allow = |rectangle: Rectangle, channel: usize| {
-        let (ours, theirs) = (photons.estimate(rectangle, channel), plain.estimate(rectangle, channel));
-        let allowed = theirs.mean * if area(rectangle) < area([0, 0, size[0], size[1]]) { BLUR } else { bias };
-        let excess = ((ours.mean - theirs.mean).abs() - allowed).max(0.0);
-        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
-    };
-    assert_agree(name, size, scenes, &allow, &|r, c| plain.estimate(r, c));
-}
-
-/// Asserts that a picture with the indirect map is that without, but for a bias: of a tile, [`CELLS`] of what it holds, for a cell knows the
-/// mean of its light only; of the whole picture, a thousandth of its mean. False where no rendering had a map, for hardly a path has a
-/// second vertex; nothing is compared then.
-pub fn assert_map_is_consistent(name: &str, desc: &SceneDesc, scenes: usize) -> bool {
-    let rendered = |indirect: Indirect, samples: u32, first_seed: u32| {
-        let mut desc = desc.clone();
-        (desc.render.reuse, desc.render.indirect) = (Reuse::Blocks, indirect);
-        Renderings::new(&super::compiled(&desc), samples * effort(), first_seed)
-    };
-    let size = [desc.image.width.value, desc.image.height.value];
-    if !rendered(Indirect::Map, 1, 9000).0.iter().any(|film| film.indirect) {
-        return false;
-    }
-    let (map, paths) = (rendered(Indirect::Map, 64, 9000), rendered(Indirect::Paths, 64, 10000));
-    let allow = |rectangle: Rectangle, channel: usize| {
-        let (ours, theirs) = (map.estimate(rectangle, channel), paths.estimate(rectangle, channel));
-        let whole = area(rectangle) == area([0, 0, size[0], size[1]]);
-        let excess = ((ours.mean - theirs.mean).abs() - theirs.mean * if whole { 0.001 } else { CELLS }).max(0.0);
-        Estimate { mean: theirs.mean + excess.copysign(ours.mean - theirs.mean), ..ours }
-    };
-    assert_agree(name, size, scenes, &allow, &|r, c| paths.estimate(r, c));
-    true
-}
-
-/// See [`assert_map_is_consistent`].
-const CELLS: f64 = 0.005;
-
-/// See [`assert_photons_are_consistent`].
-const BLUR: f64 = 0.03;
 
 /// Tiles and means of two pictures of the same scene, one of `scenes`.
 fn assert_agree(

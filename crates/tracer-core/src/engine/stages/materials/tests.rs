@@ -149,7 +149,7 @@ fn sampled_densities_and_weights_are_the_evaluated_ones() {
         for degrees in ANGLES {
             let (n, wo) = (lanes(normal()), lanes(viewer(degrees)));
             for _ in 0..200 {
-                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random), false);
+                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random));
                 if scalar(s.pdf) <= 0.0 {
                     continue;
                 }
@@ -255,7 +255,7 @@ fn samples_have_the_evaluated_density() {
             assert!(within < f64::from(SAMPLES) * 1.003, "{material:?} at {degrees}: density {within}");
             let mut counts = vec![0u64; expected.len() + 1];
             for _ in 0..SAMPLES {
-                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random), false);
+                let s = bsdf.sample_rough(n, wo, number(&mut random), number(&mut random), number(&mut random));
                 let cell = if scalar(s.pdf) > 0.0 { cells.of(vector(s.wi)) } else { counts.len() - 1 };
                 counts[cell] += 1;
             }
@@ -281,7 +281,7 @@ fn furnace() {
             let weights: Vec<f64> = (0..4000)
                 .map(|_| {
                     let (u, v, lobe) = (number(&mut random), number(&mut random), number(&mut random));
-                    let s = bsdf.sample_rough(lanes(normal()), lanes(wo), u, v, lobe, false);
+                    let s = bsdf.sample_rough(lanes(normal()), lanes(wo), u, v, lobe);
                     if scalar(s.pdf) > 0.0 { vector(s.weight).x } else { 0.0 }
                 })
                 .collect();
