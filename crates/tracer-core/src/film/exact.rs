@@ -9,7 +9,8 @@
 //! - squares of the luminance, for the noise alone, are multiples of 2^-132 in 192 bits, below 2^60: 2^20 samples of up to 2^20 times the
 //!   brightest (what is above counts as that), and 2^-60 of the brightest still to 12 bits.
 //!
-//! Beyond 2^20 samples of the largest kind a sum stays at its end instead of wrapping.
+//! With more samples than 2^20 the mean must be lower for that: with 2^32, of which there are no more, 2^15 times the brightest at most.
+//! No pixel shows that much; nothing asks for it, and sums would wrap.
 
 use super::PIXELS;
 use bytemuck::Zeroable;
@@ -23,22 +24,31 @@ const LEAST: f64 = 1.0 / PER_ONE;
 /// A number of at most [`LARGEST`] in least units, rounded to the nearest, ties to even.
 #[inline(always)]
 pub(super) fn fixed(x: f32) -> i128 {
-    // Adding and taking away 1.5 * 2^52 rounds to a whole number; from 2^51 on, the 24 bits of an f32 are whole as they are.
-    const WHOLE: f64 = 2_251_799_813_685_248.0;
-    let x = f64::from(x) * PER_ONE;
-    if x.abs() < WHOLE { i128::from(((x + 3.0 * WHOLE) - 3.0 * WHOLE) as i64) } else { x as i128 }
+    let bits = x.to_bits();
+    // A normal number is its mantissa times 2^(exponent - 150).
+    let shift = (bits >> 23 & 0xff) as i32 - 150 + 80;
+    if shift < 0 {
+        // Adding and taking away 1.5 * 2^52 rounds to a whole number.
+        const WHOLE: f64 = 1.5 * 4_503_599_627_370_496.0;
+        return i128::from((f64::from(x) * PER_ONE + WHOLE - WHOLE) as i64);
+    }
+    let size = i128::from(bits & 0x007f_ffff | 0x0080_0000) << (shift & 127);
+    // All ones where it is negative: the complement and one.
+    let sign = i128::from(bits as i32 >> 31);
+    (size ^ sign) - sign
 }
 
 /// Exact sums of radiance per pixel of a tile.
 #[derive(Clone, Debug, PartialEq, Zeroable)]
-pub(super) struct Sums([[i128; PIXELS]; 3]);
+pub(super) struct Sums([[i128; 3]; PIXELS]);
 
 impl Sums {
-    /// Adds to a pixel's channel.
+    /// Adds to a pixel.
     #[inline(always)]
-    pub fn add(&mut self, channel: usize, pixel: usize, x: i128) {
-        let sum = &mut self.0[channel][pixel];
-        *sum = sum.saturating_add(x);
+    pub fn add(&mut self, pixel: usize, x: [i128; 3]) {
+        for (sum, x) in self.0[pixel].iter_mut().zip(x) {
+            *sum = sum.wrapping_add(x);
+        }
     }
 
     /// Mean of a pixel over so many samples.
@@ -46,13 +56,13 @@ impl Sums {
     pub fn mean(&self, pixel: usize, samples: u32) -> [f64; 3] {
         let n = f64::from(samples.max(1));
         // Written out: `map` is not always inlined.
-        let mean = |c: usize| self.0[c][pixel] as f64 * LEAST / n;
+        let mean = |c: usize| self.0[pixel][c] as f64 * LEAST / n;
         [mean(0), mean(1), mean(2)]
     }
 
     #[cfg(test)]
     pub fn of(&self, channel: usize, pixel: usize) -> i128 {
-        self.0[channel][pixel]
+        self.0[pixel][channel]
     }
 }
 
@@ -77,23 +87,16 @@ impl Squares {
         if shift <= -53 {
             return;
         }
-        let (word, part) = if shift < 0 {
-            (0, u128::from(mantissa >> -shift))
-        } else {
-            (shift as usize / 64, u128::from(mantissa) << (shift % 64))
-        };
+        // No larger shift than 120 comes from MOST, so the lowest bit lies in one of the two lower words.
+        let part = if shift < 0 { u128::from(mantissa >> -shift) } else { u128::from(mantissa) << (shift & 63) };
+        let (low, high) = (part as u64, (part >> 64) as u64);
+        let more = if shift < 64 { [low, high, 0] } else { [0, low, high] };
         let words = &mut self.0[pixel];
-        let mut carry = false;
-        let low = [part as u64, (part >> 64) as u64];
-        for (k, sum) in words.iter_mut().enumerate().skip(word) {
-            let more = low.get(k - word).copied().unwrap_or(0);
-            let (a, first) = sum.overflowing_add(more);
-            let (b, second) = a.overflowing_add(u64::from(carry));
-            *sum = b;
-            carry = first || second;
-        }
-        if carry {
-            *words = [u64::MAX; 3];
+        let mut carry = 0;
+        for (sum, more) in words.iter_mut().zip(more) {
+            let whole = u128::from(*sum) + u128::from(more) + carry;
+            *sum = whole as u64;
+            carry = whole >> 64;
         }
     }
 

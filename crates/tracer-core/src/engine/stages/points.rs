@@ -48,10 +48,17 @@ impl<F: Lanes> PairPoints<F> {
         let (mut x, mut y) = ([[0; ITEMS]; 4], [[0; ITEMS]; 4]);
         let (mut last, mut last_sample) = ([None; 4], 0);
         for (k, item) in items.iter().enumerate().take(ITEMS) {
+            // The quarters of a block touch the same tiles.
+            if k > 0 && items[k - 1] == (Item { quarter: items[k - 1].quarter, ..*item }) {
+                for q in 0..4 {
+                    (x[q][k], y[q][k]) = (x[q][k - 1], y[q][k - 1]);
+                }
+                continue;
+            }
             let tiles = item.tiles();
             for (q, &tile) in tiles.iter().enumerate() {
                 let Some(of) = tile else { continue };
-                // The quarters of a block touch the same tiles, and blocks side by side have two in common.
+                // Blocks side by side have two in common.
                 if k > 0 && last_sample == item.sample && last[q] == tile {
                     (x[q][k], y[q][k]) = (x[q][k - 1], y[q][k - 1]);
                 } else {
