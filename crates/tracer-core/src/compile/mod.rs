@@ -103,8 +103,17 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let start = Instant::now();
     let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
-    let tree = start.elapsed().as_secs_f64();
     let full = desc.render.integrator == Integrator::Full;
+    // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
+    let top_boxes = match &accel {
+        Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built)
+                .map_err(|message| CompileError { diagnostics: vec![*message] })?
+                .map(|accel| accel.top_boxes().clone())
+        }
+        accel => accel.as_ref().map(|accel| accel.top_boxes().clone()),
+    };
+    let tree = start.elapsed().as_secs_f64();
     Ok(Scene {
         frame,
         camera: camera(desc, &frame),
@@ -140,6 +149,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
             instances: instance_table,
         },
         accel,
+        top_boxes,
     })
 }
 

@@ -100,6 +100,8 @@ pub struct Scene {
     pub(crate) tables: Tables,
     /// The tree over meshes and many spheres; `None` when there are neither.
     pub(crate) accel: Option<crate::bvh::Accel>,
+    /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
+    pub(crate) top_boxes: Option<crate::bvh::TopBoxes>,
 }
 
 impl Scene {

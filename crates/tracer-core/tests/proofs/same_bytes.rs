@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Caustics, Indirect, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter,
-    TextureWrap, Transform,
+    Acceleration, Caustics, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter, TextureWrap,
+    Transform,
 };
 use std::ops::ControlFlow;
 use tracer_core::Level;
@@ -100,16 +100,8 @@ pub(crate) fn many_balls() -> SceneDesc {
         .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() })
 }
 
-/// Second vertices of a matt room, among balls of all kinds, by the indirect map.
-fn indirect_map() -> SceneDesc {
-    let mut desc = many_balls();
-    desc.objects.push(sphere([0.0; 3], 30.0, diffuse([0.8, 0.7, 0.6])).into());
-    desc.render.indirect = Indirect::Map;
-    desc
-}
-
-fn scenes() -> [(&'static str, SceneDesc); 3] {
-    [("everything", everything()), ("many balls", many_balls()), ("indirect map", indirect_map())]
+fn scenes() -> [(&'static str, SceneDesc); 2] {
+    [("everything", everything()), ("many balls", many_balls())]
 }
 
 const SAMPLES: u32 = 21;
@@ -217,20 +209,6 @@ fn integrators() {
         );
         assert!(render(Integrator::Path, reuse, caustics) == plain, "{reuse:?}, {caustics:?}");
     }
-}
-
-/// A map that answers changes the picture.
-#[test]
-fn the_map_is_asked() {
-    let mut desc = indirect_map();
-    let with = rendered(&compiled(&desc), &options());
-    desc.render.indirect = Indirect::Paths;
-    assert!(with != rendered(&compiled(&desc), &options()));
-    desc.render.indirect = Indirect::Map;
-    desc.render.integrator = Integrator::Path;
-    let plain = rendered(&compiled(&desc), &RenderOptions { reuse: None, ..options() });
-    desc.render.indirect = Indirect::Paths;
-    assert!(plain == rendered(&compiled(&desc), &RenderOptions { reuse: None, ..options() }));
 }
 
 /// Compiling again, and on more threads, gives the same scene; developing the same film the same picture.

@@ -67,7 +67,7 @@ fn numbers_fit_together() {
     // 40x24 pixels lie in whole tiles of 16x16.
     assert_eq!(number("/samples/total"), 48 * 32 * 2);
     assert_eq!(
-        ["camera", "scattered", "shadow", "segments", "photons", "chains", "records"]
+        ["camera", "scattered", "shadow", "segments", "photons", "chains"]
             .map(|kind| number(&format!("/rays/{kind}")))
             .iter()
             .sum::<u64>(),
@@ -104,13 +104,13 @@ const ROOM: &str = "Scene(
 fn every_switch_says_what_it_costs() {
     let sandbox = Sandbox::new();
     sandbox.write("scene.ron", ROOM);
-    let biased = ["--set", "render.indirect=Paths", "--set", "render.clamp=0.25"];
+    let biased = ["--set", "render.clamp=0.25"];
     let off: [&[&str]; 3] = [&["--set", "render.integrator=Path"], &[], &biased];
-    // Of reuse, caustics, indirect, clamp: the setting, whether it is at work, and what the picture is an estimate of.
+    // Of reuse, caustics, clamp: the setting, whether it is at work, and what the picture is an estimate of.
     let expected = [
-        ([("Blocks", false), ("Photons", false), ("Map", false), ("None", false)], "unbiased"),
-        ([("Blocks", true), ("Photons", true), ("Map", true), ("None", false)], "consistent"),
-        ([("Blocks", true), ("Photons", true), ("Paths", false), ("0.25", true)], "biased"),
+        ([("Blocks", false), ("Photons", false), ("None", false)], "unbiased"),
+        ([("Blocks", true), ("Photons", true), ("None", false)], "unbiased"),
+        ([("Blocks", true), ("Photons", true), ("0.25", true)], "biased"),
     ];
     for (more, (switches, estimate)) in off.into_iter().zip(expected) {
         let report = report(&sandbox, more);
@@ -123,8 +123,8 @@ fn every_switch_says_what_it_costs() {
             "{transport}"
         );
         let mut sum = 0.0;
-        let names = ["reuse", "caustics", "indirect", "clamp"];
-        let when_on = ["unbiased", "consistent", "consistent", "biased"];
+        let names = ["reuse", "caustics", "clamp"];
+        let when_on = ["unbiased", "unbiased", "biased"];
         for (k, (setting, on)) in switches.into_iter().enumerate() {
             let switch = &transport["switches"][k];
             assert_eq!((&switch["name"], &switch["setting"]), (&names[k].into(), &setting.into()), "{more:?}");

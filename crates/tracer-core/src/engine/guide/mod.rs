@@ -52,7 +52,7 @@ pub struct Guides {
 
 /// Which guide a sample index has: a new one at every power of two.
 fn stage_of(sample: u32) -> u32 {
-    (sample + 1).ilog2()
+    sample.checked_ilog2().map_or(0, |k| k + 1)
 }
 
 impl Guides {

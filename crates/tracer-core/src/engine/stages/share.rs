@@ -208,8 +208,8 @@ impl Segments {
         let ray = Ray::<F>::new(start, direction, from);
         let hidden = faces & !own & blocked(&scene.tables.spheres, &ray, distance, F::U::splat(suffixes.primitive[j]));
         self.blocked |= u64::from(hidden.bits()) << base;
-        let Some(accel) = &scene.accel else { return };
-        let reaching = faces & !hidden & Slabs::new(start, direction).pass(accel.top_boxes(), distance);
+        let Some(boxes) = &scene.top_boxes else { return };
+        let reaching = faces & !hidden & Slabs::new(start, direction).pass(boxes, distance);
         if reaching.any() {
             self.reaching |= u64::from(reaching.bits()) << base;
             direction.0.store(&mut self.direction[0][base..]);
