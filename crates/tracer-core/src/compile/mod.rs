@@ -109,9 +109,9 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
             build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
-                .map(|accel| accel.top_boxes().clone())
+                .map(|accel| *accel.top_boxes())
         }
-        accel => accel.as_ref().map(|accel| accel.top_boxes().clone()),
+        accel => accel.as_ref().map(|accel| *accel.top_boxes()),
     };
     let tree = start.elapsed().as_secs_f64();
     Ok(Scene {

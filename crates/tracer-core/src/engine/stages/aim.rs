@@ -181,13 +181,10 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         }
         let mut weights = [zero; SPHERES + MOST_CASTERS];
         let mut sums = [zero; 2];
-        for k in 0..SPHERES {
-            weights[k] = targets.of_cell(k).1;
-            sums[0] = sums[0] + weights[k];
-        }
-        for k in 0..casters {
-            weights[SPHERES + k] = targets.of_caster(k).1;
-            sums[1] = sums[1] + weights[SPHERES + k];
+        for (k, weight) in weights.iter_mut().enumerate().take(SPHERES + casters) {
+            let which = usize::from(k >= SPHERES);
+            *weight = if which == 0 { targets.of_cell(k).1 } else { targets.of_caster(k - SPHERES).1 };
+            sums[which] = sums[which] + *weight;
         }
         let (of_cell, of_casters) = shares(sums[0], sums[1]);
         let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];
@@ -196,16 +193,16 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let mut below = zero;
         let mut taken = Cone { axis: n, width: zero, highest: zero };
         let mut which = F::U::splat(0);
-        for k in 0..SPHERES + casters {
+        for (k, &weight) in weights.iter().enumerate().take(SPHERES + casters) {
             let (own, scale) = if k < SPHERES { (true, scales[0]) } else { (false, scales[1]) };
-            let takes = zero.lt(weights[k]) & below.le(threshold);
+            let takes = zero.lt(weight) & below.le(threshold);
             if takes.any() {
                 let cone = if own { targets.of_cell(k).0 } else { targets.of_caster(k - SPHERES).0 };
                 taken.axis = V3::select(takes, cone.axis, taken.axis);
                 taken.width = F::select(takes, cone.width, taken.width);
                 which = F::U::select(takes, F::U::splat(k as u32), which);
             }
-            below = below + weights[k] * scale;
+            below = below + weight * scale;
         }
         let (u, v) = directions.points(&pixel);
         let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
@@ -216,14 +213,14 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         }
         // The density with which it was aimed: its own cone holds it whatever rounding says.
         let mut density = zero;
-        for k in 0..SPHERES + casters {
+        for (k, &weight) in weights.iter().enumerate().take(SPHERES + casters) {
             let (cone, scale) = if k < SPHERES {
                 (targets.of_cell(k).0, scales[0])
             } else {
                 (targets.of_caster(k - SPHERES).0, scales[1])
             };
             let holds = cone.holds(wi) | which.eq(F::U::splat(k as u32));
-            density = density + F::select(holds, weights[k] * scale / cone.width, zero);
+            density = density + F::select(holds, weight * scale / cone.width, zero);
         }
         density = density * targets.chance * c(1.0 / TWO_PI);
         let bsdf = bsdf_of::<F>(aimers, i, aimed);
