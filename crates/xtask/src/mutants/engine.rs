@@ -276,8 +276,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "picture-upside-down",
         file: CAMERA,
-        find: "c(-2.0 / height as f32)",
-        replace: "c(2.0 / height as f32)",
+        find: "c(-1.0 / middle[1])",
+        replace: "c(1.0 / middle[1])",
         caught_by: proofs(&["figures::figure_6"]),
     },
     Mutant {
