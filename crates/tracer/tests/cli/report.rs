@@ -64,8 +64,8 @@ fn numbers_fit_together() {
     let report = report(&sandbox, &["--threads", "3"]);
     let number = |path: &str| report.pointer(path).and_then(Value::as_u64).unwrap_or_else(|| panic!("{path}"));
     assert_eq!(number("/report_version"), 1);
-    // 40x24 pixels lie in whole tiles of 16x16.
-    assert_eq!(number("/samples/total"), 48 * 32 * 2);
+    // Of blocks that reach beyond the picture only its pixels are sampled.
+    assert_eq!(number("/samples/total"), 40 * 24 * 2);
     assert_eq!(
         ["camera", "scattered", "shadow", "segments", "photons", "chains"]
             .map(|kind| number(&format!("/rays/{kind}")))
@@ -76,6 +76,7 @@ fn numbers_fit_together() {
     assert_eq!((number("/picture/samples_min"), number("/picture/samples_max")), (2, 2));
     assert_eq!((number("/primitives/spheres"), number("/primitives/lights")), (4, 1));
     assert_eq!((number("/machine/threads"), number("/samples/dropped")), (3, 0));
+    assert_eq!(number("/samples/beyond"), 0);
     let length = report["mean_path_length"].as_f64().expect("a number");
     assert!((1.0..6.0).contains(&length), "{length}");
     assert!(report["noise"]["relative"].as_f64().expect("a number") > 0.0);
