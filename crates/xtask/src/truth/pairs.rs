@@ -6,8 +6,8 @@
 //! sides, Welch's
 //! test, at a level that all regions of all pairs together fail by chance once in a hundred (Šidák). Passing glass and
 //! meeting a mirror count as
-//! bounces; so scenes have [`BOUNCES`] of these, albedos of a half and less, and are open to the dark: what is cut off
-//! is less than [`CUT_OFF`].
+//! bounces; so scenes have `BOUNCES` of these, albedos of a half and less, and are open to the dark: what is cut off
+//! is less than `CUT_OFF`.
 
 use super::meshes::Shape;
 use super::receivers::Receiver;
