@@ -118,18 +118,6 @@ pub trait Lanes:
     fn lt(self, other: Self) -> Self::M;
     /// Less or equal; false for NaN.
     fn le(self, other: Self) -> Self::M;
-    /// Greater than; false for NaN.
-    #[allow(dead_code)] // Of the set, though nothing asks at the moment.
-    #[inline(always)]
-    fn gt(self, other: Self) -> Self::M {
-        other.lt(self)
-    }
-    /// Greater or equal; false for NaN.
-    #[allow(dead_code)] // As above.
-    #[inline(always)]
-    fn ge(self, other: Self) -> Self::M {
-        other.le(self)
-    }
     /// Lane by lane `mask ? a : b`.
     fn select(mask: Self::M, a: Self, b: Self) -> Self;
     /// Sign bit cleared.

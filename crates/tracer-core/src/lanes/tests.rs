@@ -53,8 +53,6 @@ fn everything<F: Lanes>() -> Vec<u32> {
         for mask in [
             mask,
             a.le(b),
-            a.gt(b),
-            a.ge(b),
             u.eq(w),
             u.eq(u),
             u.lt(w),

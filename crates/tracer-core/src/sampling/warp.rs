@@ -18,16 +18,6 @@ pub fn cosine_hemisphere<F: Lanes>(u: F, v: F) -> V3<F> {
     V3(x, y, (F::splat(1.0) - u).sqrt())
 }
 
-/// A direction on the whole sphere, uniform: density 1/(4 pi).
-#[allow(dead_code)] // Proven beside the others; nothing asks at the moment.
-#[inline(always)]
-pub fn sphere<F: Lanes>(u: F, v: F) -> V3<F> {
-    let (s, c) = sincos_turns(v);
-    let z = F::splat(1.0) - (u + u);
-    let r = (F::splat(2.0) * (u * (F::splat(2.0) - (u + u)))).sqrt();
-    V3(r * c, r * s, z)
-}
-
 /// A direction within a cone about +z, uniform; `one_minus_cos` is 1 - cos of its half angle. Density 1/(2 pi one_minus_cos).
 #[inline(always)]
 pub fn cone<F: Lanes>(u: F, v: F, one_minus_cos: F) -> V3<F> {

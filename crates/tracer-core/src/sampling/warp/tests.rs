@@ -48,13 +48,6 @@ fn warps() -> Vec<Warp> {
             inverse: Box::new(|[x, y, _]| [x * x + y * y, turns(y, x)]),
             unit: true,
         },
-        Warp {
-            name: "sphere".into(),
-            forward: Box::new(|u, v| vector(sphere(u, v))),
-            // Density 1/(4 pi): (1 - cos theta)/2.
-            inverse: Box::new(|[x, y, z]| [0.5 * (1.0 - z), turns(y, x)]),
-            unit: true,
-        },
     ];
     for opening in [1e-6f32, 0.01, 0.5, 1.0, 2.0] {
         warps.push(Warp {
