@@ -402,6 +402,9 @@ codes! {
     /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not hold it beside the
     /// other. Bring the radiances closer together, or leave it out.
     LIGHT_TOO_DARK "W0303" "a light is too dark beside the others";
+    /// `render.indirect: Map` asks for the map of indirect light that earlier versions had. It let light through walls and is
+    /// gone; indirect light comes by paths. Leave the field out.
+    MAP_IS_GONE "W0304" "there is no map of indirect light any more";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -91,6 +91,11 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
     let radiance_unit = radiances::unit(desc);
     diagnostics.extend(radiances::too_dark(desc, radiance_unit));
+    if desc.render.indirect == desc::Indirect::Map {
+        let message = "there is no map of indirect light any more: it comes by paths";
+        diagnostics
+            .push(Diagnostic::warning(codes::MAP_IS_GONE, Span::NONE, message).hint("leave `render.indirect` out"));
+    }
     let (spheres, lights) = spheres_and_lights(desc, &frame, radiance_unit, &sphere_materials);
     let built = meshes::build(&frame, desc, &loaded, &placed, &assigned);
     drop((loaded, placed));
