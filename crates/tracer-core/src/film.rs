@@ -53,6 +53,14 @@ struct Taken {
     samples: [u32; PIXELS],
 }
 
+/// What light paths brought to the pixels of a tile.
+#[derive(Clone, Debug, PartialEq, Zeroable)]
+struct Splats {
+    sums: Sums,
+    /// Sum of squares of the luminance.
+    squares: Squares,
+}
+
 /// The sums of a tile of 16x16 pixels; pixels in Z-order.
 #[derive(Clone, Debug, PartialEq, Zeroable)]
 pub(crate) struct Tile {
@@ -63,6 +71,8 @@ pub(crate) struct Tile {
     samples: [u32; PIXELS],
     /// Where samples are clamped.
     taken: Option<Box<Taken>>,
+    /// Where light paths have fallen.
+    splats: Option<Box<Splats>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -144,9 +154,19 @@ impl Tile {
         left_out
     }
 
+    /// Adds what a light path brings to a pixel. What is too large is left out: paths find such light, too, and count for more where it is.
+    pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3]) {
+        let splats = self.splats.get_or_insert_with(|| Box::new(Splats::zeroed()));
+        if counts(brings) {
+            splats.sums.add(pixel, brings.map(fixed));
+            splats.squares.add(pixel, luminance(brings.map(f64::from)));
+        }
+    }
+
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool) -> usize {
-        size_of::<Tile>() + if clamped { size_of::<Taken>() } else { 0 }
+    fn bytes(clamped: bool, light_paths: bool) -> usize {
+        let of = |there: bool, size: usize| if there { size } else { 0 };
+        size_of::<Tile>() + of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>())
     }
 }
 
@@ -174,6 +194,8 @@ pub struct Film {
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
+    /// Sample indices whose light paths are on the film.
+    pub(crate) light_samples: u32,
     /// Rays and dropped samples.
     pub counters: Counters,
     /// Where the time went, if that was asked for.
@@ -211,6 +233,7 @@ impl Film {
             first_tile,
             tile_columns,
             tiles,
+            light_samples: 0,
             counters: Counters::default(),
             statistics: None,
             costs: Costs::default(),
@@ -250,13 +273,14 @@ impl Film {
 
     /// Bytes of memory that the sums take.
     pub fn bytes(&self) -> usize {
-        self.tiles.len() * Tile::bytes(self.clamp.is_some())
+        self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some())).sum()
     }
 
-    /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not.
-    pub fn bytes_of(crop: Crop, clamped: bool) -> u64 {
+    /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not, where light paths fall everywhere
+    /// or nowhere.
+    pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
-        tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * Tile::bytes(clamped) as u64
+        tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * Tile::bytes(clamped, light_paths) as u64
     }
 
     /// Tile and place in it of a pixel of the crop.
@@ -272,7 +296,9 @@ impl Film {
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         let [r, g, b] = tile.sums.mean(pixel, tile.samples[pixel]);
-        [r * self.unit, g * self.unit, b * self.unit]
+        let Some(splats) = &tile.splats else { return [r * self.unit, g * self.unit, b * self.unit] };
+        let more = splats.sums.mean(pixel, self.light_samples);
+        [(r + more[0]) * self.unit, (g + more[1]) * self.unit, (b + more[2]) * self.unit]
     }
 
     /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without clamping, but for the
@@ -317,7 +343,12 @@ impl Film {
         }
         let n = f64::from(tile.samples[pixel]);
         let mean = luminance(tile.sums.mean(pixel, tile.samples[pixel]));
-        ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0) * self.unit * self.unit
+        let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
+        // Light paths come one by one: the variance of such a sum is about the sum of squares.
+        let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
+        let passes = f64::from(self.light_samples.max(1));
+        let of_light = splats / (passes * passes);
+        (of_samples + of_light) * self.unit * self.unit
     }
 
     /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of the
@@ -377,7 +408,7 @@ mod tests {
         {
             for clamp in [None, Some(1.0)] {
                 let film = Film::new([40, 40], crop, 0, 1.0, clamp);
-                assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some()));
+                assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some(), false));
             }
         }
     }

@@ -1,6 +1,15 @@
 //! How much memory there is and was used, where the system says so (Linux).
 
+use scene_format::desc::{Caustics, Integrator, Render};
 use std::fs::read_to_string;
+use tracer_core::{Crop, Film};
+
+/// Bytes that the sums of a picture, or part of one, take at most: light paths need room where they fall.
+pub fn of_film(crop: Crop, render: &Render) -> u64 {
+    let clamped = render.clamp.is_some();
+    let light_paths = !clamped && render.integrator == Integrator::Full && render.caustics == Caustics::Photons;
+    Film::bytes_of(crop, clamped, light_paths)
+}
 
 /// The most bytes that this process has held so far.
 pub fn peak() -> Option<u64> {

@@ -136,6 +136,9 @@ pub struct Paths {
     /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and `pdf` is not
     /// negative.
     pub normal: Columns,
+    /// Camera rays: one over the pixel's filter there. From a rough surface that they hit, with light paths at work: K cos J / (h P) of
+    /// [`super::stages::light_paths`], before what the ray meets is known without cos and P; zero where no light path could come.
+    pub film: Column<f32>,
     /// Slot and state, see [`path`].
     pub slot: Column<u32>,
     /// The surface the ray leaves.
@@ -154,6 +157,7 @@ impl Paths {
             eta2: floats(),
             pdf: floats(),
             normal: columns(),
+            film: floats(),
             slot: words(),
             from_primitive: filled(NONE),
             from_instance: filled(NONE),
@@ -167,6 +171,7 @@ impl Paths {
         V3::<F>::load(&self.direction, from).compress(mask, &mut self.direction, from);
         // All else is the same for all camera rays.
         F::U::load(&self.slot[from..]).compress(mask, &mut self.slot[from..]);
+        F::load(&self.film[from..]).compress(mask, &mut self.film[from..]);
     }
 
     /// Adds those of another, which come from glass, behind these.
@@ -180,6 +185,8 @@ impl Paths {
         }
         self.eta2[to.clone()].copy_from_slice(&other.eta2[from]);
         self.pdf[to.clone()].copy_from_slice(&other.pdf[from]);
+        // From the camera over mirrors and glass only.
+        self.film[to.clone()].fill(0.0);
         self.slot[to.clone()].copy_from_slice(&other.slot[from]);
         self.from_primitive[to.clone()].copy_from_slice(&other.from_primitive[from]);
         self.from_instance[to].copy_from_slice(&other.from_instance[from]);
@@ -257,6 +264,22 @@ pub struct Photons {
     pub flux: Column<f32>,
 }
 
+/// What light paths bring to the film (see [`super::stages::light_paths`]); the shadow rays to the lens are in [`Batch::shadows`].
+pub struct Splats {
+    /// How many.
+    pub len: usize,
+    /// F.
+    pub brings: Columns,
+    /// P.
+    pub by_paths: Column<f32>,
+    /// D.
+    pub by_light: Column<f32>,
+    /// Column on the film, in pixels from the picture's left edge.
+    pub x: Column<f32>,
+    /// Row, from the upper edge.
+    pub y: Column<f32>,
+}
+
 /// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
 pub struct Members {
     /// Number of members.
@@ -277,6 +300,8 @@ pub struct Members {
     pub specular: Column<f32>,
     /// Probability that the path went on from here; where rays are aimed, what [`Paths::eta2`] holds.
     pub survival: Column<f32>,
+    /// Where rays are aimed: what [`Paths::film`] holds.
+    pub film: Column<f32>,
     /// One of [`member_kind`].
     pub kind: Column<u32>,
     /// Slot.
@@ -299,6 +324,7 @@ impl Members {
             parameter: floats(),
             specular: floats(),
             survival: floats(),
+            film: floats(),
             kind: words(),
             slot: words(),
             primitive: words(),
@@ -421,6 +447,8 @@ pub struct Batch {
     pub radiance: Columns,
     /// Photons on their way from the lights.
     pub photons: Photons,
+    /// What light paths bring to the film.
+    pub splats: Splats,
     /// Rough vertices of this bounce that rays may be aimed from.
     pub aimers: Members,
     /// First vertices that share.
@@ -459,6 +487,14 @@ impl Batch {
                 point: columns(),
                 from: columns(),
                 flux: floats(),
+            },
+            splats: Splats {
+                len: 0,
+                brings: columns(),
+                by_paths: floats(),
+                by_light: floats(),
+                x: floats(),
+                y: floats(),
             },
             aimers: Members::new(),
             hits: Hits { t: floats(), primitive: words(), instance: words() },

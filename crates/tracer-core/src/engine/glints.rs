@@ -83,7 +83,14 @@ pub fn pilot(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, crop: Crop, worke
 
 /// The pass of chains with random choices of their own.
 fn of_chains(pass: Pass<'_>, choices: u32) -> Pass<'_> {
-    Pass { seed: hash3(pass.seed, 0, choices) as u32, reuse: false, guide: None, task: Task::Chains, ..pass }
+    Pass {
+        seed: hash3(pass.seed, 0, choices) as u32,
+        reuse: false,
+        guide: None,
+        light_paths: None,
+        task: Task::Chains,
+        ..pass
+    }
 }
 
 /// Adds the chains of the items `batch.glints` to their slots.

@@ -4,7 +4,8 @@ use super::batch::Batch;
 use super::guide::Guide;
 use super::guide::plan::Plan;
 use super::guide::trace::PhotonPass;
-use super::stages::{aim, camera, photons, reach, shade, share, spheres};
+use super::stages::light_paths::LightPass;
+use super::stages::{aim, camera, light_paths, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
@@ -26,8 +27,9 @@ pub struct Kernels {
     aim: unsafe fn(&Guide, u32, u32, &mut Batch),
     share_segments: unsafe fn(&Scene, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
-    photons_emit: unsafe fn(&Plan, PhotonPass, &mut Batch),
+    photons_emit: unsafe fn(&Plan, PhotonPass<'_>, &mut Batch),
     photons_scatter: unsafe fn(&Scene, &Plan, u32, u32, &mut Batch),
+    light_paths: unsafe fn(&Scene, LightPass<'_>, u32, &mut Batch),
 }
 
 /// The entry functions of a level: the lanes of all stages but those of the spheres, and of those.
@@ -72,12 +74,16 @@ macro_rules! kernels {
                 share::share_gather::<$lanes>(batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn photons_emit_entry(plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+            fn photons_emit_entry(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
                 photons::photons_emit::<$lanes>(plan, pass, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn photons_scatter_entry(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
                 photons::photons_scatter::<$lanes>(scene, plan, seed, event, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn light_paths_entry(scene: &Scene, pass: LightPass<'_>, event: u32, batch: &mut Batch) {
+                light_paths::light_paths::<$lanes>(scene, pass, event, batch)
             }
             pub fn kernels(level: Level) -> Kernels {
                 Kernels {
@@ -93,6 +99,7 @@ macro_rules! kernels {
                 share_gather: share_gather_entry,
                 photons_emit: photons_emit_entry,
                 photons_scatter: photons_scatter_entry,
+                light_paths: light_paths_entry,
                 }
             }
         }
@@ -172,7 +179,7 @@ impl Kernels {
         unsafe { (self.share_gather)(batch) }
     }
     /// First rays of photons.
-    pub fn photons_emit(&self, plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+    pub fn photons_emit(&self, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.photons_emit)(plan, pass, batch) }
     }
@@ -180,6 +187,11 @@ impl Kernels {
     pub fn photons_scatter(&self, scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.photons_scatter)(scene, plan, seed, event, batch) }
+    }
+    /// What becomes of light paths where they hit, after `event` mirrors and glass.
+    pub fn light_paths(&self, scene: &Scene, pass: LightPass<'_>, event: u32, batch: &mut Batch) {
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
+        unsafe { (self.light_paths)(scene, pass, event, batch) }
     }
     /// Which paths the tree is asked about.
     pub fn reach_closest(&self, boxes: &TopBoxes, batch: &mut Batch) {

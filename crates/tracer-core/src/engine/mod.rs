@@ -10,6 +10,7 @@ mod guide;
 #[allow(unsafe_code)]
 mod kernels;
 mod lane_io;
+mod light_paths;
 mod stages;
 mod statistics;
 mod trace;
@@ -25,7 +26,9 @@ use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
 use glints::Glints;
 use grid::Grid;
 use guide::Guides;
+use guide::plan::Plan;
 use kernels::Kernels;
+use light_paths::LightPaths;
 use std::ops::ControlFlow;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -99,6 +102,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         reuse: false,
         lanes: level.lanes(),
         guide: None,
+        light_paths: None,
         task: trace::Task::Picture,
     };
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
@@ -129,7 +133,13 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     };
     pass_options.reuse = share_of_blocks > 0.0;
     let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
-    let mut guides = if wants_guide { Guides::new(scene, pass_options.seed) } else { None };
+    let plan = if wants_guide { Plan::new(scene, pass_options.seed) } else { None };
+    let mut guides = plan.as_ref().map(|plan| Guides::new(scene, plan, pass_options.seed));
+    // Clamped samples are a pixel's own: nothing comes to them from elsewhere.
+    let light_paths = plan
+        .as_ref()
+        .filter(|_| clamp.is_none())
+        .and_then(|plan| Some((LightPaths::new(scene, plan, pass_options.seed)?, plan)));
     let glints = match &guides {
         Some(_) => glints::pilot(scene, &kernels, pass_options, crop, &workers),
         None => Glints::default(),
@@ -139,12 +149,20 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         if let Some(guides) = &mut guides {
             guides.prepare(scene, &kernels, &pass, &workers);
         }
-        let pass_options = trace::Pass { guide: guides.as_ref().map(Guides::guide), ..pass_options };
+        let pass_options = trace::Pass {
+            guide: guides.as_ref().map(Guides::guide),
+            light_paths: light_paths.as_ref().map(|(light_paths, plan)| (light_paths, *plan)),
+            ..pass_options
+        };
         // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to stay in the cache.
         let at_once = (pass.end - pass.start).min(SAMPLES);
         let per_batch = (SAMPLES / at_once) as usize;
         let next = AtomicUsize::new(0);
+        film.light_samples += if light_paths.is_some() { pass.end - pass.start } else { 0 };
         let cells = Cells::new(&mut film);
+        if let (Some((light_paths, plan)), Some(guide)) = (&light_paths, pass_options.guide) {
+            light_paths.trace(scene, &kernels, plan, guide, pass.clone(), &cells, &workers);
+        }
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {
                 let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;

@@ -3,7 +3,9 @@
 use super::batch::{Batch, Columns, Group, ITEMS, Shadows};
 use super::glints::chains;
 use super::guide::Guide;
+use super::guide::plan::Plan;
 use super::kernels::Kernels;
+use super::light_paths::LightPaths;
 use super::stages::aim::AIMS_UNTIL;
 use super::stages::deposit::deposit;
 use super::statistics::Stage;
@@ -32,6 +34,8 @@ pub struct Pass<'a> {
     pub lanes: usize,
     /// What rays are aimed at, where the scene has lights and casters.
     pub guide: Option<&'a Guide>,
+    /// What lights send to the camera over mirrors and glass, where light paths are at work.
+    pub light_paths: Option<(&'a LightPaths, &'a Plan)>,
     /// What for.
     pub task: Task,
 }
@@ -178,7 +182,7 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
 }
 
 /// Which of the shadow rays something blocks.
-fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
+pub fn occluded(scene: &Scene, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
     kernels.occluded(scene, batch);
     batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };

@@ -4,6 +4,7 @@
 //! a circle; sums are exact, so who comes first does not matter.
 
 use super::{Crop, Film, TILE, Tile};
+use crate::sampling::sampler::z_order;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -65,6 +66,18 @@ impl<'a> Cells<'a> {
             columns: film.tile_columns,
             tiles: film.tiles.iter_mut().map(Mutex::new).collect(),
         }
+    }
+
+    /// Adds what a light path brings to a pixel, if it is one of the crop.
+    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3]) {
+        let Crop { x: left, y: top, width, height } = self.crop;
+        let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
+        if x < left || y < top || x - left >= width || y - top >= height {
+            return;
+        }
+        let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
+        let pixel = z_order(x % TILE, y % TILE) as usize;
+        self.tiles[place as usize].lock().unwrap_or_else(|poisoned| poisoned.into_inner()).splat(pixel, brings);
     }
 
     /// Does a work for each tile that shares pixels with the block of 16x16 pixels whose first pixel this is.

@@ -37,3 +37,21 @@ pub enum Filter {
     /// The 4-term Blackman-Harris window of this half width in pixels, per axis by inversion.
     BlackmanHarris(f64),
 }
+
+impl Filter {
+    /// How far from its centre, along either axis, a pixel's filter counts for light paths, in pixels. What it has beyond is left to
+    /// paths: a light path should not fall onto more than a few pixels.
+    pub(crate) fn reach(self) -> f32 {
+        let reach = match self {
+            Filter::Centre => 0.0,
+            Filter::Box => 0.5,
+            Filter::Gaussian(sigma) => (3.0 * sigma) as f32,
+            // Where the window ends it is nearly zero, and its inverse far from exact.
+            Filter::BlackmanHarris(radius) => (0.95 * radius) as f32,
+        };
+        reach.min(MOST_REACH)
+    }
+}
+
+/// Light paths fall onto five pixels a side at most.
+const MOST_REACH: f32 = 2.0;

@@ -9,13 +9,13 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, icosphere, picture, torus};
 use crate::support::{compiled, film};
 use scene_format::desc::{
-    Albedo, Caustics, Light, Material, Object, Shading, SphereLight, TextureFilter, TextureWrap, Transform,
+    Albedo, Caustics, Light, Material, Object, PixelFilter, Shading, SphereLight, TextureFilter, TextureWrap, Transform,
 };
 use scene_format::{Defaults, SceneDesc, Syntax, load_str, to_ron};
 use std::path::Path;
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 26;
+const SCENES: usize = 31;
 
 /// On a floor at y = 0, under a lamp of radius 4 at (6, 14, 0).
 fn on_the_floor(objects: Vec<Object>) -> SceneDesc {
@@ -91,6 +91,24 @@ fn seen_otherwise() {
     let around = sphere([-3.0, 14.0, 18.0], 1.0, glass(1.5));
     let within = on_the_floor(vec![around, ball(4.0, glass(1.5))]);
     assert_guiding_is_unbiased("camera in glass", &within, 512, SCENES);
+}
+
+/// Light paths reach the film through all filters and lenses, and from the film's edge.
+#[test]
+fn on_any_film() {
+    let seen = || {
+        let statue = solid(&icosphere(3).obj("icosphere-3"), glass(1.5), Shading::Smooth, 2.0);
+        on_the_floor(vec![statue, sphere([-4.0, 2.0, 3.0], 2.0, mirror([0.9; 3]))])
+    };
+    let gaussian = |sigma: f64| PixelFilter::Gaussian { sigma: sigma.into() };
+    assert_guiding_is_unbiased("Gaussian", &seen().filter(gaussian(0.5)), 512, SCENES);
+    assert_guiding_is_unbiased("wide Gaussian", &seen().filter(gaussian(1.5)), 512, SCENES);
+    let window = PixelFilter::BlackmanHarris { radius: 1.5.into() };
+    assert_guiding_is_unbiased("Blackman-Harris", &seen().filter(window), 512, SCENES);
+    assert_guiding_is_unbiased("lens", &seen().filter(gaussian(0.4)).lens(1.0, 20.0), 512, SCENES);
+    let mut wide = seen().camera([-3.0, 5.0, 7.0], [0.0, 0.0, 0.0], 120.0);
+    wide.image.width = 48.into();
+    assert_guiding_is_unbiased("wide angle", &wide, 512, SCENES);
 }
 
 /// Narrow glossy lobes, both kinds, beside mirrors; one so wide that paths bring its light; one with a texture. What they cast on each

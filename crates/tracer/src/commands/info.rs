@@ -3,7 +3,7 @@
 use crate::args::InfoArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, load};
-use crate::memory::human;
+use crate::memory::{human, of_film};
 use crate::shell::{Shell, counted};
 use scene_format::desc::Object;
 use scene_format::{Defaults, SceneDesc, Syntax, hash_hex, to_text};
@@ -11,7 +11,7 @@ use serde_json::json;
 use std::io::Write;
 use std::process::ExitCode;
 use tracer_core::scene::Statistics;
-use tracer_core::{Crop, Film, Scene};
+use tracer_core::{Crop, Scene};
 
 pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let desc = load(&args.scene, shell)?;
@@ -22,7 +22,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         let scene = compile(&desc, args.scene.diagnostics, shell)?;
         let facts = Facts {
             name: name(&desc),
-            film: Film::bytes_of(Crop::whole(scene.size), scene.clamp.is_some()),
+            film: of_film(Crop::whole(scene.size), &desc.render),
             statistics: scene.statistics(),
             scene,
             desc,

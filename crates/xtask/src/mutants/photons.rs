@@ -8,6 +8,7 @@ const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const GLINTS: &str = "crates/tracer-core/src/engine/glints.rs";
 const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
 const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
+const LIGHT_PATHS: &str = "crates/tracer-core/src/engine/stages/light_paths.rs";
 const CELLS: &str = "crates/tracer-core/src/engine/guide/cells.rs";
 const PLAN: &str = "crates/tracer-core/src/engine/guide/plan.rs";
 
@@ -106,5 +107,41 @@ pub const MUTANTS: &[Mutant] = &[
         find: "eta2 = F::select(both_find, eta2 * weight, eta2);",
         replace: "let _ = weight;",
         caught_by: proofs(&["aimed"]),
+    },
+    // Light paths.
+    Mutant {
+        name: "light-paths-beside-paths-in-full",
+        file: SHADE,
+        find: "weight = F::select(found, one / (one + by_light), weight);",
+        replace: "",
+        caught_by: proofs(&["caustics::on_any_film"]),
+    },
+    Mutant {
+        name: "light-paths-without-the-lights-cosine",
+        file: LIGHT_PATHS,
+        find: "F::select(everywhere, one, cos * cone * c(TWO_PI))",
+        replace: "F::select(everywhere, one, cone * c(TWO_PI))",
+        caught_by: proofs(&["caustics::on_any_film"]),
+    },
+    Mutant {
+        name: "light-paths-over-bent-normals",
+        file: LIGHT_PATHS,
+        find: "F::select(alike(s, wo, wi, refracted, ior), factor, F::splat(0.0))",
+        replace: "factor",
+        caught_by: units(&["engine::stages::light_paths"]),
+    },
+    Mutant {
+        name: "light-paths-with-one-index-of-refraction",
+        file: LIGHT_PATHS,
+        find: "of_glass = F::select(refracted, one / d.eta2, one);",
+        replace: "",
+        caught_by: proofs(&["caustics::seen_otherwise"]),
+    },
+    Mutant {
+        name: "light-paths-through-walls",
+        file: "crates/tracer-core/src/engine/light_paths.rs",
+        find: ".filter(|&k| batch.shadows.occluded[k] == 0)",
+        replace: "",
+        caught_by: proofs(&["caustics::on_any_film"]),
     },
 ];

@@ -29,6 +29,10 @@ use std::time::Instant;
 
 /// Photons of the largest guide.
 const MOST_PHOTONS: u32 = 1 << 18;
+/// Photons of the trial that tells how many of them are stored: of those that are sent at a bent mesh's sphere, a tenth.
+const TRIAL: u32 = 4096;
+/// Where fewer are stored, so many times as many are sent, at most.
+const MOST_MORE: u32 = 8;
 /// Rays may be aimed at the casters themselves, too, so many at most; more of them are taken together.
 pub const MOST_CASTERS: usize = 16;
 
@@ -41,11 +45,13 @@ pub struct Guide {
 }
 
 /// The guides of a rendering, one at a time.
-pub struct Guides {
-    plan: Plan,
+pub struct Guides<'a> {
+    plan: &'a Plan,
     seed: u32,
     /// Photons of the first guide.
     first: u32,
+    /// How many times as many photons are sent as where all are stored; known after a trial.
+    more: Option<u32>,
     stage: u32,
     guide: Guide,
 }
@@ -55,17 +61,16 @@ fn stage_of(sample: u32) -> u32 {
     sample.checked_ilog2().map_or(0, |k| k + 1)
 }
 
-impl Guides {
-    /// Where there are lights and casters; there is no guide at hand before [`Guides::prepare`].
-    pub fn new(scene: &Scene, seed: u32) -> Option<Guides> {
-        let plan = Plan::new(scene, seed)?;
+impl<'a> Guides<'a> {
+    /// There is no guide at hand before [`Guides::prepare`].
+    pub fn new(scene: &Scene, plan: &'a Plan, seed: u32) -> Self {
         let mut casters = SphereRows::default();
         for caster in casters::Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
             casters.push(caster.center.as_vec3().to_array(), caster.radius as f32, 1.0);
         }
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let first = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
-        Some(Guides { plan, seed, first, stage: u32::MAX, guide: Guide { cells: Cells::default(), casters } })
+        Guides { plan, seed, first, more: None, stage: u32::MAX, guide: Guide { cells: Cells::default(), casters } }
     }
 
     /// Makes the guide of these sample indices, which have the same one, if it is not at hand.
@@ -82,10 +87,15 @@ impl Guides {
         if stage == self.stage {
             return;
         }
-        let count = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS);
+        let more = *self.more.get_or_insert_with(|| {
+            let seed = hash3(self.seed, 0, 0x0007_21a1) as u32;
+            let stored = trace::photons(scene, kernels, self.plan, seed, TRIAL, workers).len() as u32;
+            (TRIAL / stored.max(1)).clamp(1, MOST_MORE)
+        });
+        let count = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more;
         // Choices of its own for each guide.
         let seed = hash3(self.seed, stage, 0x0007_21a1) as u32;
-        let photons = trace::photons(scene, kernels, &self.plan, seed, count, workers);
+        let photons = trace::photons(scene, kernels, self.plan, seed, count, workers);
         let mut made = each(workers, 1, |_, worker| {
             worker.batch.watch.resume();
             let start = Instant::now();

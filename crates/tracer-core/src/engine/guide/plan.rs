@@ -1,8 +1,9 @@
 //! Which photons are sent from which light at which caster.
 
 use super::casters::{Caster, Casters};
+use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
-use crate::scene::{Light, Scene, Sphere};
+use crate::scene::{Light, NONE, Scene, Sphere};
 
 /// Pairs of a light and a caster; more casters than this allows are taken together: each pair needs several photons.
 const MOST_PAIRS: usize = 256;
@@ -40,6 +41,10 @@ pub struct PairTable {
     pub aim: Vec<u32>,
     /// Flux of a photon, were it the only one, per cosine and solid angle of the cone it was chosen from ([`aim::EVERYWHERE`]: the flux).
     pub flux: [Vec<f32>; 3],
+    /// Radiance of the light.
+    pub radiance: [Vec<f32>; 3],
+    /// Area of the light that photons start from, times the measure of directions of [`aim::EVERYWHERE`].
+    pub area: Vec<f32>,
     /// A number of its own, for its photons' random choices.
     pub key: Vec<u32>,
 }
@@ -62,6 +67,8 @@ pub struct Plan {
     pub pairs: PairTable,
     /// Probability of each pair, and where its count starts (a number in 0 .. 1).
     chances: Vec<(f64, f64)>,
+    /// Light and caster of each pair.
+    pub ends: Vec<[usize; 2]>,
     /// Which casters the objects are.
     pub casters: Casters,
     /// Flux of all lights, the sum of the channels.
@@ -100,9 +107,21 @@ impl Plan {
         Some(Plan {
             pairs: PairTable::new(scene, seed, &pairs, &casters),
             chances: pairs.iter().enumerate().map(|(k, p)| (p.probability, unit(k, 0x0ff5_e700))).collect(),
+            ends: pairs.iter().map(|p| [p.light, p.caster]).collect(),
             casters,
             power: all as f32,
         })
+    }
+
+    /// Lanes of the mask whose surface belongs to the caster of their pair.
+    #[inline(always)]
+    pub fn on_caster<F: Lanes>(&self, pair: F::U, primitive: F::U, instance: F::U, mask: F::M) -> F::M {
+        let none = F::U::splat(0);
+        let on_sphere = mask & instance.eq(F::U::splat(NONE));
+        let on_instance = mask & !on_sphere;
+        let of_sphere = F::U::gather(&self.casters.of_sphere, F::U::select(on_sphere, primitive, none));
+        let of_instance = F::U::gather(&self.casters.of_instance, F::U::select(on_instance, instance, none));
+        mask & F::U::select(on_instance, of_instance, of_sphere).eq(F::U::gather(&self.pairs.caster, pair))
     }
 
     /// Which of so many photons each pair has, without drawing lots.
@@ -161,8 +180,10 @@ impl PairTable {
                 table.light_center[axis_index].push(light.center[axis_index] as f32);
                 table.caster_center[axis_index].push(caster.center[axis_index] as f32);
                 table.axis[axis_index].push(axis[axis_index] as f32);
+                table.radiance[axis_index].push(radiance[axis_index] as f32);
                 table.flux[axis_index].push((radiance[axis_index] * area * directions / density) as f32);
             }
+            table.area.push((area * directions) as f32);
             table.light_radius.push(light.radius as f32);
             table.light_primitive.push(sphere);
             table.cap.push(pair.cap as f32);

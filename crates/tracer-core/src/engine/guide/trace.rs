@@ -4,6 +4,7 @@ use super::cells::Photon;
 use super::plan::{Plan, Share};
 use crate::engine::batch::{Batch, Columns, PATHS, Photons};
 use crate::engine::kernels::Kernels;
+use crate::engine::light_paths::LightPaths;
 use crate::engine::statistics::Stage;
 use crate::engine::trace::closest;
 use crate::engine::{Worker, each};
@@ -12,12 +13,14 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 /// What the photons of a batch have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PhotonPass {
+#[derive(Clone, Copy)]
+pub struct PhotonPass<'a> {
     /// Seed of all random choices.
     pub seed: u32,
     /// Photons in the batch.
     pub count: usize,
+    /// They are light paths, that go on to the camera.
+    pub light_paths: Option<&'a LightPaths>,
 }
 
 /// Sends so many photons; what was stored, in an order that depends on nothing else.
@@ -35,7 +38,7 @@ pub fn photons(
 }
 
 /// Cuts the shares into batches of at most [`PATHS`] photons.
-fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
+pub fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
     let mut batches = vec![Vec::new()];
     let mut room = PATHS as u32;
     for share in shares {
@@ -58,17 +61,10 @@ fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
 
 /// One batch.
 fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
-    let mut count = 0;
-    for share in shares {
-        for k in 0..share.count {
-            batch.photons.pair[count] = share.pair;
-            batch.photons.index[count] = share.first.wrapping_add(k);
-            count += 1;
-        }
-    }
+    let count = load(shares, batch);
     batch.watch.resume();
     let start = Instant::now();
-    kernels.photons_emit(plan, PhotonPass { seed, count }, batch);
+    kernels.photons_emit(plan, PhotonPass { seed, count, light_paths: None }, batch);
     let mut stored = Vec::new();
     let mut event = 0;
     while batch.paths.len > 0 {
@@ -81,6 +77,19 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
     batch.watch.lap(Stage::Photons);
     batch.watch.costs.photons_since(start);
     stored
+}
+
+/// The photons of a batch; how many.
+pub fn load(shares: &[Share], batch: &mut Batch) -> usize {
+    let mut count = 0;
+    for share in shares {
+        for k in 0..share.count {
+            batch.photons.pair[count] = share.pair;
+            batch.photons.index[count] = share.first.wrapping_add(k);
+            count += 1;
+        }
+    }
+    count
 }
 
 /// Appends what one event stored.

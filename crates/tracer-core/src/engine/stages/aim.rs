@@ -179,13 +179,15 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         if !aimed.any() {
             continue;
         }
-        let mut weights = [zero; SPHERES + MOST_CASTERS];
+        let none = Cone { axis: n, width: one, highest: zero };
+        let mut cones = [(none, zero); SPHERES + MOST_CASTERS];
         let mut sums = [zero; 2];
-        for (k, weight) in weights.iter_mut().enumerate().take(SPHERES + casters) {
-            let which = usize::from(k >= SPHERES);
-            *weight = if which == 0 { targets.of_cell(k).1 } else { targets.of_caster(k - SPHERES).1 };
-            sums[which] = sums[which] + *weight;
+        for (k, cone) in cones.iter_mut().enumerate().take(SPHERES + casters) {
+            *cone = if k < SPHERES { targets.of_cell(k) } else { targets.of_caster(k - SPHERES) };
+            let sum = &mut sums[usize::from(k >= SPHERES)];
+            *sum = *sum + cone.1;
         }
+        let cones = &cones[..SPHERES + casters];
         let (of_cell, of_casters) = shares(sums[0], sums[1]);
         let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];
         // The last with any weight that begins at or below this.
@@ -193,16 +195,12 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let mut below = zero;
         let mut taken = Cone { axis: n, width: zero, highest: zero };
         let mut which = F::U::splat(0);
-        for (k, &weight) in weights.iter().enumerate().take(SPHERES + casters) {
-            let (own, scale) = if k < SPHERES { (true, scales[0]) } else { (false, scales[1]) };
+        for (k, &(cone, weight)) in cones.iter().enumerate() {
             let takes = zero.lt(weight) & below.le(threshold);
-            if takes.any() {
-                let cone = if own { targets.of_cell(k).0 } else { targets.of_caster(k - SPHERES).0 };
-                taken.axis = V3::select(takes, cone.axis, taken.axis);
-                taken.width = F::select(takes, cone.width, taken.width);
-                which = F::U::select(takes, F::U::splat(k as u32), which);
-            }
-            below = below + weight * scale;
+            taken.axis = V3::select(takes, cone.axis, taken.axis);
+            taken.width = F::select(takes, cone.width, taken.width);
+            which = F::U::select(takes, F::U::splat(k as u32), which);
+            below = below + weight * scales[usize::from(k >= SPHERES)];
         }
         let (u, v) = directions.points(&pixel);
         let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
@@ -213,13 +211,9 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         }
         // The density with which it was aimed: its own cone holds it whatever rounding says.
         let mut density = zero;
-        for (k, &weight) in weights.iter().enumerate().take(SPHERES + casters) {
-            let (cone, scale) = if k < SPHERES {
-                (targets.of_cell(k).0, scales[0])
-            } else {
-                (targets.of_caster(k - SPHERES).0, scales[1])
-            };
+        for (k, &(cone, weight)) in cones.iter().enumerate() {
             let holds = cone.holds(wi) | which.eq(F::U::splat(k as u32));
+            let scale = scales[usize::from(k >= SPHERES)];
             density = density + F::select(holds, weight * scale / cone.width, zero);
         }
         density = density * targets.chance * c(1.0 / TWO_PI);
@@ -244,6 +238,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         throughput.compress(aimed, &mut paths.throughput, k);
         (F::load(&aimers.survival[i..]) * weight).compress(aimed, &mut paths.eta2[k..]);
         c(-1.0).compress(aimed, &mut paths.pdf[k..]);
+        (F::load(&aimers.film[i..]) * cos / (by_itself + density)).compress(aimed, &mut paths.film[k..]);
         n.compress(aimed, &mut paths.normal, k);
         state.compress(aimed, &mut paths.slot[k..]);
         primitive.compress(aimed, &mut paths.from_primitive[k..]);

@@ -2,8 +2,8 @@
 
 use super::points::{PairPoints, PixelOf};
 use crate::engine::batch::{BLOCK_PIXELS, Batch};
-use crate::lanes::{Bits, Lanes, Mask};
-use crate::math::{V3, ln, sincos_turns};
+use crate::lanes::{ArrayF, Bits, Lanes, Mask};
+use crate::math::{V3, exp, ln, sincos_turns};
 use crate::sampling::sampler::Purpose;
 use crate::sampling::warp;
 use crate::scene::{Camera, Filter, NONE, Scene};
@@ -71,6 +71,7 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
             V3::grey(c(1.0)).store(&mut paths.throughput, i);
             c(1.0).store(&mut paths.eta2[i..]);
             c(-1.0).store(&mut paths.pdf[i..]);
+            inverse_density::<F>(camera.filter, dx, dy).store(&mut paths.film[i..]);
             slot.store(&mut paths.slot[i..]);
             F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
             F::U::splat(NONE).store(&mut paths.from_instance[i..]);
@@ -82,6 +83,50 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
         }
     }
     batch.counters.camera_rays += paths.len as u64;
+}
+
+/// One over the filter's density at an offset from the pixel's centre, in pixels; zero where light paths are not reckoned with: beyond
+/// [`Filter::reach`], and for all rays through the centre.
+#[inline(always)]
+fn inverse_density<F: Lanes>(filter: Filter, dx: F, dy: F) -> F {
+    let c = F::splat;
+    let reach = c(filter.reach());
+    let within = dx.abs().lt(reach) & dy.abs().lt(reach);
+    let inverse = match filter {
+        Filter::Centre => return c(0.0),
+        Filter::Box => return c(1.0),
+        Filter::Gaussian(sigma) => {
+            let (sigma2, r2) = (c((sigma * sigma) as f32), dx.fma(dx, dy * dy));
+            exp(r2 / (sigma2 + sigma2)) * sigma2 * c(2.0 * std::f32::consts::PI)
+        }
+        Filter::BlackmanHarris(radius) => {
+            let of = |x: F| c(radius as f32) / blackman_harris_density(x * c(1.0 / radius as f32));
+            of(dx) * of(dy)
+        }
+    };
+    F::select(within, inverse, c(0.0))
+}
+
+/// The filter's density at an offset from the pixel's centre, in pixels; zero where [`inverse_density`] is.
+pub fn density(filter: Filter, dx: f32, dy: f32) -> f32 {
+    type One = ArrayF<1>;
+    let mut inverse = [0.0];
+    inverse_density(filter, One::splat(dx), One::splat(dy)).store(&mut inverse);
+    let reach = filter.reach();
+    // A box has its reach nowhere near an edge for rays, but light paths fall anywhere.
+    if inverse[0] > 0.0 && dx.abs() <= reach && dy.abs() <= reach { 1.0 / inverse[0] } else { 0.0 }
+}
+
+/// Density of the window on [-1, 1].
+#[inline(always)]
+fn blackman_harris_density<F: Lanes>(x: F) -> F {
+    let c = F::splat;
+    let half = x * c(0.5);
+    let (_, c1) = sincos_turns(half);
+    let (_, c2) = sincos_turns(half + half);
+    let (_, c3) = sincos_turns(half + half + half);
+    let sum = c1.fma(c(A[1]), c2.fma(c(A[2]), c3.fma(c(A[3]), c(A[0]))));
+    (sum * c(0.5 / A[0])).max(c(1e-6))
 }
 
 static SLOTS: [u32; BLOCK_PIXELS] = {
@@ -112,6 +157,9 @@ fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
     }
 }
 
+/// a0 .. a3 of the window.
+const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
+
 /// Inverse of the cumulative 4-term Blackman-Harris window on [-1, 1] (Harris 1978), by bisection.
 #[inline(always)]
 fn blackman_harris<F: Lanes>(u: F) -> F {
@@ -132,7 +180,6 @@ fn blackman_harris<F: Lanes>(u: F) -> F {
 /// Share of the window a0 + a1 cos(pi x) + a2 cos(2 pi x) + a3 cos(3 pi x) that lies below x; its whole is 2 a0.
 #[inline(always)]
 fn blackman_harris_cumulative<F: Lanes>(x: F) -> F {
-    const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
     let c = F::splat;
     let half = x * c(0.5);
     let (s1, _) = sincos_turns(half);

@@ -15,9 +15,11 @@ use crate::scene::{NONE, Scene};
 
 /// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each pair with an
 /// order of its own.
-struct Numbers<F: Lanes> {
-    index: F::U,
-    key: F::U,
+pub struct Numbers<F: Lanes> {
+    /// Which photon.
+    pub index: F::U,
+    /// Which pair.
+    pub key: F::U,
 }
 
 impl<F: Lanes> Numbers<F> {
@@ -27,7 +29,7 @@ impl<F: Lanes> Numbers<F> {
         mixed ^ mixed.shr::<15>()
     }
     #[inline(always)]
-    fn pair(&self, salt: u32) -> (F, F) {
+    pub fn pair(&self, salt: u32) -> (F, F) {
         let index = shuffle_indices(self.index, self.keyed(salt));
         let x = owen(index, self.keyed(salt ^ 0x5bd1_e995));
         let y = owen(pascal_upper(index), self.keyed(salt ^ 0x2545_f491));
@@ -35,9 +37,10 @@ impl<F: Lanes> Numbers<F> {
     }
 }
 
-/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: throughput is flux, slot the photon.
+/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of light paths
+/// radiance, and `pdf` their density per area and solid angle over the cosine.
 #[inline(always)]
-pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass, batch: &mut Batch) {
+pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one, two) = (c(0.0), c(1.0), c(2.0));
     let pairs = &plan.pairs;
@@ -80,7 +83,13 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass, batch: &mut Batch) 
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
         direction.compress(sent, &mut paths.direction, k);
-        flux.compress(sent, &mut paths.throughput, k);
+        if let Some(light_paths) = pass.light_paths {
+            V3::<F>::gather_columns(&pairs.radiance, pair).compress(sent, &mut paths.throughput, k);
+            (F::gather(&light_paths.density, pair) / density).compress(sent, &mut paths.pdf[k..]);
+            one.compress(sent, &mut paths.eta2[k..]);
+        } else {
+            flux.compress(sent, &mut paths.throughput, k);
+        }
         F::U::gather(&pairs.light_primitive, pair).compress(sent, &mut paths.from_primitive[k..]);
         F::U::splat(NONE).compress(sent, &mut paths.from_instance[k..]);
         lane_numbers::<F>(i).compress(sent, &mut paths.slot[k..]);
@@ -109,7 +118,6 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
     let tables = &scene.tables;
     let goes_on = event < scene.max_bounces;
     let salt = hash3(seed, event, 0x00e4_e275) as u32;
-    let spheres = F::U::splat(tables.spheres.len);
     let (paths, next, photons) = (&batch.paths, &mut batch.next, &mut batch.photons);
     next.len = 0;
     for i in (0..paths.len).step_by(F::N) {
@@ -121,13 +129,8 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let primitive = F::U::load(&batch.hits.primitive[i..]);
         let instance = F::U::load(&batch.hits.instance[i..]);
         let mut hit = valid & !primitive.eq(F::U::splat(NONE));
-        if event == 0 && hit.any() {
-            let on_sphere = primitive.lt(spheres);
-            let wanted = F::U::gather(&plan.pairs.caster, F::U::gather(&photons.pair[..], slot));
-            let none = F::U::splat(0);
-            let of_sphere = F::U::gather(&plan.casters.of_sphere, F::U::select(on_sphere, primitive, none));
-            let of_instance = F::U::gather(&plan.casters.of_instance, F::U::select(on_sphere, none, instance));
-            hit = hit & F::U::select(on_sphere, of_sphere, of_instance).eq(wanted);
+        if event == 0 {
+            hit = plan.on_caster::<F>(F::U::gather(&photons.pair[..], slot), primitive, instance, hit);
         }
         if !hit.any() {
             continue;

@@ -4,6 +4,7 @@
 //! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
 
 use super::aim;
+use super::light_paths::{Film, Turn, change, density_ratio};
 use super::lights::{self, Receiver};
 use super::materials::{Bsdf, Dielectric, reflect_bent};
 use super::points::{PairPoints, PixelOf};
@@ -94,7 +95,20 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let pdf = F::load(&paths.pdf[i..]);
             let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
             let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal });
-            let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            if let Some((light_paths, plan)) = pass.light_paths
+                && vertex > 1
+            {
+                let ratio = F::load(&paths.film[i..]);
+                let found = emits & zero.lt(ratio);
+                if found.any() {
+                    let primitive = F::U::load(&paths.from_primitive[i..]);
+                    let instance = F::U::load(&paths.from_instance[i..]);
+                    let by_light =
+                        density_ratio(light_paths, plan, &s, direction, light, primitive, instance, ratio, found);
+                    weight = F::select(found, one / (one + by_light), weight);
+                }
+            }
             let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(shown * weight);
             seen = V3::select(emits, shines, seen);
         }
@@ -115,6 +129,17 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             }
         }
         let wo = direction.neg();
+        let mut film = zero;
+        if pass.light_paths.is_some() {
+            film = F::load(&paths.film[i..]);
+            if vertex == 0 {
+                let distance = F::load(&batch.hits.t[i..]);
+                film = film * Film::new(&scene.camera, scene.size).area_of(direction, distance, &s);
+                film = F::select(bsdf.mirror | bsdf.transparent | s.smooth, zero, film);
+            } else {
+                film = F::select(bsdf.diffuse | bsdf.glossy, zero, film);
+            }
+        }
         if let Some(guide) = guide
             && vertex > 0
         {
@@ -129,6 +154,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 let weight = by_itself / (by_itself + by_aiming);
                 // Not in the throughput: roulette would undo it.
                 eta2 = F::select(both_find, eta2 * weight, eta2);
+                film = F::select(both_find, film * normal.dot(direction) / (by_itself + by_aiming), film);
             }
         }
         let rough = bsdf.diffuse | bsdf.glossy;
@@ -242,6 +268,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             weight = V3::select(bsdf.transparent & !d.refracted, V3::grey(one), weight);
             new_eta2 = F::select(bsdf.transparent, eta2 * d.eta2 * share, eta2);
         }
+        if pass.light_paths.is_some() && vertex > 0 && zero.lt(film).any() {
+            let refracted = bsdf.transparent & wi.dot(s.ng).lt(zero);
+            let ior = F::select(bsdf.transparent, bsdf.parameter, one);
+            let eta = F::select(s.outside, one / ior, ior);
+            let eta2 = F::select(refracted, eta * eta, one);
+            film = film * change(&s, Turn { wo, wi, refracted, ior, eta2 }, true);
+        }
         let mut carried = throughput.mul(weight);
         let mut survival = one;
         let mut member = F::M::from_bits(0);
@@ -267,6 +300,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
         if aims_here {
             let aims = surfaces & rough & zero.lt(colored.max_component());
+            film.compress(aims, &mut aimers.film[aimers.len..]);
             add_members(aimers, &bsdf, &s, wo, colored, eta2, slot, primitive, instance, aims);
             slot = F::U::select(aims, slot | F::U::splat(path::AIMS), slot);
         }
@@ -279,6 +313,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         pdf.compress(alive, &mut next.pdf[k..]);
         if several || guide.is_some() {
             s.ns.compress(alive, &mut next.normal, k);
+        }
+        if pass.light_paths.is_some() {
+            film.compress(alive, &mut next.film[k..]);
         }
         slot.compress(alive, &mut next.slot[k..]);
         leaves(&s, wi, primitive).compress(alive, &mut next.from_primitive[k..]);

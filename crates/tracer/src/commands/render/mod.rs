@@ -16,6 +16,7 @@ use crate::write::{Place, Provenance, Setting, save, write};
 use crate::{interrupt, lanes, memory};
 use outputs::Output;
 use scene_format::SceneDesc;
+use scene_format::desc::Render;
 use std::io::Write;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
     let desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
-    check_memory(crop, desc.render.clamp.is_some())?;
+    check_memory(crop, &desc.render)?;
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
     outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
@@ -171,11 +172,11 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop, clamped: bool) -> Result<(), Failure> {
+fn check_memory(crop: Crop, render: &Render) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let needed = Film::bytes_of(crop, clamped) + pixels * BYTES_PER_PIXEL;
+    let needed = memory::of_film(crop, render) + pixels * BYTES_PER_PIXEL;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
