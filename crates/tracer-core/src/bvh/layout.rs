@@ -136,39 +136,80 @@ impl Ref {
     }
 }
 
-/// The boxes under the root of a tree, without those that hold nothing.
+/// Up to N boxes of a tree, without those that hold nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TopBoxes {
+pub(crate) struct Boxes<const N: usize> {
     /// Lower and upper planes: x lower, x upper, y lower and so on.
-    pub planes: [[f32; 8]; 6],
+    pub planes: [[f32; N]; 6],
     /// How many there are.
     pub len: usize,
+}
+
+/// The boxes under the root.
+pub(crate) type TopBoxes = Boxes<8>;
+/// Those under its children; of children that are no nodes, their own.
+pub(crate) type SecondBoxes = Boxes<64>;
+
+impl<const N: usize> Boxes<N> {
+    const NONE: Self = Self { planes: [[0.0; N]; 6], len: 0 };
+
+    fn push(&mut self, planes: [f32; 6]) {
+        for (column, plane) in self.planes.iter_mut().zip(planes) {
+            column[self.len] = plane;
+        }
+        self.len += 1;
+    }
 }
 
 impl TopBoxes {
     /// The boxes of the root's children; of a tree that is no node, the box of everything.
     pub(crate) fn of(root: Ref, units: &[Unit], everything: &Bounds) -> Self {
-        let mut top = Self { planes: [[0.0; 8]; 6], len: 0 };
+        let mut top = Self::NONE;
+        match root.kind() {
+            Kind::Node(unit) => node_at(units, unit).boxes().for_each(|(planes, _)| top.push(planes)),
+            Kind::Nothing => {}
+            Kind::Triangles(_) | Kind::Parts(_) | Kind::Spheres(_) | Kind::Instance(_) => top.push(around(everything)),
+        }
+        top
+    }
+}
+
+impl SecondBoxes {
+    /// The boxes of the children of the root's children.
+    pub(crate) fn of(root: Ref, units: &[Unit], everything: &Bounds) -> Self {
+        let mut second = Self::NONE;
         match root.kind() {
             Kind::Node(unit) => {
-                let node: &Node = bytemuck::from_bytes(bytemuck::cast_slice(&units[unit..unit + NODE_UNITS as usize]));
-                for child in (0..8).filter(|&child| node.children[child] != Ref::END) {
-                    for (planes, of_node) in top.planes.iter_mut().zip(&node.planes) {
-                        planes[top.len] = of_node[child];
+                for (planes, child) in node_at(units, unit).boxes() {
+                    match child.kind() {
+                        Kind::Node(unit) => node_at(units, unit).boxes().for_each(|(planes, _)| second.push(planes)),
+                        _ => second.push(planes),
                     }
-                    top.len += 1;
                 }
             }
             Kind::Nothing => {}
             Kind::Triangles(_) | Kind::Parts(_) | Kind::Spheres(_) | Kind::Instance(_) => {
-                for axis in 0..3 {
-                    top.planes[2 * axis][0] = everything.lower[axis];
-                    top.planes[2 * axis + 1][0] = everything.upper[axis];
-                }
-                top.len = 1;
+                second.push(around(everything))
             }
         }
-        top
+        second
+    }
+}
+
+/// Bounds as planes.
+fn around(bounds: &Bounds) -> [f32; 6] {
+    std::array::from_fn(|k| if k % 2 == 0 { bounds.lower[k / 2] } else { bounds.upper[k / 2] })
+}
+
+fn node_at(units: &[Unit], unit: usize) -> &Node {
+    bytemuck::from_bytes(bytemuck::cast_slice(&units[unit..unit + NODE_UNITS as usize]))
+}
+
+impl Node {
+    /// The children that are there, with their planes.
+    fn boxes(&self) -> impl Iterator<Item = ([f32; 6], Ref)> + '_ {
+        let there = (0..8).filter(|&child| self.children[child] != Ref::END);
+        there.map(|child| (self.planes.map(|column| column[child]), self.children[child]))
     }
 }
 

@@ -33,7 +33,7 @@ pub use sphere::sphere_hit;
 pub use triangle::{part_hit, triangle_hit};
 pub use validate::{Invalid, TrianglePart};
 
-pub(crate) use layout::TopBoxes;
+pub(crate) use layout::{Boxes, SecondBoxes, TopBoxes};
 pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
 
 use crate::level::Level;
@@ -111,6 +111,7 @@ pub struct Accel {
     arena: Arena,
     root: Ref,
     top: TopBoxes,
+    second: SecondBoxes,
     meshes: Vec<MeshRecord>,
     spheres: u32,
     instances: u32,
@@ -240,6 +241,11 @@ impl Accel {
     /// The boxes under the root: a ray that passes none of them hits nothing here.
     pub(crate) fn top_boxes(&self) -> &TopBoxes {
         &self.top
+    }
+
+    /// The boxes one level further down: what has been said of those above holds for these, too.
+    pub(crate) fn second_boxes(&self) -> &SecondBoxes {
+        &self.second
     }
 
     /// The tree's bytes, for comparing builds.

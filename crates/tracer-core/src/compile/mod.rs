@@ -110,14 +110,16 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
-    let top_boxes = match &accel {
+    let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
+    let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
             build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
-                .map(|accel| *accel.top_boxes())
+                .map(|accel| boxes_of(&accel))
         }
-        accel => accel.as_ref().map(|accel| *accel.top_boxes()),
-    };
+        accel => accel.as_ref().map(boxes_of),
+    }
+    .unzip();
     let tree = start.elapsed().as_secs_f64();
     Ok(Scene {
         frame,
@@ -155,6 +157,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         },
         accel,
         top_boxes,
+        second_boxes,
     })
 }
 

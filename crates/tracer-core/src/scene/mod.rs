@@ -102,6 +102,8 @@ pub struct Scene {
     pub(crate) accel: Option<crate::bvh::Accel>,
     /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
     pub(crate) top_boxes: Option<crate::bvh::TopBoxes>,
+    /// The boxes under those.
+    pub(crate) second_boxes: Option<crate::bvh::SecondBoxes>,
 }
 
 impl Scene {

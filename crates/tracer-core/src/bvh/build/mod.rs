@@ -13,7 +13,7 @@ use super::arena::Arena;
 use super::bounds::Bounds;
 use super::geometry::{Geometry, NONE};
 use super::kernels::{DEEPEST, MeshRecord};
-use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, TopBoxes};
+use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
 use super::{Accel, AccelStats, Acceleration};
 use crate::level::Level;
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
@@ -170,10 +170,12 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         seconds: start.elapsed().as_secs_f64(),
     };
     let top = TopBoxes::of(root, arena.units(), &world.contents.bounds);
+    let second = SecondBoxes::of(root, arena.units(), &world.contents.bounds);
     Ok(Accel {
         arena,
         root,
         top,
+        second,
         meshes,
         spheres: geometry.spheres.len() as u32,
         instances: instances as u32,

@@ -10,6 +10,7 @@ pub mod photons;
 pub mod points;
 pub mod reach;
 pub mod shade;
+pub mod shaft;
 pub mod share;
 pub mod spheres;
 pub mod surface;

@@ -3,7 +3,7 @@
 //!
 //! The interval of a box is computed as the tree does (`bvh::ray_space`), so a ray that is left out would have met nothing there.
 
-use crate::bvh::TopBoxes;
+use crate::bvh::{Boxes, TopBoxes};
 use crate::engine::batch::{Batch, Columns};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -94,18 +94,34 @@ impl<F: Lanes> Slabs<F> {
     pub fn pass(&self, boxes: &TopBoxes, limit: F) -> F::M {
         let mut any = F::M::from_bits(0);
         for k in 0..boxes.len {
-            let (mut near, mut far) = (F::splat(0.0), limit);
-            for axis in 0..3 {
-                let lower = F::splat(boxes.planes[2 * axis][k]);
-                let upper = F::splat(boxes.planes[2 * axis + 1][k]);
-                let first = F::select(self.negative[axis], upper, lower);
-                let second = F::select(self.negative[axis], lower, upper);
-                near = near.max(first.fma(self.inverse[axis], -self.near_offset[axis]));
-                far = far.min(second.fma(self.inverse[axis], -self.far_offset[axis]));
-            }
-            any = any | near.le(far);
+            any = any | self.pass_one(boxes, k, limit);
         }
         any
+    }
+
+    /// The same for boxes that have a bit set in the mask.
+    #[inline(always)]
+    pub fn pass_some<const N: usize>(&self, boxes: &Boxes<N>, mut mask: u64, limit: F) -> F::M {
+        let mut any = F::M::from_bits(0);
+        while mask != 0 {
+            any = any | self.pass_one(boxes, mask.trailing_zeros() as usize, limit);
+            mask &= mask - 1;
+        }
+        any
+    }
+
+    #[inline(always)]
+    fn pass_one<const N: usize>(&self, boxes: &Boxes<N>, k: usize, limit: F) -> F::M {
+        let (mut near, mut far) = (F::splat(0.0), limit);
+        for axis in 0..3 {
+            let lower = F::splat(boxes.planes[2 * axis][k]);
+            let upper = F::splat(boxes.planes[2 * axis + 1][k]);
+            let first = F::select(self.negative[axis], upper, lower);
+            let second = F::select(self.negative[axis], lower, upper);
+            near = near.max(first.fma(self.inverse[axis], -self.near_offset[axis]));
+            far = far.min(second.fma(self.inverse[axis], -self.far_offset[axis]));
+        }
+        near.le(far)
     }
 }
 

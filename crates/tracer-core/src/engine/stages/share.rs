@@ -9,7 +9,8 @@
 //!
 //! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is counted does not
 //! depend on who has found it. Every segment that counts is tested, so no sample is below zero and no light comes through a wall. Spheres
-//! and the boxes under the tree's root are tested over lanes, for a whole group at once; where many segments have to be traced through the
+//! and the boxes under the tree's root, as far as they can be between ([`super::shaft`]), are tested over lanes, for a whole group at once;
+//! where many segments have to be traced through the
 //! tree, the suffix is shared by half of the group only, the finder's. To test a sixteenth of the segments and correct what was wrong by
 //! sixteen times as much was a fifth to a half faster, and made pixels below zero and dots along edges.
 //! A suffix is always seen by the member that has found it.
@@ -19,9 +20,11 @@
 
 use super::materials::Bsdf;
 use super::reach::Slabs;
-use super::spheres::{Ray, blocked};
+use super::shaft::{Ends, Left, Obstacles, Shaft};
+use super::spheres::{Ray, large_blocks, small_blocks};
 use super::surface::Surface;
-use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, Suffixes, member_kind, path};
+use crate::bvh::SecondBoxes;
+use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, Shadows, Suffixes, member_kind, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{NONE, Scene};
@@ -31,6 +34,10 @@ const MOST_TRACED: u32 = 32;
 /// Those are every so many of the group's. With 16 and 4 instead of 32 and 2 the error of a matt mesh was half as large again, for four
 /// fifths of the time; blurred by 1.5 pixels it was the same. To trace all of them took half as long again.
 const CLASSES: u32 = 2;
+
+/// Where no more boxes than this are left of the tree's second level, segments that pass none of them are not traced. What the tree is
+/// asked about does not change the picture. With 16 the time was the same, with all 64 what the tree saves went into the boxes.
+const MOST_BOXES: u32 = 6;
 
 /// Adds the lanes of the mask to the members.
 #[inline(always)]
@@ -176,6 +183,7 @@ struct Segments {
 impl Segments {
     /// Members base .. base + N of the group.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     fn add<F: Lanes>(
         &mut self,
         scene: &Scene,
@@ -184,6 +192,7 @@ impl Segments {
         j: usize,
         group: Group,
         base: usize,
+        left: Left,
     ) {
         let c = F::splat;
         let zero = c(0.0);
@@ -206,10 +215,10 @@ impl Segments {
         let distance = p.distance2.sqrt();
         let direction = p.to.scale(c(1.0) / distance);
         let ray = Ray::<F>::new(start, direction, from);
-        let hidden = faces & !own & blocked(&scene.tables.spheres, &ray, distance, F::U::splat(suffixes.primitive[j]));
+        let hidden = faces & !own & blocked(scene, left, &ray, distance, suffixes.primitive[j]);
         self.blocked |= u64::from(hidden.bits()) << base;
-        let Some(boxes) = &scene.top_boxes else { return };
-        let reaching = faces & !hidden & Slabs::new(start, direction).pass(boxes, distance);
+        let Some(boxes) = scene.top_boxes.as_ref().filter(|_| left.top != 0) else { return };
+        let reaching = faces & !hidden & Slabs::new(start, direction).pass_some(boxes, left.top, distance);
         if reaching.any() {
             self.reaching |= u64::from(reaching.bits()) << base;
             direction.0.store(&mut self.direction[0][base..]);
@@ -218,6 +227,41 @@ impl Segments {
             distance.store(&mut self.distance[base..]);
             from.store(&mut self.from[base..]);
         }
+    }
+
+    /// Of the members with a bit set in the mask those whose segments pass one of the boxes that are left of the tree's second level.
+    #[inline(always)]
+    fn passing<F: Lanes>(&self, boxes: &SecondBoxes, left: u64, members: &Members, group: Group, mask: u64) -> u64 {
+        let mut passing = 0;
+        for base in (0..group.len as usize).step_by(F::N) {
+            let lanes = F::M::from_bits((mask >> base) as u32) & F::first(F::N);
+            if left != 0 && lanes.any() {
+                let start = V3::<F>::load(&members.start, group.first as usize + base);
+                let [x, y, z] = &self.direction;
+                let direction = V3(F::load(&x[base..]), F::load(&y[base..]), F::load(&z[base..]));
+                let slabs = Slabs::new(start, direction);
+                let pass = lanes & slabs.pass_some(boxes, left, F::load(&self.distance[base..]));
+                passing |= u64::from(pass.bits()) << base;
+            }
+        }
+        passing
+    }
+
+    /// Adds a member's segment to the rays for the tree.
+    #[inline(always)]
+    fn list(&self, members: &Members, suffixes: &Suffixes, j: usize, group: Group, place: usize, rays: &mut Shadows) {
+        let (k, i) = (rays.len, group.first as usize + place);
+        for axis in 0..3 {
+            rays.origin[axis][k] = members.start[axis][i];
+            rays.direction[axis][k] = self.direction[axis][place];
+        }
+        rays.t_max[k] = self.distance[place];
+        rays.from_primitive[k] = self.from[place];
+        rays.from_instance[k] = members.instance[i];
+        rays.target_primitive[k] = suffixes.primitive[j];
+        rays.target_instance[k] = suffixes.instance[j];
+        rays.slot[k] = (j as u32) << 6 | place as u32;
+        rays.len += 1;
     }
 
     /// Who shares the suffix: the whole group, or every second member, the finder among them. Both depend on where
@@ -232,6 +276,36 @@ impl Segments {
     }
 }
 
+/// Whether one of the spheres that are left blocks the way up to `t_max`.
+#[inline(always)]
+fn blocked<F: Lanes>(scene: &Scene, left: Left, ray: &Ray<F>, t_max: F, target: u32) -> F::M {
+    let spheres = &scene.tables.spheres;
+    let mut hidden = F::M::from_bits(0);
+    for k in places(left.large) {
+        hidden = hidden | large_blocks(&spheres.large[k], ray, t_max);
+    }
+    for k in places(left.small) {
+        hidden = hidden | small_blocks(&spheres.small[k], ray, t_max);
+    }
+    if left.more {
+        for s in spheres.large.iter().skip(Left::LARGE).filter(|s| s.id != target) {
+            hidden = hidden | large_blocks(s, ray, t_max);
+        }
+    }
+    hidden
+}
+
+/// Where bits are set.
+#[inline(always)]
+fn places(mut mask: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = mask.trailing_zeros() as usize;
+        let any = mask != 0;
+        mask &= mask.wrapping_sub(1);
+        any.then_some(place)
+    })
+}
+
 /// Finds out for the suffixes from `next` on who shares them and from whom spheres hide them, and fills `batch.segments` with the segments
 /// that the tree is to be asked about; gives the suffix to go on with. The tag of a segment, in `slot`, is its suffix times 64 plus its
 /// member's place in the group.
@@ -241,33 +315,41 @@ pub fn share_segments<F: Lanes>(scene: &Scene, next: usize, batch: &mut Batch) -
     rays.len = 0;
     let mut segments =
         Segments { direction: [[0.0; 64]; 3], distance: [0.0; 64], from: [0; 64], blocked: 0, reaching: 0, own: 0 };
+    let obstacles = Obstacles::new(scene);
+    let (mut ends, mut ends_of) = (Ends::new(), u32::MAX);
     let mut j = next;
     while j < suffixes.len && rays.len + 64 <= PATHS {
         if light(suffixes, &batch.radiance, j) != [0.0; 3] {
-            let group = batch.groups.list[batch.groups.of_suffix[j] as usize];
+            let of = batch.groups.of_suffix[j];
+            let group = batch.groups.list[of as usize];
+            if ends_of != of {
+                ends.find::<F>(scene, members, group);
+                ends_of = of;
+            }
+            let shaft = Shaft::new(&ends, std::array::from_fn(|axis| suffixes.point[axis][j]));
+            let left = obstacles.left::<F>(scene, &ends, &shaft, suffixes.primitive[j]);
             (segments.blocked, segments.reaching, segments.own) = (0, 0, 0);
-            for base in (0..group.len as usize).step_by(F::N) {
-                segments.add::<F>(scene, members, suffixes, j, group, base);
+            if left.any() {
+                for base in (0..group.len as usize).step_by(F::N) {
+                    segments.add::<F>(scene, members, suffixes, j, group, base, left);
+                }
             }
             let users = segments.users(group.len);
             batch.groups.hidden[j] = segments.blocked | !users;
-            let mut traced = segments.reaching & users & !segments.own;
             batch.counters.segments += u64::from(users.count_ones()) - 1;
+            let mut traced = segments.reaching & users & !segments.own;
+            if traced != 0
+                && let Some(boxes) = &scene.second_boxes
+            {
+                let second = obstacles.second_left::<F>(&shaft);
+                if second.count_ones() <= MOST_BOXES {
+                    traced = segments.passing::<F>(boxes, second, members, group, traced);
+                }
+            }
             while traced != 0 {
                 let place = traced.trailing_zeros() as usize;
                 traced &= traced - 1;
-                let (k, i) = (rays.len, group.first as usize + place);
-                for axis in 0..3 {
-                    rays.origin[axis][k] = members.start[axis][i];
-                    rays.direction[axis][k] = segments.direction[axis][place];
-                }
-                rays.t_max[k] = segments.distance[place];
-                rays.from_primitive[k] = segments.from[place];
-                rays.from_instance[k] = members.instance[i];
-                rays.target_primitive[k] = suffixes.primitive[j];
-                rays.target_instance[k] = suffixes.instance[j];
-                rays.slot[k] = (j as u32) << 6 | place as u32;
-                rays.len += 1;
+                segments.list(members, suffixes, j, group, place, rays);
             }
         }
         j += 1;

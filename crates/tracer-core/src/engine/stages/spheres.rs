@@ -120,39 +120,50 @@ pub fn spheres_occluded<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
     }
 }
 
-/// Whether a linear sphere other than the target blocks the way up to `t_max`: no square root and no division, only the signs of the
-/// quadratic at both ends of the segment and, where both are outside, at its vertex.
+/// Whether a linear sphere other than the target blocks the way up to `t_max`.
 #[inline(always)]
 pub fn blocked<F: Lanes>(spheres: &SphereTable, ray: &Ray<F>, t_max: F, target: F::U) -> F::M {
-    let zero = F::splat(0.0);
     let mut occluded = F::M::from_bits(0);
     for s in &spheres.large {
-        let own = ray.leaves(s.id);
-        let (beta, gamma) = lifted(s, ray, own);
-        let k = F::splat(s.k);
-        let kt = k * t_max;
-        let at_end = (kt + beta + beta).fma(t_max, gamma);
-        let disc = beta.fma(beta, -(k * gamma));
-        // On its own sphere the ray starts inside when it heads inwards: there the sign is beta's.
-        let starts_inside = F::select(own, beta, gamma).lt(zero);
-        let ends_inside = at_end.lt(zero);
-        let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);
-        let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-        occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
+        occluded = occluded | (large_blocks(s, ray, t_max) & !target.eq(F::U::splat(s.id)));
     }
     for s in &spheres.small {
-        let own = ray.leaves(s.id);
-        let (middle, disc) = centred(s, ray, own);
-        let end = t_max - middle;
-        // On its own sphere, where both squares are the same, the ray starts inside when it heads inwards.
-        let inwards = zero.lt(middle);
-        let starts_inside = (middle * middle).lt(disc) | (own & inwards);
-        let ends_inside = (end * end).lt(disc);
-        let dips = inwards & zero.lt(end) & zero.lt(disc);
-        let blocked = (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips));
-        occluded = occluded | (blocked & !target.eq(F::U::splat(s.id)));
+        occluded = occluded | (small_blocks(s, ray, t_max) & !target.eq(F::U::splat(s.id)));
     }
     occluded
+}
+
+/// Whether a large sphere blocks the way up to `t_max`: no square root and no division, only the signs of the quadratic at both ends of
+/// the segment and, where both are outside, at its vertex.
+#[inline(always)]
+pub fn large_blocks<F: Lanes>(s: &LargeSphere, ray: &Ray<F>, t_max: F) -> F::M {
+    let zero = F::splat(0.0);
+    let own = ray.leaves(s.id);
+    let (beta, gamma) = lifted(s, ray, own);
+    let k = F::splat(s.k);
+    let kt = k * t_max;
+    let at_end = (kt + beta + beta).fma(t_max, gamma);
+    let disc = beta.fma(beta, -(k * gamma));
+    // On its own sphere the ray starts inside when it heads inwards: there the sign is beta's.
+    let starts_inside = F::select(own, beta, gamma).lt(zero);
+    let ends_inside = at_end.lt(zero);
+    let dips = beta.lt(zero) & (-beta).lt(kt) & zero.lt(disc);
+    (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips))
+}
+
+/// The same of a small sphere.
+#[inline(always)]
+pub fn small_blocks<F: Lanes>(s: &SmallSphere, ray: &Ray<F>, t_max: F) -> F::M {
+    let zero = F::splat(0.0);
+    let own = ray.leaves(s.id);
+    let (middle, disc) = centred(s, ray, own);
+    let end = t_max - middle;
+    // On its own sphere, where both squares are the same, the ray starts inside when it heads inwards.
+    let inwards = zero.lt(middle);
+    let starts_inside = (middle * middle).lt(disc) | (own & inwards);
+    let ends_inside = (end * end).lt(disc);
+    let dips = inwards & zero.lt(end) & zero.lt(disc);
+    (starts_inside & !ends_inside) | (!starts_inside & (ends_inside | dips))
 }
 
 #[cfg(test)]
