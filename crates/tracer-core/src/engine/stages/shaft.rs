@@ -229,8 +229,7 @@ impl Ends {
             lower = V3(lower.0.min(start.0), lower.1.min(start.1), lower.2.min(start.2));
             upper = V3(upper.0.max(start.0), upper.1.max(start.1), upper.2.max(start.2));
             // Comparisons lose what is no number: this is zero but where it or its square is none.
-            let squares = start.dot(start);
-            wrong = wrong + (squares - squares);
+            wrong = start.dot(start).fma(c(0.0), wrong);
         }
         self.lower = [lower.0, lower.1, lower.2].map(least_lane);
         self.upper = [upper.0, upper.1, upper.2].map(|x| -least_lane(-x));
@@ -307,8 +306,8 @@ impl Shaft {
             magnitude: ends.magnitude + (y[0].abs() + y[1].abs() + y[2].abs()),
             length2: 0.0,
         };
-        for k in 0..3 {
-            let (lower, upper) = (ends.lower[k] - y[k], ends.upper[k] - y[k]);
+        for (k, y) in y.into_iter().enumerate() {
+            let (lower, upper) = (ends.lower[k] - y, ends.upper[k] - y);
             let longest = lower.abs().max(upper.abs());
             shaft.length2 += longest * longest;
             shaft.lower[k] = if lower.abs() < TINY { -TINY } else { lower };
@@ -319,8 +318,8 @@ impl Shaft {
         shaft
     }
 
-    /// Which boxes it meets, a bit each: those for which there is a t from 0 to 1 such that, on each axis, the least of y + t (B - y) is not
-    /// above the box and the greatest not below it. That is six half lines of t.
+    /// Which boxes it meets, a bit each: those for which there is a t from 0 to 1 such that, on each axis, the least of
+    /// y + t (B - y) is not above the box and the greatest not below it. That is six half lines of t.
     #[inline(always)]
     fn meets<F: Lanes>(&self, boxes: &Table) -> u64 {
         let c = F::splat;

@@ -25,7 +25,7 @@ fn group(random: &mut Random, batch: &mut Batch) -> Group {
     for i in 0..len {
         let offset = vector(random, size);
         for axis in 0..3 {
-            let flat = axis == 1 && len % 3 == 0;
+            let flat = axis == 1 && len.is_multiple_of(3);
             batch.members.start[axis][i] = middle[axis] + if flat { 0.0 } else { offset[axis] };
         }
         batch.members.primitive[i] = NONE;
@@ -44,7 +44,7 @@ fn ends<F: Lanes>(batch: &Batch, group: Group) -> Ends {
 fn boxes(random: &mut Random) -> Boxes<64> {
     let mut boxes = Boxes { planes: [[0.0; 64]; 6], len: 64 };
     for k in 0..64 {
-        let (middle, half) = (vector(random, 1.2), vector(random, 0.2));
+        let (middle, half) = (vector(random, 1.2), vector(random, 0.6));
         for axis in 0..3 {
             boxes.planes[2 * axis][k] = middle[axis] - half[axis].abs();
             boxes.planes[2 * axis + 1][k] = middle[axis] + half[axis].abs();
@@ -116,7 +116,7 @@ fn what_is_no_number_leaves_all_boxes() {
 }
 
 /// A sphere through a point with a normal there, in f64 and as the scene holds it.
-fn large(random: &mut Random) -> (LargeSphere, impl Fn([f32; 3]) -> f64) {
+fn large(random: &mut Random) -> (LargeSphere, impl Fn([f32; 3]) -> f64 + use<>) {
     let p = vector(random, 1.0).map(f64::from);
     let n = glam::Vec3::from(vector(random, 1.0)).as_dvec3().normalize();
     let k = 10f64.powf(f64::from(number(random)) * 2.2 - 1.4);
