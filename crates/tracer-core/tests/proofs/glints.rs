@@ -1,6 +1,6 @@
 //! Glint chains (`engine::glints`): the same picture on average as the plain path tracer's, and less than a quarter of its noise where all light
-//! comes over mirrors and glass. They are followed only where photons are, so surfaces are nearly black here: what photons blur is
-//! a thousandth of the picture, and little of that.
+//! comes over mirrors and glass. So the floor is black: what it would show of light over mirrors and glass, paths alone meet so seldom that
+//! no number of samples would tell the mean of a tile with little floor in it.
 
 use crate::support::compare::{assert_guiding_is_unbiased, noise};
 use crate::support::describe::*;
@@ -11,8 +11,8 @@ use scene_format::desc::{Caustics, Object, Reuse, Shading, Transform};
 /// All that are compared here, for the strictness of the tests.
 const SCENES: usize = 2;
 
-fn nearly_black(objects: Vec<Object>) -> SceneDesc {
-    let floor = sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.001; 3]));
+fn over_black(objects: Vec<Object>) -> SceneDesc {
+    let floor = sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.0; 3]));
     let lamps = vec![light([6.0, 14.0, 6.0], 2.0, [40.0, 30.0, 20.0]), light([-2.0, 6.0, -4.0], 1.0, [40.0; 3])];
     scene(32, lamps, [floor].into_iter().chain(objects).collect())
         .camera([0.0, 5.0, 18.0], [0.0, 3.0, 0.0], 40.0)
@@ -23,7 +23,7 @@ fn nearly_black(objects: Vec<Object>) -> SceneDesc {
 fn balls() -> SceneDesc {
     let before_the_lamp = vec![rotate([1.0, 0.0, 0.0], 90.0), Transform::Translate([-1.636, 5.818, 0.0])];
     let screen = mesh(&square(1.0).obj("square-1"), diffuse([0.001; 3]), Shading::Flat, before_the_lamp);
-    nearly_black(vec![
+    over_black(vec![
         sphere([-3.5, 2.5, 0.0], 2.5, mirror([0.9, 0.8, 0.7])),
         sphere([0.5, 6.0, 0.0], 2.0, glass(1.5)),
         sphere([3.5, 2.0, 3.0], 2.0, glass(1.3)),
@@ -36,7 +36,7 @@ fn chains_see_what_paths_see() {
     assert_guiding_is_unbiased("balls", &balls(), 96, SCENES);
     // A mesh, and a background that chains and paths see, too.
     let place = vec![scale(3.0), Transform::Translate([2.0, 3.5, 0.0])];
-    let open = nearly_black(vec![
+    let open = over_black(vec![
         mesh(&icosphere(2).obj("icosphere-2"), glass(1.5), Shading::Smooth, place),
         sphere([-3.5, 3.0, 0.0], 2.5, mirror([0.9; 3])),
     ])
