@@ -154,13 +154,22 @@ impl Tile {
         left_out
     }
 
-    /// Adds what a light path brings to a pixel. What is too large is left out: paths find such light, too, and count for more where it is.
-    pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3]) {
-        let splats = self.splats.get_or_insert_with(|| Box::new(Splats::zeroed()));
-        if counts(brings) {
-            splats.sums.add(pixel, brings.map(fixed));
-            splats.squares.add(pixel, luminance(brings.map(f64::from)));
+    /// Adds what a light path brings to a pixel, scaled down to the limit where samples are clamped; what that takes is kept as of
+    /// samples. What is too large for a sum is left out.
+    pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3], limit: Option<f64>) {
+        if !counts(brings) {
+            return;
         }
+        let mut left = brings;
+        let largest = f64::from(brings[0].max(brings[1]).max(brings[2]));
+        if let (Some(taken), Some(limit)) = (&mut self.taken, limit.filter(|&limit| largest > limit)) {
+            left = brings.map(|x| (f64::from(x) * limit / largest) as f32);
+            taken.samples[pixel] += 1;
+            taken.sums.add(pixel, [0, 1, 2].map(|c| fixed(brings[c]) - fixed(left[c])));
+        }
+        let splats = self.splats.get_or_insert_with(|| Box::new(Splats::zeroed()));
+        splats.sums.add(pixel, left.map(fixed));
+        splats.squares.add(pixel, luminance(left.map(f64::from)));
     }
 
     /// Bytes of memory that a tile takes.
@@ -295,10 +304,18 @@ impl Film {
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        let [r, g, b] = tile.sums.mean(pixel, tile.samples[pixel]);
-        let Some(splats) = &tile.splats else { return [r * self.unit, g * self.unit, b * self.unit] };
-        let more = splats.sums.mean(pixel, self.light_samples);
-        [(r + more[0]) * self.unit, (g + more[1]) * self.unit, (b + more[2]) * self.unit]
+        let samples = tile.samples[pixel];
+        let [r, g, b] = match &tile.splats {
+            None => tile.sums.mean(pixel, samples),
+            // As always but where a rendering was ended early; half the work.
+            Some(splats) if samples == self.light_samples => tile.sums.mean_with(&splats.sums, pixel, samples),
+            Some(splats) => {
+                let (of_paths, of_light) =
+                    (tile.sums.mean(pixel, samples), splats.sums.mean(pixel, self.light_samples));
+                [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
+            }
+        };
+        [r * self.unit, g * self.unit, b * self.unit]
     }
 
     /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without clamping, but for the
@@ -411,6 +428,32 @@ mod tests {
                 assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some(), false));
             }
         }
+    }
+
+    /// Light paths are counted by themselves: by as many sample indices as the pixels have samples, or by more where a rendering was ended.
+    #[test]
+    fn what_light_paths_bring_is_a_mean_of_its_own() {
+        let mut film = Film::new([16, 16], Crop::whole([16, 16]), 0, 2.0, None);
+        let tile = &mut film.tiles[0];
+        for _ in 0..2 {
+            tile.add(slices(&filled(|_| 0.25)), first_pixels());
+        }
+        tile.splat(0, [1.0, 2.0, 4.0], None);
+        tile.splat(0, [1.0, 0.0, f32::NAN], None);
+        film.light_samples = 2;
+        assert_eq!(film.radiance(0, 0), [2.0 * (0.25 + 0.5), 2.0 * (0.25 + 1.0), 2.0 * (0.25 + 2.0)]);
+        assert!(film.variance(0, 0) > 0.0);
+        film.light_samples = 4;
+        assert_eq!(film.radiance(0, 0), [2.0 * (0.25 + 0.25), 2.0 * (0.25 + 0.5), 2.0 * (0.25 + 1.0)]);
+        // Clamped, what is taken and what is left are the whole.
+        let mut clamped = Film::new([16, 16], Crop::whole([16, 16]), 0, 2.0, Some(4.0));
+        clamped.tiles[0].add(slices(&filled(|_| 0.25)), first_pixels());
+        clamped.tiles[0].splat(0, [1.0, 2.0, 4.0], Some(2.0));
+        clamped.light_samples = 1;
+        assert_eq!((clamped.radiance(0, 0), clamped.taken(0, 0)), ([1.5, 2.5, 4.5], [1.0, 2.0, 4.0]));
+        // A pixel that they have not met.
+        assert_eq!(film.radiance(1, 0), [0.5; 3]);
+        assert_eq!(film.variance(1, 0), 0.0);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use tracer_core::{Crop, Film};
 /// Bytes that the sums of a picture, or part of one, take at most: light paths need room where they fall.
 pub fn of_film(crop: Crop, render: &Render) -> u64 {
     let clamped = render.clamp.is_some();
-    let light_paths = !clamped && render.integrator == Integrator::Full && render.caustics == Caustics::Photons;
+    let light_paths = render.integrator == Integrator::Full && render.caustics == Caustics::Photons;
     Film::bytes_of(crop, clamped, light_paths)
 }
 

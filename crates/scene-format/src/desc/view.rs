@@ -96,8 +96,8 @@ scene_words! {
     /// How light comes over mirrors, glass and shiny lobes to matt surfaces: the bright curves under a glass ball, say.
     pub enum Caustics, "caustics" {
         /// Photons are sent from the lights over mirrors and glass, and tell where rays from other surfaces are aimed. They bring no light
-        /// themselves. Light paths bring it to surfaces that the camera sees, where no `clamp` is written; each way counts by how likely it
-        /// was, so the picture is right on average. What mirrors and glass show of lamps is sampled four times as often.
+        /// themselves. Light paths bring it to surfaces that the camera sees. Each way counts by how likely it was, so the picture is right on
+        /// average. What mirrors and glass show of lamps is sampled four times as often.
         Photons,
         /// By the rays that happen to meet a light: right on average, and slow to become smooth.
         None,

@@ -41,6 +41,15 @@ pub struct LightPaths {
     pub reach: f32,
 }
 
+/// Where light paths fall.
+#[derive(Clone, Copy)]
+pub struct OnFilm<'a, 'b> {
+    /// The film.
+    pub cells: &'a Cells<'b>,
+    /// The most that the largest channel of what one of them brings counts, where samples are clamped; in the film's unit.
+    pub limit: Option<f64>,
+}
+
 impl LightPaths {
     /// `None` where no pixel could see them: all rays of a pixel go through its centre.
     pub fn new(scene: &Scene, plan: &Plan, seed: u32) -> Option<Self> {
@@ -73,7 +82,7 @@ impl LightPaths {
         plan: &Plan,
         guide: &Guide,
         samples: Range<u32>,
-        cells: &Cells<'_>,
+        film: OnFilm<'_, '_>,
         workers: &[Mutex<Worker>],
     ) {
         let pass = LightPass { seed: self.seed, plan, light_paths: self, guide };
@@ -92,7 +101,7 @@ impl LightPaths {
                 let batch = &mut worker.batch;
                 batch.watch.resume();
                 let start = Instant::now();
-                follow(scene, kernels, pass, &batches[k], cells, batch);
+                follow(scene, kernels, pass, &batches[k], film, batch);
                 batch.watch.costs.photons_since(start);
             });
         }
@@ -105,7 +114,7 @@ fn follow(
     kernels: &Kernels,
     pass: LightPass<'_>,
     shares: &[Share],
-    cells: &Cells<'_>,
+    film: OnFilm<'_, '_>,
     batch: &mut Batch,
 ) {
     let count = load(shares, batch);
@@ -120,14 +129,14 @@ fn follow(
         kernels.light_paths(scene, pass, event, batch);
         batch.watch.lap(Stage::Photons);
         occluded(scene, kernels, Coherence::Incoherent, batch);
-        splat(scene, cells, batch);
+        splat(scene, film, batch);
         batch.watch.lap(Stage::Film);
         event += 1;
     }
 }
 
 /// Adds what reaches the lens to the film.
-fn splat(scene: &Scene, cells: &Cells<'_>, batch: &Batch) {
+fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
     let splats = &batch.splats;
     let filter = scene.camera.filter;
     let reach = filter.reach();
@@ -139,7 +148,8 @@ fn splat(scene: &Scene, cells: &Cells<'_>, batch: &Batch) {
                 let h = density(filter, x - 0.5 - column as f32, y - 0.5 - row as f32);
                 let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
                 if scale > 0.0 && scale.is_finite() {
-                    cells.splat([column, row], [0, 1, 2].map(|c| splats.brings[c][k] * scale));
+                    let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
+                    film.cells.splat([column, row], brings, film.limit);
                 }
             }
         }

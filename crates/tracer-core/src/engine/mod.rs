@@ -28,7 +28,7 @@ use grid::Grid;
 use guide::Guides;
 use guide::plan::Plan;
 use kernels::Kernels;
-use light_paths::LightPaths;
+use light_paths::{LightPaths, OnFilm};
 use std::ops::ControlFlow;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -135,11 +135,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
     let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
     let plan = if wants_guide { Plan::new(scene, pass_options.seed) } else { None };
     let mut guides = plan.as_ref().map(|plan| Guides::new(scene, plan, pass_options.seed));
-    // Clamped samples are a pixel's own: nothing comes to them from elsewhere.
-    let light_paths = plan
-        .as_ref()
-        .filter(|_| clamp.is_none())
-        .and_then(|plan| Some((LightPaths::new(scene, plan, pass_options.seed)?, plan)));
+    let light_paths = plan.as_ref().and_then(|plan| Some((LightPaths::new(scene, plan, pass_options.seed)?, plan)));
     let glints = match &guides {
         Some(_) => glints::pilot(scene, &kernels, pass_options, crop, &workers),
         None => Glints::default(),
@@ -161,7 +157,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         film.light_samples += if light_paths.is_some() { pass.end - pass.start } else { 0 };
         let cells = Cells::new(&mut film);
         if let (Some((light_paths, plan)), Some(guide)) = (&light_paths, pass_options.guide) {
-            light_paths.trace(scene, &kernels, plan, guide, pass.clone(), &cells, &workers);
+            let limit = clamp.map(|limit| f64::from(limit) / scene.radiance_unit);
+            let on_film = OnFilm { cells: &cells, limit };
+            light_paths.trace(scene, &kernels, plan, guide, pass.clone(), on_film, &workers);
         }
         let work = |worker: &mut Worker| {
             while !stopped.load(Ordering::Relaxed) {

@@ -69,7 +69,7 @@ impl<'a> Cells<'a> {
     }
 
     /// Adds what a light path brings to a pixel, if it is one of the crop.
-    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3]) {
+    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3], limit: Option<f64>) {
         let Crop { x: left, y: top, width, height } = self.crop;
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x < left || y < top || x - left >= width || y - top >= height {
@@ -77,7 +77,7 @@ impl<'a> Cells<'a> {
         }
         let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
         let pixel = z_order(x % TILE, y % TILE) as usize;
-        self.tiles[place as usize].lock().unwrap_or_else(|poisoned| poisoned.into_inner()).splat(pixel, brings);
+        self.tiles[place as usize].lock().unwrap_or_else(|poisoned| poisoned.into_inner()).splat(pixel, brings, limit);
     }
 
     /// Does a work for each tile that shares pixels with the block of 16x16 pixels whose first pixel this is.

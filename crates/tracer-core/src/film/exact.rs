@@ -51,6 +51,15 @@ impl Sums {
         }
     }
 
+    /// Mean of a pixel over so many samples of two sums.
+    #[inline]
+    pub fn mean_with(&self, other: &Sums, pixel: usize, samples: u32) -> [f64; 3] {
+        let n = f64::from(samples.max(1));
+        let (one, other) = (&self.0[pixel], &other.0[pixel]);
+        let mean = |c: usize| one[c].wrapping_add(other[c]) as f64 * LEAST / n;
+        [mean(0), mean(1), mean(2)]
+    }
+
     /// Mean of a pixel over so many samples.
     #[inline]
     pub fn mean(&self, pixel: usize, samples: u32) -> [f64; 3] {
