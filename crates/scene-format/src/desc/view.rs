@@ -51,7 +51,8 @@ scene_struct! {
         indirect: Indirect = Indirect::Paths;
         /// The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more
         /// than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light
-        /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing.
+        /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one
+        /// light path brings (`caustics`) counts at most as much; a caustic of many may be brighter.
         clamp: Option<Spanned<f64>> = None => Rule::length("a radiance").unit("in W/(sr m^2)");
     }
 }

@@ -5,6 +5,7 @@ use super::guide::Guide;
 use super::guide::plan::Plan;
 use super::guide::trace::PhotonPass;
 use super::stages::light_paths::LightPass;
+use super::stages::shaft::Obstacles;
 use super::stages::{aim, camera, light_paths, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
@@ -25,7 +26,7 @@ pub struct Kernels {
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
     aim: unsafe fn(&Guide, u32, u32, &mut Batch),
-    share_segments: unsafe fn(&Scene, usize, &mut Batch) -> usize,
+    share_segments: unsafe fn(&Scene, &Obstacles, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
     photons_emit: unsafe fn(&Plan, PhotonPass<'_>, &mut Batch),
     photons_scatter: unsafe fn(&Scene, &Plan, u32, u32, &mut Batch),
@@ -66,8 +67,8 @@ macro_rules! kernels {
                 aim::aim::<$lanes>(guide, seed, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn share_segments_entry(scene: &Scene, next: usize, batch: &mut Batch) -> usize {
-                share::share_segments::<$lanes>(scene, next, batch)
+            fn share_segments_entry(scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
+                share::share_segments::<$lanes>(scene, obstacles, next, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn share_gather_entry(batch: &mut Batch) {
@@ -169,9 +170,9 @@ impl Kernels {
         unsafe { (self.aim)(guide, seed, vertex, batch) }
     }
     /// Segments from suffix `next` on; gives the suffix to go on with.
-    pub fn share_segments(&self, scene: &Scene, next: usize, batch: &mut Batch) -> usize {
+    pub fn share_segments(&self, scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.share_segments)(scene, next, batch) }
+        unsafe { (self.share_segments)(scene, obstacles, next, batch) }
     }
     /// Each member's share of each suffix.
     pub fn share_gather(&self, batch: &mut Batch) {

@@ -53,8 +53,8 @@ pub struct RenderOptions {
     /// Whether photons tell where rays are aimed, so that they find lights over mirrors and glass.
     pub caustics: Option<bool>,
     /// The most that the largest channel of a sample counts, in W/(sr m^2): what is above is scaled down to it as a whole. A sample is
-    /// all that a pixel gets at one sample index, its part of what others have found and of photons included. What is not a finite number
-    /// above zero is no limit.
+    /// all that a pixel gets at one sample index, its part of what others have found included; what one light path brings to a pixel is
+    /// scaled by itself. What is not a finite number above zero is no limit.
     pub clamp: Option<f32>,
     /// Whether to keep [`Statistics`].
     pub statistics: bool,

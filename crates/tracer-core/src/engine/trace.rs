@@ -8,6 +8,7 @@ use super::kernels::Kernels;
 use super::light_paths::LightPaths;
 use super::stages::aim::AIMS_UNTIL;
 use super::stages::deposit::deposit;
+use super::stages::shaft::Obstacles;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
 use crate::level::Level;
@@ -103,9 +104,10 @@ fn group(first: usize, batch: &mut Batch, group_of_item: &mut [u32; ITEMS]) {
 
 /// Gives the members of each group the light of its suffixes.
 fn share(scene: &Scene, kernels: &Kernels, batch: &mut Batch) {
+    let obstacles = Obstacles::new(scene);
     let mut next = 0;
     while next < batch.suffixes.len {
-        next = kernels.share_segments(scene, next, batch);
+        next = kernels.share_segments(scene, &obstacles, next, batch);
         batch.watch.lap(Stage::Share);
         let Some(accel) = &scene.accel else { continue };
         std::mem::swap(&mut batch.shadows, &mut batch.segments);

@@ -100,8 +100,9 @@ fn inverse_density<F: Lanes>(filter: Filter, dx: F, dy: F) -> F {
             exp(r2 / (sigma2 + sigma2)) * sigma2 * c(2.0 * std::f32::consts::PI)
         }
         Filter::BlackmanHarris(radius) => {
-            let of = |x: F| c(radius as f32) / blackman_harris_density(x * c(1.0 / radius as f32));
-            of(dx) * of(dy)
+            let (x, y) = (dx * c(1.0 / radius as f32), dy * c(1.0 / radius as f32));
+            let density = blackman_harris_density(x) * blackman_harris_density(y);
+            c((radius * radius) as f32) / density
         }
     };
     F::select(within, inverse, c(0.0))

@@ -95,9 +95,14 @@ impl<F: Lanes> Film<F> {
         let cos = direction.dot(self.forward);
         let reach = self.focus_distance / F::select(c(0.0).lt(cos), cos, c(1.0));
         let at = direction.mad(reach, lens.sub(self.eye));
-        let along = |side: V3<F>| at.dot(side) / (side.dot(side) * self.focus_distance);
-        let (x, y) = (along(self.right), along(self.up));
+        let (x, y) = (self.along(at, self.right), self.along(at, self.up));
         OnFilm { x: (x + c(1.0)) * c(self.middle[0]), y: (c(1.0) - y) * c(self.middle[1]), cos }
+    }
+
+    /// How far along one of the picture's sides a point of the plane of focus lies, as seen from the eye.
+    #[inline(always)]
+    fn along(&self, at: V3<F>, side: V3<F>) -> F {
+        at.dot(side) / (side.dot(side) * self.focus_distance)
     }
 
     /// J: the area of a surface, whose cosine to the ray this is, that a pixel's area of film sees at a distance.
@@ -114,6 +119,33 @@ impl<F: Lanes> Film<F> {
     }
 }
 
+/// Where glass reflects all light.
+struct Total<F> {
+    /// (n_i / n_t)^2.
+    eta2: F,
+}
+
+impl<F: Lanes> Total<F> {
+    /// At this cosine.
+    #[inline(always)]
+    fn at(&self, cos: F) -> F::M {
+        let one = F::splat(1.0);
+        one.le(self.eta2 * (one - cos * cos))
+    }
+}
+
+/// Cosine to the geometric normal of a direction's reflection in the shading normal, from the direction's own to both.
+#[inline(always)]
+fn height<F: Lanes>(s: &Surface<F>, on_shading: F, on_geometric: F) -> F {
+    (on_shading + on_shading) * s.ns.dot(s.ng) - on_geometric
+}
+
+/// A cosine that may be divided by.
+#[inline(always)]
+fn cosine<F: Lanes>(v: V3<F>, n: V3<F>) -> F {
+    v.dot(n).abs().max(F::splat(1e-6))
+}
+
 /// Whether a mirror or glass takes light from `wi` to `wo`, the side that `s` is seen from, and from there to here alike: always, but for
 /// what is done about interpolated normals.
 #[inline(always)]
@@ -123,21 +155,20 @@ fn alike<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>, refracted: F::M, ior: F
     let (og, ig, os, is) = (wo.dot(s.ng), wi.dot(s.ng), wo.dot(s.ns), wi.dot(s.ns));
     let (low, high) = (og.abs().min(ig.abs()), og.abs().max(ig.abs()));
     let eta = F::select(s.outside, one / ior, ior);
-    let total = |cos: F| one.le(eta * eta * (one - cos * cos));
+    let total = Total { eta2: eta * eta };
     // Reflected in the very shading normal: `reflect_bent` bends where either side is low, and `Dielectric` takes the triangle's own normal
     // where that would let the light out.
     let off = s.ns.scale(os + os).sub(wo).sub(wi);
-    let caught = !s.outside & total(os) & (!total(og) | !total(ig));
+    let caught = !s.outside & total.at(os) & (!total.at(og) | !total.at(ig));
     let unbent = (high * c(0.9)).min(c(0.0101)).lt(low) & off.dot(off).lt(c(1e-8));
     let reflects = zero.lt(og) & zero.lt(ig) & unbent & !caught;
     // Refracted in it by Snell's law, and on neither side would the reflected direction be bent, nor does the other pass so low that the
     // triangle's own normal is taken.
     let tall = c(0.0101);
-    let of_mirror = |on_shading: F, on_geometric: F| (on_shading + on_shading) * s.ns.dot(s.ng) - on_geometric;
     let turn = wo.scale(eta).add(wi);
     let across = s.ns.scale(-turn.dot(s.ns)).add(turn);
     let passes = zero.lt(og) & ig.lt(zero) & zero.lt(os) & is.lt(zero) & tall.lt(low);
-    let passes = passes & tall.lt(of_mirror(os, og)) & tall.lt(of_mirror(-is, -ig)) & across.dot(across).lt(c(1e-8));
+    let passes = passes & tall.lt(height(s, os, og)) & tall.lt(height(s, -is, -ig)) & across.dot(across).lt(c(1e-8));
     !s.smooth | (refracted & passes) | (!refracted & reflects)
 }
 
@@ -148,10 +179,9 @@ pub fn change<F: Lanes>(s: &Surface<F>, seen: Turn<F>, from_eye: bool) -> F {
     if !s.smooth.any() {
         return eta2;
     }
-    let of = |v: V3<F>, n: V3<F>| v.dot(n).abs().max(F::splat(1e-6));
     let (to_eye, to_light) = if from_eye { (wo, wi) } else { (wi, wo) };
-    let sides = of(to_light, s.ng) / of(to_eye, s.ng);
-    let bends = of(to_eye, s.ns) / of(to_light, s.ns);
+    let sides = cosine(to_light, s.ng) / cosine(to_eye, s.ng);
+    let bends = cosine(to_eye, s.ns) / cosine(to_light, s.ns);
     let factor = F::select(refracted, sides * bends, sides) * eta2;
     let factor = F::select(s.smooth, factor, eta2);
     F::select(alike(s, wo, wi, refracted, ior), factor, F::splat(0.0))

@@ -310,12 +310,11 @@ fn places(mut mask: u64) -> impl Iterator<Item = usize> {
 /// that the tree is to be asked about; gives the suffix to go on with. The tag of a segment, in `slot`, is its suffix times 64 plus its
 /// member's place in the group.
 #[inline(always)]
-pub fn share_segments<F: Lanes>(scene: &Scene, next: usize, batch: &mut Batch) -> usize {
+pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
     let (members, suffixes, rays) = (&batch.members, &batch.suffixes, &mut batch.segments);
     rays.len = 0;
     let mut segments =
         Segments { direction: [[0.0; 64]; 3], distance: [0.0; 64], from: [0; 64], blocked: 0, reaching: 0, own: 0 };
-    let obstacles = Obstacles::new(scene);
     let (mut ends, mut ends_of) = (Ends::new(), u32::MAX);
     let mut j = next;
     while j < suffixes.len && rays.len + 64 <= PATHS {
