@@ -22,7 +22,7 @@ mod world;
 use glam::DVec3;
 pub use random::Random;
 use tracer_core::Scene;
-use tracer_core::scene::{Light, Material};
+use tracer_core::scene::Material;
 use world::World;
 
 /// Where rays start that leave a smooth mesh by diffuse or glossy scattering.
@@ -89,7 +89,9 @@ impl Tracer<'_> {
             return DVec3::from(self.scene.background.map(f64::from)) * self.scene.radiance_unit;
         };
         if let Some(light) = self.world.light_of(&hit) {
-            let Light::Sphere { radiance, .. } = self.scene.lights[light];
+            let light = &self.scene.lights[light];
+            let shines = light.two_sided() || self.world.surface(&ray, &hit, self.smoothing).outside;
+            let radiance = if shines { light.radiance() } else { [0.0; 3] };
             return DVec3::from(radiance) * self.scene.radiance_unit;
         }
         if scatterings > self.scene.max_bounces {
@@ -98,6 +100,8 @@ impl Tracer<'_> {
         let s = self.world.surface(&ray, &hit, self.smoothing);
         let wo = -ray.direction;
         match self.scene.materials[s.material as usize] {
+            // Its surface is a light's.
+            Material::Emissive => DVec3::ZERO,
             Material::Mirror { reflectance } => {
                 let ray = Ray { origin: s.p, direction: scatter::reflect(&s, wo).direction };
                 DVec3::from(reflectance) * self.radiance(ray, scatterings + 1, random)

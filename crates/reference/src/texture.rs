@@ -12,6 +12,8 @@ pub fn albedo(scene: &Scene, albedo: Albedo, [u, v]: [f64; 2]) -> DVec3 {
         Albedo::Texture(index) => index,
     };
     let texture = scene.texture(index).expect("a texture of the scene");
+    let [x, y] = texture.mapping;
+    let (u, v) = (x[0] * u + x[1] * v + x[2], y[0] * u + y[1] * v + y[2]);
     // Texel (i, j) covers [i, i + 1) x [j, j + 1), row 0 at the top.
     let x = u * f64::from(texture.width);
     let y = (1.0 - v) * f64::from(texture.height);

@@ -15,6 +15,8 @@ pub struct Triangle {
     pub normals: Option<[DVec3; 3]>,
     pub uvs: Option<[[f64; 2]; 3]>,
     pub material: u32,
+    /// Index of the light, or `NONE`.
+    pub light: u32,
 }
 
 /// What a ray hit.
@@ -64,10 +66,11 @@ impl World {
 
     /// The light that was hit.
     pub fn light_of(&self, hit: &Hit) -> Option<usize> {
-        match hit.shape {
-            Shape::Sphere(k) => Some(self.spheres[k].light).filter(|&light| light != NONE).map(|light| light as usize),
-            Shape::Triangle(_) => None,
-        }
+        let light = match hit.shape {
+            Shape::Sphere(k) => self.spheres[k].light,
+            Shape::Triangle(k) => self.triangles[k].light,
+        };
+        (light != NONE).then_some(light as usize)
     }
 
     /// The surface at a hit.
@@ -99,6 +102,7 @@ fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
         normals: normals.map(|n| [n[a], n[b], n[c]]),
         uvs: triangles.corner_uvs(k).map(|t| [t[a], t[b], t[c]]),
         material: if instance.material == NONE { triangles.material[k as usize] } else { instance.material },
+        light: triangles.light.get(k as usize).copied().unwrap_or(NONE),
     }
 }
 

@@ -269,7 +269,7 @@ codes! {
     /// )
     /// ```
     EXACTLY_ONE "E0209" "exactly one of several fields";
-    /// `include`, `vars`, `repeat` and `keyframes` are kept for later versions of the language.
+    /// `include`, `repeat` and `keyframes` are kept for later versions of the language.
     ///
     /// ```ron
     /// Scene(include: "room.ron", objects: [Sphere(center: (0, 0, 0), radius: 1)])
@@ -360,6 +360,19 @@ codes! {
     /// The number in brackets in a `--set` path is beyond the end of the list: lists count from 0.
     BAD_SET_INDEX "E0405" "--set counts beyond the end of a list";
 
+    /// Values of `vars` need each other to be reckoned.
+    ///
+    /// ```ron
+    /// Scene(vars: { "a": "=b+1", "b": "=2*a" }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=a")])
+    /// ```
+    CIRCLE "E0407" "values that stand for each other";
+    /// A name in `vars` cannot be used in an expression: it is no plain word, or a function's.
+    ///
+    /// ```ron
+    /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    BAD_VAR_NAME "E0408" "a name that no expression can use";
+
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
@@ -382,6 +395,38 @@ codes! {
     /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision once
     /// the scene is brought to its middle. Bring sizes and distances closer together.
     UNTRACEABLE "E0541" "a scene beyond the range of numbers";
+
+    /// An expression, a text that begins with `=`, is not written as expressions are: numbers, names from `vars`, `+ - * / % ^`,
+    /// comparisons, functions, brackets.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: (0, "=2*(1+3", 0), radius: 1)])
+    /// ```
+    EXPRESSION_SYNTAX "E0601" "an expression that cannot be read";
+    /// An expression uses a name that is neither in `vars` nor a function.
+    ///
+    /// ```ron
+    /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, "=hight", 0), radius: "=height/4")])
+    /// ```
+    EXPRESSION_NAME "E0602" "an unknown name in an expression";
+    /// An expression has a value of another kind than is needed there, or an operator or function does not take such values.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=(1, 2, 3)")])
+    /// ```
+    EXPRESSION_TYPE "E0603" "an expression of the wrong kind";
+    /// A step of an expression gives infinity or no number at all: a division by zero, the root of a negative number.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=1/0")])
+    /// ```
+    EXPRESSION_NOT_FINITE "E0604" "an expression that is not finite";
+    /// An expression asks for an item that a list does not have; items count from 0.
+    ///
+    /// ```ron
+    /// Scene(vars: { "sizes": [1, 2, 4, 8] }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=sizes[4]")])
+    /// ```
+    EXPRESSION_INDEX "E0605" "an item that a list does not have";
 
     /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
     ///
@@ -415,6 +460,12 @@ codes! {
     /// )
     /// ```
     UNUSED_MATERIAL "W0401" "a material is not used";
+    /// A name in `vars` that no expression uses. Remove it, or use it.
+    ///
+    /// ```ron
+    /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UNUSED_VAR "W0402" "a var is not used";
     /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";
     /// A material file (MTL) says things that this renderer cannot do.

@@ -5,6 +5,7 @@ use crate::desc::Scene;
 use crate::form::{Entry, Form};
 use crate::load::{LoadError, load_str, parse};
 use crate::print;
+use crate::read::is_expression;
 use crate::schema::{Content, EnumDef, StructDef, Type, fits};
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
@@ -98,11 +99,15 @@ impl Converter<'_, '_> {
     }
 
     fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {
+        if is_expression(item) && !matches!(kind, Type::Text | Type::File) {
+            return Form::Text(item.text().into_owned());
+        }
         match kind {
+            Type::Value => self.value(item),
             Type::Bool => Form::Bool(item.lexeme() == "true"),
             Type::Number | Type::Integer => Form::Lexeme(self.number(item)),
             Type::Text | Type::File => Form::Text(item.text().into_owned()),
-            Type::Vector => self.vector(item),
+            Type::Pair | Type::Vector => self.vector(item),
             Type::Color => match item.kind() {
                 Kind::Text => Form::Text(item.text().into_owned()),
                 Kind::List | Kind::Tuple => self.vector(item),
@@ -136,7 +141,17 @@ impl Converter<'_, '_> {
     }
 
     fn vector(&self, item: Item<'_, '_>) -> Form {
-        Form::Vector(item.children().map(|child| Form::Lexeme(self.number(child))).collect())
+        Form::Vector(item.children().map(|child| self.value(child)).collect())
+    }
+
+    /// A number, or what may stand in its place and in `vars`.
+    fn value(&self, item: Item<'_, '_>) -> Form {
+        match item.kind() {
+            Kind::Bool => Form::Bool(item.lexeme() == "true"),
+            Kind::Text => Form::Text(item.text().into_owned()),
+            Kind::List | Kind::Tuple => Form::Vector(item.children().map(|child| self.value(child)).collect()),
+            _ => Form::Lexeme(self.number(item)),
+        }
     }
 
     /// A number as it was written, or the same number where the other syntax does not know the form.

@@ -4,7 +4,7 @@ use crate::desc::{
     Acceleration, Caustics, Indirect, Instances, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading,
     TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{DepthOfField, Pattern, TransformWords};
+use crate::desc::{DepthOfField, MappingWords, Pattern, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -37,7 +37,7 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 17] = [
+pub(crate) const CHOICES: [&EnumDef; 18] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -51,6 +51,7 @@ pub(crate) const CHOICES: [&EnumDef; 17] = [
     &Pattern::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
+    &MappingWords::DEF,
     &Object::DEF,
     &Instances::DEF,
     &Shading::DEF,
@@ -58,7 +59,7 @@ pub(crate) const CHOICES: [&EnumDef; 17] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 44] = [
+const SNIPPETS: [(&str, &str, &str); 49] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -84,13 +85,30 @@ const SNIPPETS: [(&str, &str, &str); 44] = [
     ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
     ("Material", "Transparent", "Transparent(ior: 1.5)"),
     ("Material", "BlinnPhong", "BlinnPhong(albedo: \"#3344dd\", exponent: 1000, specular: 0.05)"),
+    ("Material", "Emissive", "Emissive(radiance: 3)"),
     ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
+    (
+        "Pattern",
+        "Checkerboard",
+        "Diffuse(albedo: Checkerboard(a: 0.2, b: (0.8, 0.7, 0.6), mapping: Uv(scale: (16, 8))))",
+    ),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
     ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
     ("TextureWrap", "Clamp", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Clamp))"),
     ("TextureWrap", "Mirror", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Mirror))"),
+    (
+        "MappingWords",
+        "Uv",
+        "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Uv(scale: (4, 2), rotation: 30, offset: (0.5, 0))))",
+    ),
     ("Object", "Sphere", "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))"),
+    (
+        "Object",
+        "Rectangle",
+        "Rectangle(center: (0, 0.5, 0), normal: (1, 1, 2), size: (3, 2), material: Diffuse(albedo: 0.6))",
+    ),
+    ("Object", "Box", "Box(size: (1.5, 1, 2), transform: [Rotate(axis: (0, 1, 0), degrees: 30)])"),
     (
         "Object",
         "Mesh",
@@ -130,7 +148,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
-        "Pattern" | "TextureFilter" | "TextureWrap" => {
+        "Pattern" | "TextureFilter" | "TextureWrap" | "MappingWords" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
             files = &[CHECKER];
         }

@@ -74,16 +74,18 @@ fn field_schema(field: &FieldDef, definitions: &mut Map<String, Value>) -> Map<S
 
 fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) -> Map<String, Value> {
     let value = match kind {
-        Type::Bool => json!({ "type": "boolean" }),
-        Type::Number => Value::Object(number("number", rule)),
-        Type::Integer => Value::Object(number("integer", rule)),
+        Type::Bool => or_expression(json!({ "type": "boolean" })),
+        Type::Number => or_expression(Value::Object(number("number", rule))),
+        Type::Integer => or_expression(Value::Object(number("integer", rule))),
         Type::Text | Type::File => json!({ "type": "string", "minLength": 1 }),
-        Type::Vector => vector(rule),
+        Type::Pair => or_expression(vector(rule, 2)),
+        Type::Vector => or_expression(vector(rule, 3)),
         Type::Color => json!({ "anyOf": [
             number("number", rule),
-            vector(rule),
-            { "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" },
+            vector(rule, 3),
+            { "type": "string", "pattern": "^(#[0-9a-fA-F]{6}$|=)" },
         ] }),
+        Type::Value => json!({ "type": ["number", "boolean", "string", "array"] }),
         Type::List(inner) => json!({ "type": "array", "items": type_schema(*inner, rule, definitions) }),
         Type::Map(inner) => {
             json!({ "type": "object", "additionalProperties": type_schema(*inner, rule, definitions) })
@@ -170,8 +172,14 @@ fn number(kind: &str, rule: &Rule) -> Map<String, Value> {
     out
 }
 
-fn vector(rule: &Rule) -> Value {
-    json!({ "type": "array", "items": number("number", rule), "minItems": 3, "maxItems": 3 })
+/// The value itself, or an expression in its place.
+fn or_expression(value: Value) -> Value {
+    json!({ "anyOf": [value, { "type": "string", "pattern": "^=" }] })
+}
+
+fn vector(rule: &Rule, count: usize) -> Value {
+    let item = or_expression(Value::Object(number("number", rule)));
+    json!({ "type": "array", "items": item, "minItems": count, "maxItems": count })
 }
 
 fn json_number(value: f64) -> Value {

@@ -12,6 +12,7 @@ mod convert;
 pub mod desc;
 pub mod diagnostic;
 mod examples;
+mod expression;
 mod files;
 mod follow_ups;
 mod form;

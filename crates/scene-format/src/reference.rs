@@ -42,9 +42,33 @@ Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }
 - Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML; kinds without fields are `Name` and `\"Name\"`.
 - Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
 - Comments: `//` and `/* */` in RON, `#` in TOML.
-- The words `include`, `vars`, `repeat`, `keyframes`, `for` and `let` are kept for later versions.
+- The words `include`, `repeat`, `keyframes`, `for` and `let` are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`.
+
+## Expressions
+
+A text that begins with `=` stands for a number, a vector, a colour or a truth value, wherever one may stand; `vars` names values for them:
+
+```ron
+Scene(
+    background: 1,
+    vars: { \"height\": 0.75, \"leg\": 0.06, \"wood\": \"#804020\", \"corner\": (0.5, \"=height/2\", 0.3) },
+    objects: [
+        Box(center: (0, \"=height\", 0), size: (1.2, 0.05, 0.8), material: Diffuse(albedo: \"=wood\")),
+        Box(center: \"=corner\", size: (\"=leg\", \"=height\", \"=leg\")),
+        Box(center: \"=corner*(-1, 1, -1)\", size: (\"=leg\", \"=height\", \"=leg\")),
+    ],
+)
+```
+
+- `vars` stand in any order and may use each other; `--set vars.height=1` sets one from the command line.
+- `+ - * / % ^`, comparisons, `&& || !`; `%` has the divisor's sign; `-2^2` is -4. Vectors go component by component, also with
+  numbers; `p.x`, `c.r` and `list[0]` are their parts.
+- Functions: `abs sign floor ceil round sqrt exp log`, `sin cos tan asin acos atan atan2(y, x)` in degrees, `min max clamp(x, low, high)
+  mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `length normalize dot cross`, `hsv(hue, saturation, value)`,
+  `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`.
+- Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every machine.
 
 ## In an editor
 

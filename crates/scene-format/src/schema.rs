@@ -15,11 +15,15 @@ pub(crate) enum Type {
     Text,
     /// A path, relative to the scene file.
     File,
+    /// Two numbers.
+    Pair,
     /// Three numbers.
     Vector,
     /// Three numbers, one for grey, or `"#rrggbb"`.
     Color,
     List(&'static Type),
+    /// What may stand in `vars`: numbers, vectors, colours, truth values, lists of these, expressions.
+    Value,
     /// Names with values.
     Map(&'static Type),
     Struct(&'static StructDef),
@@ -288,7 +292,7 @@ pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
         Type::List(_) => item.kind() == Kind::List,
         Type::Color => !compound,
         Type::Number | Type::Integer => matches!(item.kind(), Kind::Integer | Kind::Float),
-        Type::Vector => matches!(item.kind(), Kind::List | Kind::Tuple) && !compound,
+        Type::Vector | Type::Pair => matches!(item.kind(), Kind::List | Kind::Tuple) && !compound,
         _ => !compound && item.kind() != Kind::Text,
     }
 }

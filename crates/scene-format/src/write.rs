@@ -36,6 +36,7 @@ pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String 
 
 fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
     let words = Scene {
+        vars: crate::read::Vars,
         version: scene.version,
         camera: scene.camera.clone(),
         image: scene.image.clone(),

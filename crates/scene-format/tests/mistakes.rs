@@ -219,9 +219,13 @@ const MISTAKES: &[Mistake] = mistakes![
         Some((from..to, s.text[s.token(1)?.at.start..s.tokens[item].at.end].to_owned()))
     };
     // Texts.
-    BOTH "no closing quote" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_end_matches('"')) };
+    // The brackets and signs of an expression look like the file's own.
+    BOTH "no closing quote" |s| {
+        when(s.is(0, Kind::Text, &[]) && !s.here().starts_with("\"="))?;
+        s.becomes(s.here().trim_end_matches('"'))
+    };
     BOTH "no opening quote" |s| {
-        when(s.is(0, Kind::Text, &[]) && !s.here().starts_with("\"#"))?;
+        when(s.is(0, Kind::Text, &[]) && !s.here().starts_with("\"#") && !s.here().starts_with("\"="))?;
         s.becomes(s.here().trim_start_matches('"'))
     };
     RON "no quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_matches('"')) };

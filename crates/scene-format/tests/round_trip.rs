@@ -37,20 +37,41 @@ fn text(random: &mut Random) -> String {
     format!("n{letters}")
 }
 
-fn albedo(random: &mut Random) -> Albedo {
-    if random.below(3) > 0 {
-        return Albedo::Color(share(random).into());
+fn mapping(random: &mut Random) -> Mapping {
+    if random.below(2) == 0 {
+        return Mapping::default();
     }
-    Albedo::Texture(Texture {
-        file: PathBuf::from(text(random)).into(),
-        filter: *random.pick(&[TextureFilter::Bilinear, TextureFilter::Nearest]),
-        wrap: *random.pick(&[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]),
-    })
+    let uniform = number(random, -100.0, 100.0);
+    let scale = [uniform, if random.below(2) == 0 { uniform } else { number(random, -100.0, 100.0) }];
+    let offset = if random.below(2) == 0 { [0.0; 2] } else { [random.unit(), number(random, -9.0, 9.0)] };
+    Mapping::uv(scale, number(random, -360.0, 360.0), offset)
+}
+
+fn albedo(random: &mut Random) -> Albedo {
+    match random.below(6) {
+        0 => Albedo::Texture(Texture {
+            file: PathBuf::from(text(random)).into(),
+            filter: *random.pick(&[TextureFilter::Bilinear, TextureFilter::Nearest]),
+            wrap: *random.pick(&[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]),
+            mapping: mapping(random),
+        }),
+        1 => Albedo::Checkerboard(Box::new(Checkerboard {
+            a: share(random).into(),
+            b: share(random).into(),
+            mapping: mapping(random),
+        })),
+        _ => Albedo::Color(share(random).into()),
+    }
 }
 
 fn material(random: &mut Random) -> Material {
-    match random.below(4) {
+    match random.below(5) {
         0 => Material::Diffuse { albedo: albedo(random) },
+        4 => {
+            let color = share(random).map(|channel| channel * 1e3);
+            let emission = if random.below(2) == 0 { Emission::Radiance(color) } else { Emission::Power(color) };
+            Material::Emissive(Box::new(Emissive { emission: emission.into(), two_sided: random.below(2) == 0 }))
+        }
         1 => Material::Mirror { reflectance: share(random).into() },
         2 => Material::Transparent {
             ior: number(random, 1.0, 3.0).into(),
@@ -93,28 +114,40 @@ fn scene(random: &mut Random) -> SceneDesc {
     };
     let mut objects = Vec::new();
     for _ in 0..1 + random.below(5) {
-        objects.push(
-            if random.below(2) == 0 {
-                let material = material_ref(random);
-                Object::Sphere(Sphere { center: vector(random).into(), radius: length(random).into(), material })
-            } else {
-                let material = material_ref(random);
-                let placements = match random.below(3) {
-                    0 => Placements::One,
-                    1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
-                    _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
-                };
-                Object::Mesh(Mesh {
-                    file: PathBuf::from(text(random)).into(),
-                    material,
-                    transform: transforms(random),
-                    placements,
-                    instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
-                    shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
-                })
-            }
-            .into(),
-        );
+        let material = material_ref(random);
+        let placements = match random.below(3) {
+            0 => Placements::One,
+            1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
+            _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
+        };
+        let object = match random.below(5) {
+            0 | 1 => Object::Sphere(Sphere { center: vector(random).into(), radius: length(random).into(), material }),
+            2 => Object::Rectangle(Box::new(Rectangle {
+                center: vector(random).into(),
+                normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),
+                size: PerAxis([length(random), length(random)]).into(),
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            3 => Object::Box(Box::new(RectBox {
+                center: vector(random).into(),
+                size: PerAxis(if random.below(2) == 0 { [length(random); 3] } else { [1.0, length(random), 2.0] })
+                    .into(),
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            _ => Object::Mesh(Mesh {
+                file: PathBuf::from(text(random)).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
+                shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
+            }),
+        };
+        objects.push(object.into());
     }
     let light = |random: &mut Random| {
         let color = share(random).map(|channel| channel * 100.0);

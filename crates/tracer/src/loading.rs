@@ -179,17 +179,13 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
     let mut files: Vec<&Path> = Vec::new();
     let mut materials: Vec<&Material> = desc.materials.iter().map(|named| &named.material).collect();
     for object in &desc.objects {
-        let material = match &object.value {
-            Object::Sphere(sphere) => &sphere.material,
-            Object::Mesh(mesh) => {
-                files.push(&mesh.file.value);
-                if let Placements::File(file) = &mesh.placements {
-                    files.push(&file.value);
-                }
-                &mesh.material
-            }
-        };
-        if let MaterialRef::Inline(material) = material {
+        if let Object::Mesh(mesh) = &object.value {
+            files.push(&mesh.file.value);
+        }
+        if let Some(Placements::File(file)) = object.value.placements() {
+            files.push(&file.value);
+        }
+        if let MaterialRef::Inline(material) = object.value.material() {
             materials.push(&material.value);
         }
     }

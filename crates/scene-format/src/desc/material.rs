@@ -1,14 +1,12 @@
 //! Materials and textures.
 
-use super::Color;
+use super::{Albedo, Color, Emissive, Texture};
 use crate::diagnostic::{Span, Spanned};
-use crate::files::FileKind;
 use crate::form::{Entry, Form};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
-use crate::words::{Words, scene_enum, scene_struct, scene_words};
-use std::path::Path;
+use crate::words::{Words, scene_enum};
 use std::sync::Arc;
 
 /// A material with its name.
@@ -53,6 +51,8 @@ scene_enum! {
             /// The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
             energy_conserving: bool = false;
         };
+        /// A surface that shines and reflects nothing: any object with it is a light.
+        Emissive(Box<Emissive>);
     }
 }
 
@@ -62,11 +62,11 @@ impl Material {
         let albedo = match self {
             Material::Diffuse { albedo } => albedo,
             Material::BlinnPhong { albedo, .. } => &**albedo,
-            Material::Mirror { .. } | Material::Transparent { .. } => return None,
+            Material::Mirror { .. } | Material::Transparent { .. } | Material::Emissive(_) => return None,
         };
         match albedo {
             Albedo::Texture(texture) => Some(texture),
-            Albedo::Color(_) => None,
+            Albedo::Color(_) | Albedo::Checkerboard(_) => None,
         }
     }
 }
@@ -74,82 +74,6 @@ impl Material {
 impl Default for Material {
     fn default() -> Self {
         Material::Diffuse { albedo: Albedo::default() }
-    }
-}
-
-/// A colour, constant or from a picture.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Albedo {
-    /// The same everywhere.
-    Color(Spanned<Color>),
-    /// From a picture.
-    Texture(Texture),
-}
-
-impl Default for Albedo {
-    fn default() -> Self {
-        Albedo::Color([0.8; 3].into())
-    }
-}
-
-scene_enum! {
-    /// A colour that comes from a picture.
-    pub(crate) enum Pattern, "texture" {
-        /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
-        Texture(Texture);
-    }
-}
-
-impl Words for Albedo {
-    const TYPE: Type = Type::OneOf(&[Type::Color, Pattern::TYPE]);
-
-    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
-            let Pattern::Texture(texture) = Pattern::read(reader, item, at)?;
-            return Some(Albedo::Texture(texture));
-        }
-        <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
-    }
-
-    fn form(&self, all: bool) -> Form {
-        match self {
-            Albedo::Color(color) => color.form(all),
-            Albedo::Texture(texture) => Pattern::Texture(texture.clone()).form(all),
-        }
-    }
-}
-
-scene_struct! {
-    /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
-    pub struct Texture as "Texture", "a texture" {
-        /// PNG or JPEG, relative to the scene file.
-        file: Spanned<Arc<Path>> => Rule::file(FileKind::Texture);
-        /// Between texels.
-        filter: TextureFilter = TextureFilter::Bilinear;
-        /// Beyond the borders.
-        wrap: TextureWrap = TextureWrap::Repeat;
-    }
-}
-
-scene_words! {
-    /// Between texels.
-    pub enum TextureFilter, "texture filter" {
-        /// Linear between the four nearest.
-        Bilinear,
-        /// The nearest texel.
-        Nearest,
-    }
-}
-
-scene_words! {
-    /// Beyond the borders.
-    pub enum TextureWrap, "texture wrap" {
-        /// Tiles.
-        Repeat,
-        /// The border texel goes on.
-        Clamp,
-        /// Tiles, every second one mirrored.
-        Mirror,
     }
 }
 

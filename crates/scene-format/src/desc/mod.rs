@@ -7,23 +7,32 @@
 //! reader goes by and that the reference and the JSON Schema show.
 
 mod effects;
+mod emissive;
 mod light;
 mod material;
 mod object;
+mod per_axis;
+mod shapes;
+mod textures;
 mod transform;
 mod view;
 
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
+pub use emissive::Emissive;
 pub use light::{Emission, Light, SphereLight};
-pub(crate) use material::Pattern;
-pub use material::{Albedo, Material, MaterialRef, NamedMaterial, Texture, TextureFilter, TextureWrap};
-pub use object::{Instances, Mesh, Object, Placements, Shading, Sphere};
+pub use material::{Material, MaterialRef, NamedMaterial};
+pub use object::Object;
+pub use per_axis::PerAxis;
+pub use shapes::{Instances, Mesh, PlacementList, Placements, RectBox, Rectangle, Shading, Sphere};
+pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
+pub(crate) use textures::{MappingWords, Pattern};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
+use crate::read::Vars;
 use crate::schema::Rule;
 use crate::words::scene_struct;
 use std::path::PathBuf;
@@ -69,6 +78,8 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
+        /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
+        vars: Vars = Vars;
         /// The camera.
         camera: Camera = Camera::default();
         /// The picture's size.

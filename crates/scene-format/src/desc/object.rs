@@ -1,186 +1,62 @@
-//! Objects: spheres and meshes.
+//! Objects: what is to be seen.
 
-use super::{MaterialRef, Transform, Vec3};
+use super::shapes::{Mesh, Placements, RectBox, Rectangle, Sphere};
+use super::{MaterialRef, Transform};
 use crate::diagnostic::Spanned;
-use crate::files::FileKind;
-use crate::form::Form;
-use crate::read::{Reader, make_room};
-use crate::schema::{FieldDef, Rule, Type};
-use crate::tree::{Item, Kind};
-use crate::words::{Words, scene_enum, scene_struct, scene_words};
-use std::path::Path;
-use std::sync::Arc;
+use crate::words::scene_enum;
 
 scene_enum! {
     /// A thing in the scene.
     pub enum Object, "object" {
         /// A sphere.
         Sphere(Sphere);
+        /// A flat rectangle: a floor, a wall, a picture, a square lamp.
+        Rectangle(Box<Rectangle>);
+        /// A box with right angles.
+        Box(Box<RectBox>);
         /// A triangle mesh from a file.
         Mesh(Mesh);
     }
 }
 
-scene_struct! {
-    /// A sphere.
-    pub struct Sphere as "Sphere", "a sphere" {
-        /// Centre.
-        center: Spanned<Vec3> => Rule::point();
-        /// Radius.
-        radius: Spanned<f64> => Rule::length("a length");
-        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
-        material: MaterialRef = MaterialRef::Default;
-    }
-}
-
-scene_struct! {
-    /// A triangle mesh.
-    pub struct Mesh as "Mesh", "a mesh" {
-        /// OFF or OBJ file, relative to the scene file.
-        file: Spanned<Arc<Path>> => Rule::file(FileKind::Mesh);
-        /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
-        material: MaterialRef = MaterialRef::Default;
-        /// Transforms, applied first to last.
-        transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
-        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
-        /// Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
-        instances: Instances = Instances::Auto;
-        /// Whether normals are interpolated.
-        shading: Shading = Shading::Auto;
-    }
-}
-
-scene_words! {
-    /// Whether normals are interpolated over triangles (Phong smoothing).
-    pub enum Shading, "shading" {
-        /// Smooth when the file has vertex normals, else flat.
-        Auto,
-        /// Smooth: by the file's vertex normals, or by area- and angle-weighted ones where it has none.
-        Smooth,
-        /// Flat: the triangles' own normals.
-        Flat,
-    }
-}
-
-scene_words! {
-    /// Whether copies of a mesh share its triangles. The picture is the same but for rounding.
-    pub enum Instances, "instances" {
-        /// As `Never` where there are at most 1024 copies and they have 262144 triangles together at most; else as `Always`.
-        Auto,
-        /// They do: a further copy takes 64 bytes, whatever the mesh. Rays take up to a third longer.
-        Always,
-        /// Each copy has its own triangles in the scene's one tree, 80 to 130 bytes each: the fastest rays.
-        Never,
-    }
-}
-
-/// Many copies of one mesh.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub enum Placements {
-    /// One copy, where `transform` puts it.
-    #[default]
-    One,
-    /// Copies, each with its own transforms (about the origin of the scene unless they say `about`).
-    List(Box<PlacementList>),
-    /// A text file of placements, one a line, relative to the scene file.
-    File(Box<Spanned<Arc<Path>>>),
-}
-
-/// Placements that a scene writes out. The steps of all of them stand in one list: a scene may have millions.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct PlacementList {
-    steps: Vec<Spanned<Transform>>,
-    /// Where the steps of each placement end.
-    ends: Vec<u32>,
-}
-
-impl PlacementList {
-    /// Adds a step to the last placement, which [`PlacementList::end`] ends.
-    pub fn push(&mut self, step: Spanned<Transform>) {
-        self.steps.push(step);
-    }
-
-    /// Ends a placement.
-    pub fn end(&mut self) {
-        self.ends.push(self.steps.len() as u32);
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.ends.is_empty()
-    }
-
-    /// The placements, each with its steps from first to last.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Spanned<Transform>]> {
-        let mut start = 0;
-        self.ends.iter().map(move |&end| {
-            let steps = &self.steps[start..end as usize];
-            start = end as usize;
-            steps
-        })
-    }
-}
-
-impl FromIterator<Vec<Spanned<Transform>>> for PlacementList {
-    fn from_iter<I: IntoIterator<Item = Vec<Spanned<Transform>>>>(placements: I) -> Self {
-        let mut list = PlacementList::default();
-        for steps in placements {
-            list.steps.extend(steps);
-            list.end();
-        }
-        list
-    }
-}
-
-/// The text in `File("..")` or `{ File = ".." }`: the name of a file needs no word around it.
-fn wrapped_text(item: Item<'_, '_>) -> Option<String> {
-    let mut inside = match item.kind() {
-        Kind::Map if item.lexeme().starts_with('{') => item.fields().map(|(_, value)| value).collect::<Vec<_>>(),
-        Kind::Tuple => item.children().collect(),
-        _ => Vec::new(),
-    };
-    let only = inside.pop().filter(|only| only.kind() == Kind::Text && inside.is_empty())?;
-    Some(only.lexeme().to_owned())
-}
-
-impl Words for Placements {
-    const TYPE: Type = Type::OneOf(&[Type::List(&Type::List(&Transform::TYPE)), Type::File]);
-
-    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        match item.kind() {
-            Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| Placements::File(Box::new(file))),
-            Kind::List => {
-                let mut list = PlacementList::default();
-                reader.items(item, at, |reader, placement| {
-                    let steps = reader.items(placement, at, |reader, step| {
-                        let value = <Spanned<Transform>>::read(reader, step, at);
-                        make_room(&mut list.steps, item, step);
-                        list.steps.extend(value);
-                    });
-                    if steps.is_some() {
-                        make_room(&mut list.ends, item, placement);
-                        list.end();
-                    }
-                });
-                Some(if list.is_empty() { Placements::One } else { Placements::List(Box::new(list)) })
-            }
-            _ => {
-                let expected = "a list of lists of transforms, or the name of a placements file between quotes";
-                reader.wrong_kind(item, at.noun, expected, wrapped_text(item))
-            }
-        }
-    }
-
-    fn form(&self, all: bool) -> Form {
+impl Object {
+    /// Its material.
+    pub fn material(&self) -> &MaterialRef {
         match self {
-            Placements::One => Form::List(Vec::new()),
-            Placements::List(list) => {
-                let placement = |steps: &[Spanned<Transform>]| Form::list(steps.iter().map(|step| step.form(all)));
-                Form::list(list.iter().map(placement))
-            }
-            Placements::File(file) => file.form(all),
+            Object::Sphere(sphere) => &sphere.material,
+            Object::Rectangle(rectangle) => &rectangle.material,
+            Object::Box(cuboid) => &cuboid.material,
+            Object::Mesh(mesh) => &mesh.material,
+        }
+    }
+
+    /// Its material, to be changed.
+    pub fn material_mut(&mut self) -> &mut MaterialRef {
+        match self {
+            Object::Sphere(sphere) => &mut sphere.material,
+            Object::Rectangle(rectangle) => &mut rectangle.material,
+            Object::Box(cuboid) => &mut cuboid.material,
+            Object::Mesh(mesh) => &mut mesh.material,
+        }
+    }
+
+    /// Its transforms, first to last; `None` where it has no such field.
+    pub fn transform(&self) -> Option<&[Spanned<Transform>]> {
+        match self {
+            Object::Sphere(_) => None,
+            Object::Rectangle(rectangle) => Some(&rectangle.transform),
+            Object::Box(cuboid) => Some(&cuboid.transform),
+            Object::Mesh(mesh) => Some(&mesh.transform),
+        }
+    }
+
+    /// Where its copies are; `None` where it has no such field.
+    pub fn placements(&self) -> Option<&Placements> {
+        match self {
+            Object::Sphere(_) => None,
+            Object::Rectangle(rectangle) => Some(&rectangle.placements),
+            Object::Box(cuboid) => Some(&cuboid.placements),
+            Object::Mesh(mesh) => Some(&mesh.placements),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, Scene, VERSION, Vec3};
-use crate::diagnostic::{Diagnostic, Severity, Span};
+use crate::desc::{Camera, Material, MaterialRef, Object, Scene, VERSION, Vec3};
+use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -63,10 +63,15 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.is_value();
     if !reader.sink.diagnostics.iter().any(structure) {
         reader.unused_materials();
+        reader.unused_vars();
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
         let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background == [0.0; 3];
-        if dark && black {
+        let shines = |object: &Spanned<Object>| match object.value.material() {
+            MaterialRef::Inline(material) => matches!(material.value, Material::Emissive(_)),
+            MaterialRef::Named { .. } | MaterialRef::Default => false,
+        };
+        if dark && black && !reader.materials.any_shines() && !scene.objects.iter().any(shines) {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(

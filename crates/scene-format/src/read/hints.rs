@@ -81,7 +81,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 8] = [
+    const SYNONYMS: [(&str, &[&str]); 12] = [
         ("Diffuse", &["lambertian", "lambert", "matte", "matt", "roughdiffuse"]),
         ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
         ("Transparent", &["glass", "dielectric", "refractive"]),
@@ -89,6 +89,10 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Mesh", &["obj", "off", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
+        ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
+        ("Box", &["cube", "cuboid", "brick"]),
+        ("Emissive", &["emitter", "light", "area", "emission", "arealight", "glow", "areasource"]),
+        ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
     let lower = name.to_ascii_lowercase();
@@ -100,10 +104,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
 pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     let has = |kind| def.variant(kind).is_some();
     match name.to_ascii_lowercase().as_str() {
-        "plane" | "ground" | "floor" | "rectangle" | "quad" if has("Sphere") => {
-            Some("a floor is a very large sphere, or a mesh of two triangles")
-        }
-        "box" | "cube" | "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
+        "plane" | "ground" | "floor" if has("Rectangle") => Some("a floor is a large `Rectangle(size: 20)`"),
+        "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
             Some("other shapes are meshes: name an OBJ or OFF file in a `Mesh`")
         }
         "directional" | "distant" | "sun" | "directionallight" | "distantlight" if has("SphereLight") => {
@@ -112,8 +114,8 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "environment" | "sky" | "constant" | "envmap" | "infinite" | "ambientlight" if has("SphereLight") => {
             Some("light from all around is the scene's `background`")
         }
-        "emissive" | "emitter" | "light" | "area" if has("Diffuse") => {
-            Some("what shines is a light: put a `SphereLight` into `lights`")
+        "quadlight" | "rectanglelight" | "rectlight" | "arealight" | "area" | "disklight" if has("SphereLight") => {
+            Some("a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`")
         }
         _ => None,
     }

@@ -42,6 +42,11 @@ impl Materials {
         std::mem::take(&mut self.read)
     }
 
+    /// Whether one of them shines.
+    pub fn any_shines(&self) -> bool {
+        self.read.iter().any(|named| matches!(named.material, Material::Emissive(_)))
+    }
+
     fn name(&self, number: u32) -> &Spanned<Arc<str>> {
         match self.read.get(number as usize) {
             Some(named) => &named.name,

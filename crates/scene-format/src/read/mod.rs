@@ -8,11 +8,13 @@ mod hints;
 mod materials;
 mod value;
 mod variant;
+mod vars;
 mod vector;
 
 pub(crate) use check::scene;
-pub(crate) use value::expected;
+pub(crate) use value::{expected, hex_color, linear_from_srgb};
 pub(crate) use variant::choices;
+pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
 use crate::desc::Scene;
@@ -29,7 +31,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Words that later versions of the language will give a meaning.
-const RESERVED: [&str; 6] = ["include", "vars", "repeat", "keyframes", "for", "let"];
+const RESERVED: [&str; 5] = ["include", "repeat", "keyframes", "for", "let"];
 
 /// Where a value stands: a step of a field path.
 #[derive(Clone, Debug)]
@@ -44,6 +46,7 @@ pub(crate) struct Reader<'r> {
     sink: &'r mut Sink,
     path: Vec<Step>,
     materials: Materials,
+    vars: vars::Table,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
 }
@@ -95,7 +98,7 @@ pub(crate) fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_
 
 impl<'r> Reader<'r> {
     pub fn new(sink: &'r mut Sink) -> Reader<'r> {
-        Reader { sink, path: Vec::new(), materials: Materials::default(), file: None }
+        Reader { sink, path: Vec::new(), materials: Materials::default(), vars: vars::Table::default(), file: None }
     }
 
     pub(crate) fn path(&self) -> String {

@@ -3,6 +3,7 @@
 use super::{Reader, plain, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::expression::Value;
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::suggest;
@@ -20,6 +21,7 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
         Syntax::Ron => words,
         Syntax::Toml => words
             .replace("(x, y, z)", "[x, y, z]")
+            .replace("(x, y)", "[x, y]")
             .replace("(r, g, b)", "[r, g, b]")
             .replace("Texture(..)", "{ Texture = .. }")
             .replace("or None", "or \"None\""),
@@ -36,6 +38,7 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Number | Type::Integer, what) => what.to_owned(),
         (Type::Text, _) => "a name between quotes".to_owned(),
         (Type::File, _) => "the name of a file, between quotes, relative to the scene file".to_owned(),
+        (Type::Pair, what) => format!("{what}: (x, y)"),
         (Type::Vector, "") => "three numbers: (x, y, z)".to_owned(),
         (Type::Vector, what) => format!("{what}: (x, y, z)"),
         (Type::Color | Type::Optional(Type::Color), _) => {
@@ -50,6 +53,7 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             return format!("{}, or None", with_unit(format!("{what} {words}"), at));
         }
         (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
+        (Type::Value, _) => "a number, a vector, a colour, true or false, or a list of these".to_owned(),
         (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
         (Type::Struct(def), _) => def.noun.to_owned(),
         (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
@@ -58,6 +62,7 @@ pub(crate) fn expected(at: &FieldDef) -> String {
                 "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or Texture(..)"
             );
         }
+        (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
         (Type::OneOf(_), _) => "a value".to_owned(),
     };
@@ -79,6 +84,9 @@ impl Reader<'_> {
     pub(crate) fn number(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<f64> {
         if let Some(value) = item.number() {
             return Some(value);
+        }
+        if let Some(value) = self.expression(item) {
+            return value.and_then(|value| self.number_of(value, item, at));
         }
         let mut edit = None;
         if let Kind::Text | Kind::Word = item.kind() {
@@ -168,7 +176,7 @@ impl Words for u32 {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let value = reader.number(item, at)?;
-        if item.kind() == Kind::Float && value.is_finite() {
+        if (item.kind() == Kind::Float || value.fract() != 0.0) && value.is_finite() {
             let mut fault =
                 Diagnostic::error(codes::NOT_WHOLE, item.span(), format!("{} must be a whole number", plain(at.noun)))
                     .expected(expected_for(at, item));
@@ -195,6 +203,12 @@ impl Words for bool {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         if item.kind() == Kind::Bool {
             return Some(item.lexeme() == "true");
+        }
+        if let Some(value) = reader.expression(item) {
+            return match value? {
+                Value::Bool(value) => Some(value),
+                other => reader.wrong_value(&other, item, at),
+            };
         }
         let text = item.text().to_ascii_lowercase();
         let edit = match text.as_str() {
@@ -322,7 +336,7 @@ fn is_picture(text: &str) -> bool {
 }
 
 /// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.
-fn linear_from_srgb(encoded: f64) -> f64 {
+pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 

@@ -5,6 +5,7 @@ use super::{Reader, plain};
 use crate::codes;
 use crate::desc::Vec3;
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::expression::Value;
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
@@ -25,17 +26,34 @@ impl Reader<'_> {
         {
             return Some(value);
         }
+        self.numbers(item, at, names)
+    }
+
+    /// So many numbers in brackets of either kind, each in the field's range.
+    pub(crate) fn numbers<const N: usize>(
+        &mut self,
+        item: Item<'_, '_>,
+        at: &'static FieldDef,
+        names: [&str; N],
+    ) -> Option<[f64; N]> {
+        if let Some(value) = self.expression(item) {
+            let value = value?;
+            return match value.numbers().try_into() {
+                Ok(numbers) => self.all_in_range(numbers, item, at, names),
+                Err(_) => self.wrong_value(&value, item, at),
+            };
+        }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
             return self.wrong_type(item, at, &expected_for(at, item));
         }
         let mut children = item.children();
-        let three: [Option<Item<'_, '_>>; 3] = std::array::from_fn(|_| children.next());
-        let count = three.iter().flatten().count() + children.take(MANY).count();
-        let mut value = [0.0; 3];
+        let first: [Option<Item<'_, '_>>; N] = std::array::from_fn(|_| children.next());
+        let count = first.iter().flatten().count() + children.take(MANY).count();
+        let mut value = [0.0; N];
         let mut good = true;
         // Which of four numbers is wrong nobody knows: then only their number is told.
-        for ((child, slot), name) in three.into_iter().flatten().zip(&mut value).zip(names).take_while(|_| count == 3) {
+        for ((child, slot), name) in first.into_iter().flatten().zip(&mut value).zip(names).take_while(|_| count == N) {
             if child.kind() == Kind::Broken {
                 good = false;
                 continue;
@@ -46,39 +64,74 @@ impl Reader<'_> {
                 None => good = false,
             }
         }
-        if count == 3 {
+        if count == N {
             return good.then_some(value);
         }
         if !item.is_damaged() {
-            let numbers = match count {
-                0 => "none".to_owned(),
-                1 => "one".to_owned(),
-                count if count > MANY => "so many".to_owned(),
-                count => count.to_string(),
-            };
-            let mut fault = Diagnostic::error(
-                codes::WRONG_COUNT,
-                item.head(),
-                format!("{} has three numbers, not {numbers}", plain(at.noun)),
-            )
-            .expected(expected_for(at, item));
-            if let Some(mended) = with_decimal_points(item) {
-                fault = fault.hint(format!("numbers have a decimal point: {mended}"));
-                fault.edit = Some(Edit { span: item.span(), replacement: mended });
-            }
-            self.report(fault);
+            self.wrong_count(item, at, count, N);
         }
         None
+    }
+
+    /// Reports `count` numbers where there should be `right`.
+    pub(super) fn wrong_count(&mut self, item: Item<'_, '_>, at: &'static FieldDef, count: usize, right: usize) {
+        let numbers = match count {
+            0 => "none".to_owned(),
+            1 => "one".to_owned(),
+            count if count > MANY => "so many".to_owned(),
+            count => count.to_string(),
+        };
+        let right_word = if right == 2 { "two" } else { "three" };
+        let message = format!("{} has {right_word} numbers, not {numbers}", plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message).expected(expected_for(at, item));
+        if let Some(mended) = with_decimal_points(item, right) {
+            fault = fault.hint(format!("numbers have a decimal point: {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        }
+        self.report(fault);
+    }
+
+    /// Numbers of an expression, each in the field's range.
+    fn all_in_range<const N: usize>(
+        &mut self,
+        numbers: [f64; N],
+        item: Item<'_, '_>,
+        at: &'static FieldDef,
+        names: [&str; N],
+    ) -> Option<[f64; N]> {
+        for (number, name) in numbers.into_iter().zip(names) {
+            self.check(number, item, at, name)?;
+        }
+        Some(numbers)
+    }
+
+    /// One number for all, or so many; for fields that take both.
+    pub(crate) fn one_or_more<const N: usize>(
+        &mut self,
+        item: Item<'_, '_>,
+        at: &'static FieldDef,
+        names: [&str; N],
+    ) -> Option<[f64; N]> {
+        if let Some(value) = self.expression(item) {
+            let value = value?;
+            return match (&value, value.numbers().try_into()) {
+                (Value::Number(number), _) => self.all_in_range([*number; N], item, at, [""; N]),
+                (_, Ok(numbers)) => self.all_in_range(numbers, item, at, names),
+                (_, Err(_)) => self.wrong_value(&value, item, at),
+            };
+        }
+        if let Kind::List | Kind::Tuple = item.kind() {
+            return self.numbers(item, at, names);
+        }
+        let number = self.number(item, at)?;
+        Some([self.check(number, item, at, "")?; N])
     }
 
     /// A factor per axis, or one for all; none may be zero.
     pub(crate) fn factor(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vec3> {
         let factor = match item.kind() {
             Kind::List | Kind::Tuple => self.three(item, at, AXES)?,
-            _ => {
-                let number = self.number(item, at)?;
-                [self.check(number, item, at, "")?; 3]
-            }
+            _ => self.one_or_more(item, at, AXES)?,
         };
         if factor.iter().any(|f| f.abs() < crate::schema::MIN_LENGTH) {
             self.report(
@@ -91,8 +144,8 @@ impl Reader<'_> {
     }
 }
 
-/// `(0.5, 1, 2)` for `(0,5, 1, 2)`: commas with no space after them, when that makes three numbers.
-fn with_decimal_points(item: Item<'_, '_>) -> Option<String> {
+/// `(0.5, 1, 2)` for `(0,5, 1, 2)`: commas with no space after them, when that makes so many numbers.
+fn with_decimal_points(item: Item<'_, '_>, count: usize) -> Option<String> {
     let lexeme = item.lexeme();
     let inner = lexeme.get(1..lexeme.len().checked_sub(1)?)?;
     let numbers: Vec<&str> = inner.split(", ").collect();
@@ -103,7 +156,7 @@ fn with_decimal_points(item: Item<'_, '_>) -> Option<String> {
         }
         None => true,
     };
-    (numbers.len() == 3 && numbers.iter().all(|number| decimal(number))).then(|| {
+    (numbers.len() == count && numbers.iter().all(|number| decimal(number))).then(|| {
         let numbers: Vec<String> = numbers.iter().map(|number| number.trim().replace(',', ".")).collect();
         format!("{}{}{}", &lexeme[..1], numbers.join(", "), &lexeme[lexeme.len() - 1..])
     })
@@ -120,6 +173,7 @@ impl Words for Vec3 {
                     let grey = reader.number(item, at)?;
                     Some([reader.check(grey, item, at, "")?; 3])
                 }
+                Kind::Text if super::is_expression(item) => reader.one_or_more(item, at, CHANNELS),
                 Kind::Text => reader.text_color(item, at),
                 _ => reader.three(item, at, CHANNELS),
             };

@@ -374,7 +374,9 @@ impl Parser<'_> {
     fn assignment_ahead(&self) -> bool {
         let line = line_ahead(self.text, self.span.start());
         let key = line.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '"' | '\'' | ' ')));
-        key.is_some_and(|at| at > 0 && line[at..].starts_with('='))
+        // What begins with a quote and a sign is an expression.
+        let expression = line.starts_with("\"=") || line.starts_with("'=");
+        key.is_some_and(|at| at > 0 && line[at..].starts_with('=')) && !expression
     }
 }
 

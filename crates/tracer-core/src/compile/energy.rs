@@ -5,7 +5,7 @@
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
-use scene_format::desc::{Albedo, Material, MaterialRef, Object};
+use scene_format::desc::{Albedo, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeSet;
@@ -38,15 +38,9 @@ struct Loud<'d> {
 /// picture by its path.
 pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>, diagnostics: &mut Diagnostics) {
     let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
-    let inline = desc.objects.iter().filter_map(|object| {
-        let material = match &object.value {
-            Object::Sphere(sphere) => &sphere.material,
-            Object::Mesh(mesh) => &mesh.material,
-        };
-        match material {
-            MaterialRef::Inline(material) => Some((None, &material.value)),
-            _ => None,
-        }
+    let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
+        MaterialRef::Inline(material) => Some((None, &material.value)),
+        _ => None,
     });
     let mut known = BTreeSet::new();
     let mut loud: Vec<Loud<'_>> = Vec::new();
@@ -54,6 +48,7 @@ pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>
         let Material::BlinnPhong { albedo, exponent, specular, energy_conserving: false } = material else { continue };
         let (albedo, of_picture) = match &**albedo {
             Albedo::Color(color) => (color.value.into_iter().fold(0.0, f64::max), false),
+            Albedo::Checkerboard(t) => (t.a.value.into_iter().chain(t.b.value).fold(0.0, f64::max), true),
             Albedo::Texture(t) => (texture(&desc.base_dir.join(&t.file.value)).map_or(1.0, Texture::brightest), true),
         };
         let times = reflected_at_most(albedo, specular.value, exponent.value);
@@ -70,7 +65,7 @@ pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>
 fn warning(loud: &[Loud<'_>]) -> Option<Diagnostic> {
     let (first, rest) = loud.split_first()?;
     let who = first.name.map_or_else(|| "this material".to_owned(), |name| format!("the material {name:?}"));
-    let place = if first.of_picture { " where its picture is brightest" } else { "" };
+    let place = if first.of_picture { " where its texture is brightest" } else { "" };
     let more = match rest.len() {
         0 => String::new(),
         1 => "; one more adds light, too".to_owned(),

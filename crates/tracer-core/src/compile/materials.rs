@@ -1,26 +1,45 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
 use crate::scene::{Albedo, Material, TextureUse};
-use crate::texture::{self, Texture};
+use crate::texture::{self, Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{self, MaterialRef};
+use scene_format::desc::{self, Emissive, MaterialRef, TextureFilter, TextureWrap};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// Where a picture comes from.
+enum Image {
+    /// A file, and the place in the scene that names it first.
+    File(PathBuf, Span),
+    /// Two by two squares of a checkerboard.
+    Squares([desc::Color; 2]),
+}
+
+/// Two by two squares of a checkerboard, over which coordinates go from 0 to 2.
+fn squares(colors: [desc::Color; 2]) -> Texture {
+    let [a, b] = colors.map(|color| color.map(|x| x as f32));
+    // Row 0 is the top.
+    Texture { width: 2, height: 2, texels: Texels::Linear(vec![b, a, a, b]), warnings: Diagnostics::new() }
+}
+
 /// Collects materials and texture uses.
 pub struct MaterialBuilder<'a> {
     desc: &'a SceneDesc,
     materials: Vec<Material>,
+    /// Those that shine, and how.
+    emissive: BTreeMap<u32, Emissive>,
     /// Index of each named material in `materials`.
     named: BTreeMap<&'a str, u32>,
     default: Option<u32>,
-    images: Vec<(PathBuf, Span)>,
-    index_of_image: BTreeMap<PathBuf, usize>,
+    images: Vec<Image>,
+    index_of_file: BTreeMap<PathBuf, usize>,
+    /// By the bits of both colours.
+    index_of_squares: BTreeMap<[[u64; 3]; 2], usize>,
     uses: Vec<TextureUse>,
-    /// Per image the indices of its uses, at most one for each filter and wrap.
+    /// Per image the indices of its uses, at most one for each filter, wrap and mapping.
     uses_of_image: Vec<Vec<u32>>,
 }
 
@@ -30,10 +49,12 @@ impl<'a> MaterialBuilder<'a> {
         let mut builder = MaterialBuilder {
             desc,
             materials: Vec::new(),
+            emissive: BTreeMap::new(),
             named: BTreeMap::new(),
             default: None,
             images: Vec::new(),
-            index_of_image: BTreeMap::new(),
+            index_of_file: BTreeMap::new(),
+            index_of_squares: BTreeMap::new(),
             uses: Vec::new(),
             uses_of_image: Vec::new(),
         };
@@ -62,6 +83,11 @@ impl<'a> MaterialBuilder<'a> {
         }
     }
 
+    /// How a material shines, if it does.
+    pub fn emissive(&self, material: u32) -> Option<&Emissive> {
+        self.emissive.get(&material)
+    }
+
     /// The default material's index.
     pub fn default_material(&mut self) -> u32 {
         if let Some(index) = self.default {
@@ -86,53 +112,95 @@ impl<'a> MaterialBuilder<'a> {
                 specular: specular.value,
                 energy_conserving: *energy_conserving,
             },
+            desc::Material::Emissive(emissive) => {
+                self.emissive.insert(self.materials.len() as u32, (**emissive).clone());
+                Material::Emissive
+            }
         };
         self.materials.push(compiled);
         self.materials.len() as u32 - 1
     }
 
     fn albedo(&mut self, albedo: &desc::Albedo, base: Option<&Path>) -> Albedo {
-        let t = match albedo {
+        let (image, filter, wrap, mapping) = match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
-            desc::Albedo::Texture(t) => t,
+            desc::Albedo::Texture(t) => (self.file(t, base), t.filter, t.wrap, t.mapping.rows()),
+            desc::Albedo::Checkerboard(t) => {
+                // The squares are the texels of a picture that is laid over two of them.
+                let mapping = t.mapping.rows().map(|row| row.map(|x| 0.5 * x));
+                (self.squares([t.a.value, t.b.value]), TextureFilter::Nearest, TextureWrap::Repeat, mapping)
+            }
         };
-        let path = base.map_or_else(|| t.file.value.to_path_buf(), |base| base.join(&t.file.value));
-        let image = *self.index_of_image.entry(path).or_insert_with_key(|path| {
-            self.images.push((path.clone(), t.file.span));
-            self.uses_of_image.push(Vec::new());
-            self.images.len() - 1
-        });
-        let same =
-            |&&index: &&u32| self.uses.get(index as usize).is_some_and(|u| u.filter == t.filter && u.wrap == t.wrap);
+        let same = |&&index: &&u32| {
+            self.uses.get(index as usize).is_some_and(|u| u.filter == filter && u.wrap == wrap && u.mapping == mapping)
+        };
         if let Some(&index) = self.uses_of_image[image].iter().find(same) {
             return Albedo::Texture(index);
         }
         let index = self.uses.len() as u32;
-        self.uses.push(TextureUse { image, filter: t.filter, wrap: t.wrap });
+        self.uses.push(TextureUse { image, filter, wrap, mapping });
         self.uses_of_image[image].push(index);
         Albedo::Texture(index)
     }
 
+    fn add_image(&mut self, image: Image) -> usize {
+        self.images.push(image);
+        self.uses_of_image.push(Vec::new());
+        self.images.len() - 1
+    }
+
+    /// The image of a file.
+    fn file(&mut self, texture: &desc::Texture, base: Option<&Path>) -> usize {
+        let file = &texture.file;
+        let path = base.map_or_else(|| file.value.to_path_buf(), |base| base.join(&file.value));
+        if let Some(&index) = self.index_of_file.get(&path) {
+            return index;
+        }
+        let index = self.add_image(Image::File(path.clone(), file.span));
+        self.index_of_file.insert(path, index);
+        index
+    }
+
+    /// The image of a checkerboard's colours.
+    fn squares(&mut self, colors: [desc::Color; 2]) -> usize {
+        let key = colors.map(|color| color.map(f64::to_bits));
+        if let Some(&index) = self.index_of_squares.get(&key) {
+            return index;
+        }
+        let index = self.add_image(Image::Squares(colors));
+        self.index_of_squares.insert(key, index);
+        index
+    }
+
     /// The pictures that materials name.
     pub fn textures(&self) -> impl Iterator<Item = &PathBuf> {
-        self.images.iter().map(|(path, _)| path)
+        self.images.iter().filter_map(|image| match image {
+            Image::File(path, _) => Some(path),
+            Image::Squares(_) => None,
+        })
     }
 
     /// Loads the textures.
     pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>) {
-        let loaded: Vec<_> = self.images.par_iter().map(|(path, _)| texture::load(path)).collect();
+        let load = |image: &Image| match image {
+            Image::File(path, span) => texture::load(path).map_err(|error| error.to_diagnostic(*span)),
+            Image::Squares(colors) => Ok(squares(*colors)),
+        };
+        let loaded: Vec<_> = self.images.par_iter().map(load).collect();
         let mut images = Vec::with_capacity(loaded.len());
-        for (result, (_, span)) in loaded.into_iter().zip(&self.images) {
+        for (result, image) in loaded.into_iter().zip(&self.images) {
             match result {
                 Ok(mut texture) => {
-                    diagnostics.extend(texture.warnings.drain(..).map(|w| Diagnostic { span: *span, ..w }));
+                    if let Image::File(_, span) = image {
+                        diagnostics.extend(texture.warnings.drain(..).map(|w| Diagnostic { span: *span, ..w }));
+                    }
                     images.push(texture);
                 }
-                Err(error) => diagnostics.push(error.to_diagnostic(*span)),
+                Err(error) => diagnostics.push(error),
             }
         }
         if images.len() == self.images.len() {
-            let texture = |path: &Path| self.index_of_image.get(path).and_then(|&index| images.get(index));
+            let texture = |path: &Path| self.index_of_file.get(path).and_then(|&index| images.get(index));
             super::energy::warn(self.desc, texture, diagnostics);
         }
         (self.materials, images, self.uses)

@@ -6,23 +6,24 @@
 
 use super::materials::MaterialBuilder;
 use super::placing::place as place_matrix;
+use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
 use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
-use crate::scene::{Frame, Instance, Mesh, NONE, Triangles};
+use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{self, Instances, MaterialRef, Object, Placements, Shading};
+use scene_format::desc::{Emission, Emissive, Instances, MaterialRef, Placements, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// The mesh files of a scene.
+/// The meshes of a scene: its files, and the shapes that are made of triangles.
 pub struct Loaded {
-    /// Each file once.
+    /// Each file once, then each shape once.
     files: Vec<MeshData>,
-    /// Per mesh object of the scene: its file, or `None` where that could not be loaded.
+    /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
 }
 
@@ -33,30 +34,33 @@ impl Loaded {
     }
 }
 
-/// The mesh objects of a scene, in order.
-fn mesh_objects(desc: &SceneDesc) -> impl Iterator<Item = (&desc::Mesh, Span)> {
-    desc.objects.iter().filter_map(|object| match &object.value {
-        Object::Mesh(mesh) => Some((mesh, object.span)),
-        Object::Sphere(_) => None,
-    })
-}
-
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
 pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
-    let mut path_of_object = Vec::new();
+    let mut shapes: Vec<UnitShape> = Vec::new();
+    let mut geometry_of_object: Vec<Geometry<usize>> = Vec::new();
     // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
-    for (mesh, _) in mesh_objects(desc) {
-        let path = desc.base_dir.join(&mesh.file.value);
-        let index = *index_of_path.entry(path).or_insert_with_key(|path| {
-            paths.push((path.clone(), mesh.file.span));
-            own_materials.push(false);
-            paths.len() - 1
+    for object in polygonal(desc) {
+        geometry_of_object.push(match object.geometry {
+            Geometry::File(file) => {
+                let path = desc.base_dir.join(&file.value);
+                let index = *index_of_path.entry(path).or_insert_with_key(|path| {
+                    paths.push((path.clone(), file.span));
+                    own_materials.push(false);
+                    paths.len() - 1
+                });
+                own_materials[index] |= *object.material == MaterialRef::Default;
+                Geometry::File(index)
+            }
+            Geometry::Unit(shape) => {
+                if !shapes.contains(&shape) {
+                    shapes.push(shape);
+                }
+                Geometry::Unit(shape)
+            }
         });
-        own_materials[index] |= mesh.material == MaterialRef::Default;
-        path_of_object.push(index);
     }
     let results: Vec<_> = paths.par_iter().map(|(path, _)| mesh::load(path)).collect();
     let mut files = Vec::new();
@@ -75,28 +79,37 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
             }
         }
     }
-    Loaded { files, file_of_object: path_of_object.into_iter().map(|p| file_of_path[p]).collect() }
+    let first_shape = files.len();
+    files.extend(shapes.iter().map(|shape| shape.mesh()));
+    let of_geometry = |geometry| match geometry {
+        Geometry::File(path) => file_of_path[path],
+        Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
+    };
+    Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
 }
 
-/// Which material each mesh object has.
+/// Which material each object of triangles has.
 pub struct Assigned {
-    /// Per mesh object: one for all of it, or [`NONE`] for what its file says per triangle.
+    /// Per object: one for all of it, or [`NONE`] for what its file says per triangle.
     of_object: Vec<u32>,
+    /// Per object: how it shines, where it does.
+    emissive: Vec<Option<Emissive>>,
     /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for them.
     of_file: Vec<Vec<u32>>,
 }
 
-/// Resolves the materials of the mesh objects: what the scene names, else what the file's MTL says, else the default.
+/// Resolves the materials of the objects: what the scene names, else what the file's MTL says, else the default.
 pub fn assign_materials(
     desc: &SceneDesc,
     loaded: &Loaded,
     builder: &mut MaterialBuilder,
     diagnostics: &mut Diagnostics,
 ) -> Assigned {
-    let mut assigned = Assigned { of_object: Vec::new(), of_file: vec![Vec::new(); loaded.files.len()] };
-    for ((mesh, _), file) in mesh_objects(desc).zip(&loaded.file_of_object) {
+    let of_file = vec![Vec::new(); loaded.files.len()];
+    let mut assigned = Assigned { of_object: Vec::new(), emissive: Vec::new(), of_file };
+    for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
         let own = file.filter(|&f| !loaded.files[f].triangle_material.is_empty());
-        assigned.of_object.push(match (&mesh.material, own) {
+        let whole = match (object.material, own) {
             (MaterialRef::Default, Some(f)) => {
                 if assigned.of_file[f].is_empty() {
                     assigned.of_file[f] =
@@ -106,46 +119,50 @@ pub fn assign_materials(
                 NONE
             }
             (reference, _) => builder.resolve(reference, diagnostics),
-        });
+        };
+        assigned.of_object.push(whole);
+        assigned.emissive.push(builder.emissive(whole).cloned());
     }
     assigned
 }
 
-/// Where the mesh objects are.
+/// Where the objects of triangles are.
 pub struct Placed {
-    /// Per mesh object: from the file's frame to the world, one per copy.
+    /// Per object: from the frame of its triangles to the world, one per copy.
     maps: Vec<Vec<DAffine3>>,
-    /// Per mesh object: the corners of its box in the file's frame.
+    /// Per object: the corners of its box in the frame of its triangles.
     boxes: Vec<[DVec3; 2]>,
 }
 
 /// Evaluates transforms and placements.
 pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
     let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
-    for ((mesh, span), file) in mesh_objects(desc).zip(&loaded.file_of_object) {
+    for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
         // A placements file is read even when the mesh is missing: all faults in one run.
-        let copies = copies(desc, &mesh.placements, diagnostics);
+        let copies = copies(desc, object.placements, diagnostics);
         let Some(data) = file.map(|f| &loaded.files[f]) else {
             placed.maps.push(Vec::new());
             placed.boxes.push([DVec3::ZERO; 2]);
             continue;
         };
         let lowest = |map: &DAffine3| {
+            let map = *map * object.local;
             let row = map.matrix3.row(1);
             let heights = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation.y);
             heights.reduce(|| f64::INFINITY, f64::min)
         };
-        let map = place_matrix(&mesh.transform, DVec3::from(data.barycentre()), &lowest);
+        let barycentre = object.local.transform_point3(DVec3::from(data.barycentre()));
+        let map = place_matrix(object.transform, barycentre, &lowest) * object.local;
         let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
         let usable = |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
         if let Some(at) = maps.iter().position(|m| !usable(m)) {
             let which = if maps.len() > 1 { format!(" (copy {})", at + 1) } else { String::new() };
-            let at = mesh.transform.first().map_or(span, |t| t.span);
+            let at = object.transform.first().map_or(object.span, |t| t.span);
             diagnostics.push(
                 Diagnostic::error(
                     codes::SINGULAR_TRANSFORM,
                     at,
-                    format!("the transforms flatten the mesh to nothing{which}"),
+                    format!("the transforms flatten the {} to nothing{which}", object.noun),
                 )
                 .expected("transforms that can be undone: no scale of 0, no overflow"),
             );
@@ -192,9 +209,36 @@ impl Placed {
     }
 }
 
+/// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A).
+pub fn radiances(loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Vec<Vec<[f64; 3]>> {
+    let of_object = |(object, emissive): (usize, &Option<Emissive>)| {
+        let (Some(emissive), Some(file)) = (emissive, loaded.file_of_object[object]) else { return Vec::new() };
+        let data = &loaded.files[file];
+        let radiance = |map: &DAffine3| match emissive.emission.value {
+            Emission::Radiance(radiance) | Emission::Intensity(radiance) => radiance,
+            Emission::Power(power) => {
+                let sides = if emissive.two_sided { 2.0 } else { 1.0 };
+                let area = std::f64::consts::PI * sides * area(data, map);
+                power.map(|p| if area > 0.0 { p / area } else { 0.0 })
+            }
+        };
+        placed.maps[object].iter().map(radiance).collect()
+    };
+    assigned.emissive.iter().enumerate().map(of_object).collect()
+}
+
+/// The area of a mesh under a map.
+fn area(data: &MeshData, map: &DAffine3) -> f64 {
+    let corner = |k: u32| map.transform_point3(DVec3::from(data.positions[k as usize]));
+    let area = |&[a, b, c]: &[u32; 3]| 0.5 * (corner(b) - corner(a)).cross(corner(c) - corner(a)).length();
+    data.triangles.iter().map(area).sum()
+}
+
 /// The meshes of a compiled scene.
 #[derive(Default)]
 pub struct Built {
+    /// The lights that are made of triangles.
+    pub lights: Vec<Light>,
     /// Each mesh once.
     pub meshes: Vec<Mesh>,
     /// All triangles.
@@ -226,19 +270,41 @@ fn flattened(instances: Instances, copies: usize, triangles: usize) -> bool {
         }
 }
 
+/// What [`build`] builds.
+pub struct Parts<'a> {
+    /// The scene.
+    pub desc: &'a SceneDesc,
+    /// Its meshes.
+    pub loaded: &'a Loaded,
+    /// Where they are.
+    pub placed: &'a Placed,
+    /// Their materials.
+    pub assigned: &'a Assigned,
+    /// What they shine, in the scene's own unit.
+    pub radiances: &'a [Vec<[f64; 3]>],
+    /// The engine's unit of radiance.
+    pub radiance_unit: f64,
+    /// Index of the first light that is made of triangles.
+    pub first_light: u32,
+}
+
 /// Brings the meshes into render space.
-pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Built {
-    let variant = |mesh: &desc::Mesh, file: usize| Variant {
+pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
+    let Parts { desc, loaded, placed, assigned, .. } = *parts;
+    let variant = |object: &Polygonal<'_>, file: usize| Variant {
         file,
-        smooth: match mesh.shading {
+        smooth: match object.shading {
             Shading::Smooth => true,
             Shading::Flat => false,
             Shading::Auto => !loaded.files[file].normals.is_empty(),
         },
     };
-    let objects: Vec<(&desc::Mesh, Option<Variant>)> = mesh_objects(desc)
+    let objects: Vec<(Polygonal<'_>, Option<Variant>)> = polygonal(desc)
         .zip(&loaded.file_of_object)
-        .map(|((mesh, _), file)| (mesh, file.map(|file| variant(mesh, file))))
+        .map(|(object, file)| {
+            let variant = file.map(|file| variant(&object, file));
+            (object, variant)
+        })
         .collect();
     let mut copies: BTreeMap<Variant, usize> = BTreeMap::new();
     for ((_, variant), maps) in objects.iter().zip(&placed.maps) {
@@ -250,7 +316,7 @@ pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, 
     // Meshes that are shared: where each is, and how it is put back into the frame of its file.
     let mut shared: BTreeMap<Variant, (u32, DAffine3)> = BTreeMap::new();
     let scaled = DAffine3::from_scale(DVec3::splat(frame.scale));
-    for (object, (mesh, variant)) in objects.iter().enumerate() {
+    for (object, (polygonal, variant)) in objects.iter().enumerate() {
         let Some(variant) = *variant else { continue };
         let data = &loaded.files[variant.file];
         let whole = assigned.of_object[object];
@@ -259,10 +325,18 @@ pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, 
         let worlds = placed.maps[object]
             .iter()
             .map(|map| DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre });
-        if flattened(mesh.instances, copies[&variant], data.triangles.len()) {
-            for world in worlds {
+        let emissive = assigned.emissive[object].as_ref();
+        if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
+            for (copy, world) in worlds.enumerate() {
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
                 built.instances.push(Instance { mesh, material: whole, placement: None });
+                if let Some(emissive) = emissive {
+                    let radiance = parts.radiances[object][copy].map(|x| x / parts.radiance_unit);
+                    let quads = matches!(polygonal.geometry, Geometry::Unit(_));
+                    let mirrored = world.matrix3.determinant() < 0.0;
+                    let shine = Shine { radiance, two_sided: emissive.two_sided, quads, mirrored };
+                    built.add_lights(mesh, &shine, parts.first_light);
+                }
             }
             continue;
         }
@@ -281,6 +355,10 @@ pub fn build(frame: &Frame, desc: &SceneDesc, loaded: &Loaded, placed: &Placed, 
             material: whole,
             placement: Some(rows(&(scaled * world * file_from_object))),
         }));
+    }
+    if !built.triangles.light.is_empty() {
+        // What lies beyond the end of a column reads its last entry.
+        built.triangles.light.push(NONE);
     }
     built
 }
@@ -336,10 +414,10 @@ impl Built {
             let first = first as u32;
             move |corner: u32| if corner == NO_INDEX { NONE } else { corner + first }
         };
-        t.positions.par_extend(
-            data.positions.par_iter().map(|p| (map.transform_point3(DVec3::from(*p)) * scale).as_vec3().to_array()),
-        );
-        t.vertices.par_extend(data.triangles.par_iter().map(|v| wound(*v).map(shifted(first_vertex))));
+        extend(&mut t.positions, &data.positions, |p| {
+            (map.transform_point3(DVec3::from(*p)) * scale).as_vec3().to_array()
+        });
+        extend(&mut t.vertices, &data.triangles, |v| wound(*v).map(shifted(first_vertex)));
 
         if smooth {
             let computed;
@@ -352,20 +430,14 @@ impl Built {
             let first = t.normals.len();
             // Inverse transpose; turned along when the map mirrors, because the outside stays outside.
             let inverse = map.matrix3.inverse().transpose();
-            t.normals.par_extend(
-                normals
-                    .par_iter()
-                    .map(|n| (inverse * DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()),
-            );
+            extend(&mut t.normals, normals, |n| {
+                (inverse * DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()
+            });
             t.normal_indices.resize(first_triangle as usize, [NONE; 3]);
             // A triangle with a corner that has no normal is flat.
-            t.normal_indices.par_extend(
-                indices.par_iter().map(
-                    |n| {
-                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
-                    },
-                ),
-            );
+            extend(&mut t.normal_indices, indices, |n| {
+                if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+            });
         } else if !t.normal_indices.is_empty() {
             t.normal_indices.resize(t.vertices.len(), [NONE; 3]);
         }
@@ -375,13 +447,9 @@ impl Built {
             t.uvs.extend_from_slice(&data.uvs);
             t.uv_indices.resize(first_triangle as usize, [NONE; 3]);
             let indices = data.uv_triangles.as_ref().unwrap_or(&data.triangles);
-            t.uv_indices.par_extend(
-                indices.par_iter().map(
-                    |n| {
-                        if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
-                    },
-                ),
-            );
+            extend(&mut t.uv_indices, indices, |n| {
+                if n.contains(&NO_INDEX) { [NONE; 3] } else { wound(*n).map(shifted(first)) }
+            });
         } else if !t.uv_indices.is_empty() {
             t.uv_indices.resize(t.vertices.len(), [NONE; 3]);
         }
@@ -396,5 +464,52 @@ impl Built {
         t.material.extend((0..data.triangles.len()).map(material));
         self.meshes.push(Mesh { first_triangle, triangle_count: data.triangles.len() as u32 });
         self.meshes.len() as u32 - 1
+    }
+
+    /// Makes lights of a mesh's triangles, or of their pairs where those are parallelograms; `first`: the index of the first of
+    /// [`Built::lights`] among all lights.
+    fn add_lights(&mut self, mesh: u32, shine: &Shine, first: u32) {
+        let Mesh { first_triangle, triangle_count } = self.meshes[mesh as usize];
+        let t = &mut self.triangles;
+        t.light.resize(first_triangle as usize, NONE);
+        for triangle in first_triangle..first_triangle + triangle_count {
+            let second = shine.quads && (triangle - first_triangle) % 2 == 1;
+            if !second && let Some([a, b, c]) = t.corners(triangle) {
+                // Of a pair the first triangle is (p, q, r), the second (p, r, s) with s = p + r - q, where none is mirrored: then
+                // (p, r, q). Edges from q span both.
+                let [corner, first, second] = match (shine.quads, shine.mirrored) {
+                    (false, _) => [a, b, c],
+                    (true, false) => [b, c, a],
+                    (true, true) => [c, a, b],
+                };
+                let Shine { radiance, two_sided, .. } = *shine;
+                let flat = FlatLight { corner, edges: [first - corner, second - corner], radiance, two_sided };
+                self.lights.push(if shine.quads { Light::Parallelogram(flat) } else { Light::Triangle(flat) });
+            }
+            t.light.push(first + self.lights.len() as u32 - 1);
+        }
+    }
+}
+
+/// How a mesh shines.
+struct Shine {
+    /// In the engine's unit.
+    radiance: [f64; 3],
+    two_sided: bool,
+    /// Its triangles are pairs that make parallelograms.
+    quads: bool,
+    /// It was mirrored.
+    mirrored: bool,
+}
+
+/// From this many on, things are mapped by all threads.
+const PARALLEL: usize = 4096;
+
+/// Appends what becomes of each of these.
+fn extend<T: Sync, U: Send>(to: &mut Vec<U>, from: &[T], map: impl Fn(&T) -> U + Sync + Send) {
+    if from.len() < PARALLEL {
+        to.extend(from.iter().map(map));
+    } else {
+        to.par_extend(from.par_iter().map(map));
     }
 }

@@ -6,6 +6,7 @@ mod materials;
 mod meshes;
 mod nearby;
 mod placing;
+mod polygonal;
 mod radiances;
 
 use crate::bvh;
@@ -17,7 +18,7 @@ pub use files::check_files;
 use glam::DVec3;
 use materials::MaterialBuilder;
 use scene_format::codes;
-use scene_format::desc::{Acceleration, Caustics, Integrator, Object, PixelFilter, Reuse};
+use scene_format::desc::{Acceleration, Caustics, Emissive, Integrator, Object, PixelFilter, Reuse};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
@@ -68,9 +69,11 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         .iter()
         .filter_map(|object| match &object.value {
             Object::Sphere(sphere) => Some(builder.resolve(&sphere.material, &mut diagnostics)),
-            Object::Mesh(_) => None,
+            _ => None,
         })
         .collect();
+    let sphere_lights: Vec<Option<Emissive>> =
+        sphere_materials.iter().map(|&material| builder.emissive(material).cloned()).collect();
     let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
     let named = named.into_iter().map(|path| desc.base_dir.join(path));
     let files: BTreeSet<PathBuf> =
@@ -89,15 +92,27 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
     let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
-    let radiance_unit = radiances::unit(desc);
-    diagnostics.extend(radiances::too_dark(desc, radiance_unit));
+    let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
+    let shining = radiances::of_objects(desc, &sphere_lights, &mesh_radiances);
+    let radiance_unit = radiances::unit(desc, &shining);
+    diagnostics.extend(radiances::too_dark(desc, &shining, radiance_unit));
     if desc.render.indirect == desc::Indirect::Map {
         let message = "there is no map of indirect light any more: it comes by paths";
         diagnostics
             .push(Diagnostic::warning(codes::MAP_IS_GONE, Span::NONE, message).hint("leave `render.indirect` out"));
     }
-    let (spheres, lights) = spheres_and_lights(desc, &frame, radiance_unit, &sphere_materials);
-    let built = meshes::build(&frame, desc, &loaded, &placed, &assigned);
+    let (spheres, mut lights) = spheres_and_lights(desc, &frame, radiance_unit, &sphere_materials, &sphere_lights);
+    let parts = meshes::Parts {
+        desc,
+        loaded: &loaded,
+        placed: &placed,
+        assigned: &assigned,
+        radiances: &mesh_radiances,
+        radiance_unit,
+        first_light: lights.len() as u32,
+    };
+    let mut built = meshes::build(&frame, &parts);
+    lights.append(&mut built.lights);
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
@@ -169,7 +184,7 @@ fn marks(desc: &SceneDesc, placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3
             let towards = (look_at - center).try_normalize().unwrap_or(DVec3::Z);
             Some(center + towards * sphere.radius.value)
         }
-        Object::Mesh(_) => None,
+        _ => None,
     });
     spheres.chain(placed.marks(look_at)).collect()
 }
@@ -180,10 +195,11 @@ fn spheres_and_lights(
     frame: &Frame,
     radiance_unit: f64,
     sphere_materials: &[u32],
+    sphere_lights: &[Option<Emissive>],
 ) -> (Vec<Sphere>, Vec<Light>) {
     let objects = desc.objects.iter().filter_map(|object| match &object.value {
         Object::Sphere(sphere) => Some(sphere),
-        Object::Mesh(_) => None,
+        _ => None,
     });
     let render_space = |center: [f64; 3], radius: f64, material: u32, light: u32| Sphere {
         center: frame.point(DVec3::from(center)),
@@ -191,16 +207,23 @@ fn spheres_and_lights(
         material,
         light,
     };
-    let mut spheres: Vec<Sphere> = objects
-        .zip(sphere_materials)
-        .map(|(s, &material)| render_space(s.center.value, s.radius.value, material, NONE))
-        .collect();
-    let mut lights = Vec::new();
+    let mut lights: Vec<Light> = Vec::new();
+    let mut shine = |radiance: [f64; 3], two_sided: bool| {
+        lights.push(Light::Sphere { sphere: NONE, radiance: radiance.map(|x| x / radiance_unit), two_sided });
+        lights.len() as u32 - 1
+    };
+    let mut spheres = Vec::with_capacity(sphere_materials.len() + desc.lights.len());
+    for ((s, &material), emissive) in objects.zip(sphere_materials).zip(sphere_lights) {
+        let (material, light) = match emissive {
+            Some(emissive) => (NONE, shine(radiances::of_sphere(s, emissive), emissive.two_sided)),
+            None => (material, NONE),
+        };
+        spheres.push(render_space(s.center.value, s.radius.value, material, light));
+    }
     for light in &desc.lights {
         let desc::Light::SphereLight(light) = &light.value;
-        spheres.push(render_space(light.center.value, light.radius.value, NONE, lights.len() as u32));
-        let radiance = radiances::of_light(light).map(|x| x / radiance_unit);
-        lights.push(Light::Sphere { sphere: NONE, radiance });
+        let index = shine(radiances::of_light(light), true);
+        spheres.push(render_space(light.center.value, light.radius.value, NONE, index));
     }
     SphereTable::order(&mut spheres);
     for (k, sphere) in spheres.iter().enumerate() {

@@ -59,21 +59,19 @@ pub fn named_files(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
 /// All files that the scene names, in order of mention, also where it was built in code.
 pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
-        let (files, material) = match &object.value {
-            Object::Sphere(sphere) => ([None, None], &sphere.material),
-            Object::Mesh(mesh) => {
-                let placements = match &mesh.placements {
-                    Placements::File(file) => Some(&**file),
-                    Placements::One | Placements::List(_) => None,
-                };
-                ([Some(&mesh.file), placements], &mesh.material)
-            }
+        let file = match &object.value {
+            Object::Mesh(mesh) => Some(&mesh.file),
+            _ => None,
         };
-        let texture = match material {
+        let placements = match object.value.placements() {
+            Some(Placements::File(file)) => Some(&**file),
+            _ => None,
+        };
+        let texture = match object.value.material() {
             MaterialRef::Inline(material) => texture_file(&material.value),
             MaterialRef::Default | MaterialRef::Named { .. } => None,
         };
-        files.into_iter().chain([texture]).flatten()
+        [file, placements, texture].into_iter().flatten()
     });
     of_objects.chain(desc.materials.iter().filter_map(|named| texture_file(&named.material)))
 }

@@ -42,6 +42,8 @@ pub enum Material {
         /// The glossy lobe is s (alpha + 1)/(8 pi (wo.h) max(cos i, cos o)) cos^alpha theta_h.
         energy_conserving: bool,
     },
+    /// It shines, as the light of its surface says, and reflects nothing.
+    Emissive,
 }
 
 /// Numbers of the kinds of material in the tables.
@@ -77,6 +79,7 @@ impl MaterialTable {
             specular: f64,
             texture: u32,
         }
+        const EMITTER: Row = Row { kind: kind::EMITTER, color: [0.0; 3], parameter: 0.0, specular: 0.0, texture: 0 };
         let color = |albedo: Albedo| match albedo {
             Albedo::Color(c) => c,
             Albedo::Texture(_) => [1.0; 3],
@@ -108,10 +111,11 @@ impl MaterialTable {
                     specular,
                     texture: texture(albedo),
                 },
+                Material::Emissive => EMITTER,
             })
             .collect();
         let emitter = rows.len() as u32;
-        rows.push(Row { kind: kind::EMITTER, color: [0.0; 3], parameter: 0.0, specular: 0.0, texture: 0 });
+        rows.push(EMITTER);
         MaterialTable {
             rows: Table::new(rows.iter().map(|row| {
                 let [r, g, b] = row.color.map(|x| x as f32);

@@ -40,6 +40,9 @@ pub struct Triangles {
     pub uv_indices: Vec<[u32; 3]>,
     /// Material per triangle (index into `Scene::materials`), where the instance names none.
     pub material: Vec<u32>,
+    /// Index into `Scene::lights` per triangle, [`NONE`] where it does not shine; none beyond the last one that does. Meshes that
+    /// shine are in render space.
+    pub light: Vec<u32>,
 }
 
 impl Triangles {

@@ -17,8 +17,8 @@ mod texture;
 
 pub use camera::{Camera, Filter};
 pub use frame::Frame;
-pub use light::Light;
 pub(crate) use light::LightTable;
+pub use light::{FlatLight, Light};
 pub use material::{Albedo, Material};
 pub(crate) use material::{MaterialTable, kind};
 pub(crate) use mesh::InstanceTable;
@@ -77,7 +77,7 @@ pub struct Scene {
     pub spheres: Vec<Sphere>,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
-    /// Lights.
+    /// Lights: the spheres, then the others.
     pub lights: Vec<Light>,
     /// Meshes, each once.
     pub meshes: Vec<Mesh>,

@@ -63,6 +63,19 @@ impl<const K: usize> Table<K> {
         }
         row
     }
+
+    /// One number of each lane's row.
+    #[inline(always)]
+    pub fn column<F: Lanes>(&self, index: F::U, k: usize) -> F {
+        match self {
+            Table::One(only) => F::splat(only[k]),
+            Table::Sixteen(columns) => F::gather(&columns[k], index),
+            Table::ThirtyTwo(columns) => F::gather(&columns[k], index),
+            Table::Rows(numbers) => {
+                F::gather(numbers, index * F::U::splat(Self::STRIDE as u32) + F::U::splat(k as u32))
+            }
+        }
+    }
 }
 
 fn columns<const K: usize, const N: usize>(rows: &[[f32; K]]) -> Box<[[f32; N]; K]> {

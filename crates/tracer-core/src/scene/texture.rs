@@ -17,6 +17,8 @@ pub(crate) struct TextureTable {
     pub nearest: Vec<u32>,
     /// 0 repeat, 1 clamp, 2 mirror.
     pub wrap: Vec<u32>,
+    /// Six numbers a texture: the rows of the matrix from a surface's (u, v, 1) to the texture's; empty where all are used as they are.
+    pub mapping: Vec<f32>,
     /// How each is looked up, as the scene says it.
     pub uses: Vec<TextureUse>,
 }
@@ -41,6 +43,8 @@ pub struct TextureView<'a> {
     pub filter: TextureFilter,
     /// Beyond the borders.
     pub wrap: TextureWrap,
+    /// Rows of the matrix from a surface's (u, v, 1) to the texture's.
+    pub mapping: [[f64; 3]; 2],
     words: &'a [u32],
     wide: bool,
 }
@@ -67,12 +71,21 @@ pub(crate) struct TextureUse {
     pub image: usize,
     pub filter: TextureFilter,
     pub wrap: TextureWrap,
+    pub mapping: [[f64; 3]; 2],
 }
+
+/// The mapping of textures that are used as they are.
+const AS_IT_IS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 impl TextureTable {
     /// The words of each picture once, however many uses it has.
     pub fn new(images: Vec<Texture>, uses: &[TextureUse]) -> Self {
         let mut table = TextureTable { uses: uses.to_vec(), ..TextureTable::default() };
+        if uses.iter().any(|u| u.mapping != AS_IT_IS) {
+            table.mapping = uses.iter().flat_map(|u| u.mapping.as_flattened()).map(|&x| x as f32).collect();
+            // Columns are read sixteen at a time.
+            table.mapping.resize(table.mapping.len().max(16), 0.0);
+        }
         let mut place = Vec::with_capacity(images.len());
         for image in images {
             let offset = table.words.len() as u32;
@@ -120,8 +133,9 @@ impl TextureTable {
     /// A texture, by the index that materials name.
     pub fn view(&self, index: u32) -> Option<TextureView<'_>> {
         let k = index as usize;
-        let TextureUse { filter, wrap, .. } = *self.uses.get(k)?;
+        let TextureUse { filter, wrap, mapping, .. } = *self.uses.get(k)?;
         let words = &self.words[self.offset[k] as usize..];
-        Some(TextureView { width: self.width[k], height: self.height[k], filter, wrap, words, wide: self.wide[k] == 1 })
+        let (width, height) = (self.width[k], self.height[k]);
+        Some(TextureView { width, height, filter, wrap, mapping, words, wide: self.wide[k] == 1 })
     }
 }

@@ -22,6 +22,7 @@ mod sampler;
 mod seams;
 mod sequence;
 mod shared_roulette;
+mod shining;
 mod support;
 mod surfaces;
 mod textures;

@@ -297,12 +297,9 @@ fn elsewhere(desc: &SceneDesc, scale: f64, offset: f64) -> SceneDesc {
                 mesh.transform.push(Transform::Scale { factor: [scale; 3], about: Some(Box::new([0.0; 3])) }.into());
                 mesh.transform.push(Transform::Translate([offset; 3]).into());
             }
+            _ => panic!("the scene has spheres and meshes"),
         }
-        let material = match &object.value {
-            Object::Sphere(sphere) => &sphere.material,
-            Object::Mesh(mesh) => &mesh.material,
-        };
-        assert!(matches!(material, MaterialRef::Inline(_)));
+        assert!(matches!(object.value.material(), MaterialRef::Inline(_)));
     }
     moved
 }

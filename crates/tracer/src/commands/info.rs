@@ -57,6 +57,8 @@ impl Facts {
         let s = &self.statistics;
         let point = |p: [f64; 3]| format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]));
         let spheres = self.count(|object| matches!(object, Object::Sphere(_)));
+        let total = self.desc.objects.len();
+        let flat_sided = self.count(|object| matches!(object, Object::Rectangle(_) | Object::Box(_)));
         let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
         let tree = s.tree.map_or("none needed".to_owned(), |tree| {
             let (nodes, leaves) = (counted(tree.nodes as usize, "node"), counted(tree.leaves as usize, "leaf"));
@@ -72,7 +74,15 @@ impl Facts {
         );
         line(
             "objects",
-            format!("{} ({}, {})", self.desc.objects.len(), counted(spheres, "sphere"), counted(meshes, "mesh")),
+            match flat_sided {
+                0 => format!("{total} ({}, {})", counted(spheres, "sphere"), counted(meshes, "mesh")),
+                n => format!(
+                    "{total} ({}, {}, {})",
+                    counted(spheres, "sphere"),
+                    counted(n, "flat-sided shape"),
+                    counted(meshes, "mesh")
+                ),
+            },
         );
         line("lights", s.lights.to_string());
         line(
@@ -123,6 +133,8 @@ impl Facts {
             "objects": {
                 "total": self.desc.objects.len(),
                 "spheres": self.count(|object| matches!(object, Object::Sphere(_))),
+                "rectangles": self.count(|object| matches!(object, Object::Rectangle(_))),
+                "boxes": self.count(|object| matches!(object, Object::Box(_))),
                 "meshes": self.count(|object| matches!(object, Object::Mesh(_))),
             },
             "lights": s.lights,

@@ -5,8 +5,8 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Color, Emission, Instances, Light, Material, MaterialRef, Mesh, NamedMaterial, Object, PixelFilter,
-    Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
+    Albedo, Checkerboard, Color, Emission, Instances, Light, Mapping, Material, MaterialRef, Mesh, NamedMaterial,
+    Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -46,12 +46,30 @@ fn texture(world: &mut World, random: &mut Random) -> Albedo {
     let file = world.file("texture", "png", bytes).into();
     let filter = one_of(random, &[TextureFilter::Bilinear, TextureFilter::Nearest]);
     let wrap = one_of(random, &[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]);
-    Albedo::Texture(Texture { file, filter, wrap })
+    Albedo::Texture(Texture { file, filter, wrap, mapping: mapping(random) })
+}
+
+/// Where a texture lies, as often as not as it is.
+fn mapping(random: &mut Random) -> Mapping {
+    if once_in(random, 2) {
+        return Mapping::default();
+    }
+    let side = |random: &mut Random| magnitude(random, 0.5, 6.0);
+    let scale = if once_in(random, 2) { [side(random); 2] } else { [side(random), -side(random)] };
+    let offset = if once_in(random, 2) { [0.0; 2] } else { [random.number(), random.between(-3.0, 3.0)] };
+    Mapping::uv(scale, if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) }, offset)
 }
 
 /// A colour or a texture.
 pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
-    if once_in(random, 4) { texture(world, random) } else { Albedo::Color(color(random).into()) }
+    match random.below(8) {
+        0 => texture(world, random),
+        1 => {
+            let (a, b) = (color(random).into(), color(random).into());
+            Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: mapping(random) }))
+        }
+        _ => Albedo::Color(color(random).into()),
+    }
 }
 
 /// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.
@@ -90,6 +108,14 @@ pub fn clear(random: &mut Random) -> Material {
 pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
     if once_in(random, 2) {
         return world.sphere(center, radius, material);
+    }
+    match random.below(5) {
+        0 => return super::shining::cuboid(world, center, radius, material, random),
+        // Glass without an inside is no glass.
+        1 if !matches!(material, Material::Transparent { .. }) => {
+            return super::shining::rectangle(world, center, radius, material, random);
+        }
+        _ => {}
     }
     let (name, shape) = match random.below(4) {
         0 => ("ball", Shape::ball(random.below(3) as u32)),
@@ -196,10 +222,7 @@ pub fn film(world: &mut World, random: &mut Random) {
 /// Gives names to the materials, as a person would who uses one twice.
 pub fn name_materials(world: &mut World) {
     for (k, object) in world.desc.objects.iter_mut().enumerate() {
-        let material = match &mut object.value {
-            Object::Sphere(sphere) => &mut sphere.material,
-            Object::Mesh(mesh) => &mut mesh.material,
-        };
+        let material = object.value.material_mut();
         if let MaterialRef::Inline(inner) = material {
             let name: Arc<str> = format!("m{k}").into();
             let named = NamedMaterial { name: (*name).to_owned().into(), material: inner.value.clone() };
@@ -211,11 +234,7 @@ pub fn name_materials(world: &mut World) {
 
 /// The material of an object, whether it is named or written in place.
 pub fn material_of<'a>(world: &'a World, object: &'a Object) -> Option<&'a Material> {
-    let material = match object {
-        Object::Sphere(sphere) => &sphere.material,
-        Object::Mesh(mesh) => &mesh.material,
-    };
-    match material {
+    match object.material() {
         MaterialRef::Inline(inner) => Some(&inner.value),
         MaterialRef::Named { name, .. } => {
             world.desc.materials.iter().find(|named| named.name.value == *name).map(|named| &named.material)
@@ -226,10 +245,7 @@ pub fn material_of<'a>(world: &'a World, object: &'a Object) -> Option<&'a Mater
 
 /// Writes another material for an object.
 pub fn set_material(object: &mut Object, material: Material) {
-    match object {
-        Object::Sphere(sphere) => sphere.material = inline(material),
-        Object::Mesh(mesh) => mesh.material = inline(material),
-    }
+    *object.material_mut() = inline(material);
 }
 
 /// A wall's colour.

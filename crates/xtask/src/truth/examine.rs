@@ -87,15 +87,16 @@ impl Compiled {
             matches!(material, Some(Material::BlinnPhong { energy_conserving: false, .. }))
         };
         let narrow = |object: &Object| match super::draw::material_of(world, object) {
-            Some(Material::Diffuse { .. }) | None => false,
+            Some(Material::Diffuse { .. } | Material::Emissive(_)) | None => false,
             Some(Material::BlinnPhong { exponent, .. }) => exponent.value > NARROW,
             Some(Material::Mirror { .. } | Material::Transparent { .. }) => true,
         };
         let objects = || world.desc.objects.iter().map(|object| &object.value);
         let by_chance = relation == Relation::Path && objects().any(narrow);
         let gain = if objects().any(gains) { judge::GAIN } else { 1.0 };
-        let brightest = if by_chance { gain * world.brightest() } else { 0.0 };
-        Ok(Compiled { ours: vec![world.compiled()?], theirs, brightest })
+        let ours = world.compiled()?;
+        let brightest = if by_chance { gain * super::world::brightest(&ours) } else { 0.0 };
+        Ok(Compiled { ours: vec![ours], theirs, brightest })
     }
 
     /// Our side of the question.

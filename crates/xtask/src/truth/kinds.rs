@@ -5,7 +5,7 @@ use super::meshes::{Point, Shape};
 use super::receivers;
 use super::relation::{PLANE_MIRROR, Relation};
 use super::world::{World, glass, matt, mirror};
-use scene_format::desc::{Material, Object, Transform};
+use scene_format::desc::{Albedo, Material, Object, Transform};
 use tracer_reference::Random;
 
 /// A scene and what it is held against.
@@ -466,7 +466,12 @@ fn plain_spheres(world: &mut World) {
         .iter()
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
-            sphere && draw::material_of(world, &object.value).is_some_and(|material| material.texture().is_some())
+            let plain = |material: &Material| match material {
+                Material::Diffuse { albedo } => matches!(albedo, Albedo::Color(_)),
+                Material::BlinnPhong { albedo, .. } => matches!(**albedo, Albedo::Color(_)),
+                _ => true,
+            };
+            sphere && !draw::material_of(world, &object.value).is_none_or(plain)
         })
         .collect();
     for (object, textured) in world.desc.objects.iter_mut().zip(textured) {
@@ -491,6 +496,9 @@ pub fn case(seed: u64, size: u32) -> Case {
     // Where no light could come in one bounce, a picture of one says nothing.
     world.bounces(if hard { bounces.max(3) } else { bounces });
     make(&mut world, random);
+    if matches!(relation, Relation::Path | Relation::Flipped) && once_in(random, 3) {
+        super::shining::other_lamps(&mut world, random);
+    }
     if relation != Relation::Unfolded {
         draw::film(&mut world, random);
     }

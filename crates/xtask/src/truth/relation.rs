@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Emission, Instances, Light, Material, Mesh, Object, Transform};
+use scene_format::desc::{Emission, Instances, Light, Material, Object, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -64,13 +64,17 @@ fn mirror_x(p: [f64; 3]) -> [f64; 3] {
 /// An object on the other side of the plane x = 0.
 fn mirrored(object: &Object) -> Object {
     let mut object = object.clone();
-    match &mut object {
-        Object::Sphere(sphere) => sphere.center = mirror_x(sphere.center.value).into(),
-        // Scenes with placements are not mirrored: those would have to be turned, not followed by one more step.
-        Object::Mesh(Mesh { transform, .. }) => {
-            transform.push(Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) }.into());
+    // Scenes with placements are not mirrored: those would have to be turned, not followed by one more step.
+    let transform = match &mut object {
+        Object::Sphere(sphere) => {
+            sphere.center = mirror_x(sphere.center.value).into();
+            return object;
         }
-    }
+        Object::Rectangle(rectangle) => &mut rectangle.transform,
+        Object::Box(cuboid) => &mut cuboid.transform,
+        Object::Mesh(mesh) => &mut mesh.transform,
+    };
+    transform.push(Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) }.into());
     object
 }
 
@@ -85,7 +89,7 @@ fn unfolded(world: &World) -> World {
     let mut other = world.clone();
     let is_mirror = |object: &Object| match object {
         Object::Mesh(mesh) => mesh.file.value.to_string_lossy().starts_with(PLANE_MIRROR),
-        Object::Sphere(_) => false,
+        _ => false,
     };
     other.desc.objects.retain(|object| !is_mirror(&object.value));
     let behind: Vec<_> = other.desc.objects.iter().map(|object| mirrored(&object.value).into()).collect();

@@ -89,11 +89,7 @@ fn drop_unused_materials(world: &mut World) {
         .objects
         .iter()
         .filter_map(|object| {
-            let material = match &object.value {
-                Object::Sphere(sphere) => &sphere.material,
-                Object::Mesh(mesh) => &mesh.material,
-            };
-            if let MaterialRef::Named { name, .. } = material { Some(name.clone()) } else { None }
+            if let MaterialRef::Named { name, .. } = object.value.material() { Some(name.clone()) } else { None }
         })
         .collect();
     world.desc.materials.retain(|named| used.contains(&named.name.value));

@@ -123,20 +123,12 @@ impl World {
         })?;
         tracer_core::compile(&loaded.scene).map_err(|error| anyhow::anyhow!("{error}"))
     }
+}
 
-    /// The grey radiance of the brightest thing that gives light.
-    pub fn brightest(&self) -> f64 {
-        let lamps = self.desc.lights.iter().map(|light| {
-            let Light::SphereLight(lamp) = &light.value;
-            let area = std::f64::consts::PI * lamp.radius.value.powi(2);
-            match lamp.emission.value {
-                Emission::Radiance(color) => grey(color),
-                Emission::Intensity(color) => grey(color) / area,
-                Emission::Power(color) => grey(color) / (4.0 * std::f64::consts::PI * area),
-            }
-        });
-        lamps.fold(grey(self.desc.background), f64::max)
-    }
+/// The grey radiance of the brightest thing that gives light.
+pub fn brightest(scene: &tracer_core::Scene) -> f64 {
+    let lights = scene.lights.iter().map(|light| grey(light.radiance()));
+    lights.fold(grey(scene.background.map(f64::from)), f64::max) * scene.radiance_unit
 }
 
 /// What is compared: the mean of the channels, so that a fault in any of them shows.

@@ -3,7 +3,8 @@
 use super::casters::{Caster, Casters};
 use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
-use crate::scene::{Light, NONE, Scene, Sphere};
+use crate::scene::{Light, LightTable, NONE, Scene};
+use glam::DVec3;
 
 /// Pairs of a light and a caster; more casters than this allows are taken together: each pair needs several photons.
 const MOST_PAIRS: usize = 256;
@@ -12,23 +13,31 @@ const MOST_PAIRS: usize = 256;
 pub mod aim {
     /// Apart: photons start on the cap that can see the caster.
     pub const OUTSIDE: u32 = 0;
-    /// The caster is within the light, which shines inwards, too.
+    /// The caster is within the light, which shines inwards.
     pub const INSIDE: u32 = 1;
-    /// Neither: from all of the light, to both sides.
+    /// Neither: from all of the light, to both sides, if it has two.
     pub const EVERYWHERE: u32 = 2;
 }
 
 /// Pairs as look-up tables.
 #[derive(Default)]
 pub struct PairTable {
-    /// Middle of the light.
+    /// Middle of the light, of flat ones a corner.
     pub light_center: [Vec<f32>; 3],
-    /// Its radius.
+    /// Its radius; 0: it is flat.
     pub light_radius: Vec<f32>,
-    /// Its primitive.
+    /// Its primitive; [`NONE`] of flat ones, from which rays start off their plane.
     pub light_primitive: Vec<u32>,
-    /// Unit vector from the light to the caster.
+    /// Unit vector from the light to the caster; of flat ones one edge.
     pub axis: [Vec<f32>; 3],
+    /// Of flat lights the other edge; empty where there are none.
+    pub edge: [Vec<f32>; 3],
+    /// Of flat lights the unit normal; empty where there are none.
+    pub normal: [Vec<f32>; 3],
+    /// Of flat lights how far off their plane rays start.
+    pub offset: Vec<f32>,
+    /// Bits as in [`LightTable::FLAT`], of spheres, too.
+    pub flags: Vec<u32>,
     /// 1 - cos of the half angle of the cap that photons start from; 2 is the whole light.
     pub cap: Vec<f32>,
     /// Middle of the caster's sphere.
@@ -84,12 +93,23 @@ impl Plan {
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
         let mut pairs = Vec::new();
         let mut all = 0.0;
-        for (k, Light::Sphere { sphere, radiance }) in scene.lights.iter().enumerate() {
-            let light = scene.spheres.get(*sphere as usize)?;
-            let power = radiance.iter().sum::<f64>() * light.radius * light.radius;
-            all += power * 4.0 * std::f64::consts::PI * std::f64::consts::PI;
+        for (k, light) in scene.lights.iter().enumerate() {
+            let pi = std::f64::consts::PI;
+            let radiance = light.radiance().iter().sum::<f64>();
+            // Area over 4 pi.
+            let power = match light {
+                Light::Sphere { .. } => {
+                    let (_, radius) = light.bounds(&scene.spheres);
+                    radiance * radius * radius
+                }
+                Light::Parallelogram(flat) | Light::Triangle(flat) => {
+                    let sides = if flat.two_sided { 2.0 } else { 1.0 };
+                    radiance * sides * light.area(&scene.spheres) / (4.0 * pi)
+                }
+            };
+            all += power * 4.0 * pi * pi;
             for (c, caster) in casters.list.iter().enumerate() {
-                let mut pair = Pair::new(light, caster);
+                let mut pair = Pair::new(scene, light, caster);
                 pair.weight *= power;
                 (pair.light, pair.caster) = (k, c);
                 pairs.push(pair);
@@ -146,46 +166,66 @@ pub struct Share {
 
 impl Pair {
     /// A light and a caster; the weight without the light's power.
-    fn new(light: &Sphere, caster: &Caster) -> Pair {
-        let distance = caster.center.distance(light.center);
-        let (aim, cap) = if distance > light.radius + caster.radius {
-            // Points of the light from which the caster can be seen: those whose tangent plane cuts its sphere.
-            (aim::OUTSIDE, 1.0 - (light.radius - caster.radius) / distance)
-        } else if distance + caster.radius < light.radius {
-            (aim::INSIDE, 2.0)
-        } else {
-            (aim::EVERYWHERE, 2.0)
+    fn new(scene: &Scene, light: &Light, caster: &Caster) -> Pair {
+        let (center, radius) = light.bounds(&scene.spheres);
+        let distance = caster.center.distance(center);
+        let (aim, cap) = match light.flat() {
+            None if distance > radius + caster.radius => {
+                // Points of the light from which the caster can be seen: those whose tangent plane cuts its sphere.
+                (aim::OUTSIDE, 1.0 - (radius - caster.radius) / distance)
+            }
+            None if distance + caster.radius < radius && light.two_sided() => (aim::INSIDE, 2.0),
+            None => (aim::EVERYWHERE, 2.0),
+            Some(flat) => {
+                let height = (caster.center - flat.corner).dot(flat.normal());
+                let apart = distance > radius + caster.radius || height.abs() > caster.radius;
+                (if apart { aim::OUTSIDE } else { aim::EVERYWHERE }, 2.0)
+            }
         };
         let sine = (caster.radius / distance.max(caster.radius)).min(1.0);
         let sin2 = sine * sine;
         let cone = sin2 / (1.0 + (1.0 - sin2).sqrt());
-        Pair { light: 0, caster: 0, aim, cap: cap.clamp(0.0, 2.0), weight: cone * caster.reflectance, probability: 0.0 }
+        // From a light with one side nothing goes where its back is seen.
+        let shines = match light.flat().filter(|flat| !flat.two_sided) {
+            Some(flat) => (caster.center - flat.corner).dot(flat.normal()) > -caster.radius,
+            None => light.two_sided() || distance + caster.radius > radius,
+        };
+        let weight = if shines { cone * caster.reflectance } else { 0.0 };
+        Pair { light: 0, caster: 0, aim, cap: cap.clamp(0.0, 2.0), weight, probability: 0.0 }
+    }
+
+    /// Area of the light that photons of the pair start from.
+    fn area(&self, scene: &Scene, light: &Light) -> f64 {
+        match light {
+            Light::Sphere { .. } => {
+                let (_, radius) = light.bounds(&scene.spheres);
+                2.0 * std::f64::consts::PI * radius * radius * self.cap
+            }
+            Light::Parallelogram(_) | Light::Triangle(_) => light.area(&scene.spheres),
+        }
     }
 }
 
 impl PairTable {
     fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters) -> PairTable {
         let mut table = PairTable::default();
+        let any_flat = scene.lights.iter().any(|light| light.flat().is_some());
         for (k, pair) in pairs.iter().enumerate() {
-            let Light::Sphere { sphere, radiance } = scene.lights[pair.light];
-            let light = &scene.spheres[sphere as usize];
+            let light = &scene.lights[pair.light];
+            let radiance = light.radiance();
             let caster = &casters.list[pair.caster];
-            let axis = (caster.center - light.center).try_normalize().unwrap_or(glam::DVec3::Z);
-            let two_pi = 2.0 * std::f64::consts::PI;
-            let area = two_pi * light.radius * light.radius * pair.cap;
-            // Over all directions about the normal with a cosine, on both sides: 2 pi in all.
-            let directions = if pair.aim == aim::EVERYWHERE { two_pi } else { 1.0 };
+            let area = pair.area(scene, light);
+            // Over all directions about the normal with a cosine, on each side that shines: pi.
+            let sides = if light.two_sided() { 2.0 } else { 1.0 };
+            let directions = if pair.aim == aim::EVERYWHERE { sides * std::f64::consts::PI } else { 1.0 };
             let density = pair.probability;
+            table.push_light(scene, light, caster.center, any_flat);
             for axis_index in 0..3 {
-                table.light_center[axis_index].push(light.center[axis_index] as f32);
                 table.caster_center[axis_index].push(caster.center[axis_index] as f32);
-                table.axis[axis_index].push(axis[axis_index] as f32);
                 table.radiance[axis_index].push(radiance[axis_index] as f32);
                 table.flux[axis_index].push((radiance[axis_index] * area * directions / density) as f32);
             }
             table.area.push((area * directions) as f32);
-            table.light_radius.push(light.radius as f32);
-            table.light_primitive.push(sphere);
             table.cap.push(pair.cap as f32);
             table.caster_radius2.push((caster.radius * caster.radius * 1.000_01) as f32);
             table.caster.push(pair.caster as u32);
@@ -193,5 +233,34 @@ impl PairTable {
             table.key.push(hash3(seed, k as u32, 0xca05_71c5) as u32);
         }
         table
+    }
+
+    /// Where photons of a light start. `any_flat`: the scene has lights that are no spheres.
+    fn push_light(&mut self, scene: &Scene, light: &Light, caster: DVec3, any_flat: bool) {
+        let push = |columns: &mut [Vec<f32>; 3], v: DVec3| {
+            columns.iter_mut().zip(v.to_array()).for_each(|(column, x)| column.push(x as f32));
+        };
+        let (center, radius) = light.bounds(&scene.spheres);
+        let sphere_flags = if light.two_sided() { LightTable::TWO_SIDED } else { 0 };
+        let [start, axis, edge, normal] = match light.flat() {
+            None => [center, (caster - center).try_normalize().unwrap_or(DVec3::Z), DVec3::ZERO, DVec3::ZERO],
+            Some(flat) => [flat.corner, flat.edges[0], flat.edges[1], flat.normal()],
+        };
+        push(&mut self.light_center, start);
+        push(&mut self.axis, axis);
+        if any_flat {
+            push(&mut self.edge, edge);
+            push(&mut self.normal, normal);
+        }
+        let (mut offset, mut flags, mut primitive) = (0.0, sphere_flags, NONE);
+        match light {
+            Light::Sphere { sphere, .. } => primitive = *sphere,
+            Light::Parallelogram(flat) => (offset, flags) = LightTable::offset_and_flags(flat, 0),
+            Light::Triangle(flat) => (offset, flags) = LightTable::offset_and_flags(flat, LightTable::TRIANGLE),
+        }
+        self.light_radius.push(if light.flat().is_some() { 0.0 } else { radius as f32 });
+        self.light_primitive.push(primitive);
+        self.offset.push(offset);
+        self.flags.push(flags);
     }
 }

@@ -234,7 +234,11 @@ pub fn density_ratio<F: Lanes>(
     let pairs = &plan.pairs;
     let everywhere = F::U::gather(&pairs.aim, pair).eq(F::U::splat(way::EVERYWHERE));
     let center = V3::<F>::gather_columns(&pairs.light_center, pair);
-    let outward = s.p.sub(center).scale(one / F::gather(&pairs.light_radius, pair));
+    let radius = F::gather(&pairs.light_radius, pair);
+    let mut outward = s.p.sub(center).scale(one / radius);
+    if !pairs.edge[0].is_empty() {
+        outward = V3::select(radius.le(zero), s.ng, outward);
+    }
     let cos = outward.dot(direction).abs();
     let cone = cone_to(plan, pair, s.p);
     let density = F::select(everywhere, one, cos * cone * c(TWO_PI));

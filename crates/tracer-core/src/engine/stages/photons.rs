@@ -11,7 +11,7 @@ use crate::math::V3;
 use crate::sampling::sampler::{hash3, unit};
 use crate::sampling::sobol::{owen, pascal_upper, shuffle_indices};
 use crate::sampling::warp;
-use crate::scene::{NONE, Scene};
+use crate::scene::{LightTable, NONE, Scene};
 
 /// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each pair with an
 /// order of its own.
@@ -60,8 +60,19 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
         let axis = V3::<F>::gather_columns(&pairs.axis, pair);
         let outward = axis.to_world(warp::cone(u, v, F::gather(&pairs.cap, pair)));
         let center = V3::<F>::gather_columns(&pairs.light_center, pair);
-        let point = outward.mad(F::gather(&pairs.light_radius, pair), center);
+        let radius = F::gather(&pairs.light_radius, pair);
+        let mut point = outward.mad(radius, center);
         let mut normal = V3::select(inside, outward.neg(), outward);
+        let flags = F::U::gather(&pairs.flags, pair);
+        let two_sided = !(flags & F::U::splat(LightTable::TWO_SIDED)).eq(F::U::splat(0));
+        let flat = if pairs.edge[0].is_empty() { F::M::from_bits(0) } else { radius.le(zero) };
+        if flat.any() {
+            let fold = !(flags & F::U::splat(LightTable::TRIANGLE)).eq(F::U::splat(0)) & one.lt(u + v);
+            let (u, v) = (F::select(fold, one - u, u), F::select(fold, one - v, v));
+            let edge = V3::<F>::gather_columns(&pairs.edge, pair);
+            point = V3::select(flat, axis.mad(u, edge.mad(v, center)), point);
+            normal = V3::select(flat, V3::gather_columns(&pairs.normal, pair), normal);
+        }
         // A direction from there to the caster's sphere, uniform.
         let (u, v) = numbers.pair(salts[1]);
         let to = V3::<F>::gather_columns(&pairs.caster_center, pair).sub(point);
@@ -70,13 +81,18 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
         let cone = sin2 / (one + (one - sin2).sqrt());
         let towards = to.scale(one / distance2.sqrt());
         let mut direction = towards.to_world(warp::cone(u, v, cone));
+        let back = flat & two_sided & normal.dot(direction).lt(zero);
+        normal = V3::select(back, normal.neg(), normal);
         let mut density = normal.dot(direction) * cone * c(super::materials::TWO_PI);
         if everywhere.any() {
             // A direction from one of its sides, by the cosine.
             let (side, _) = numbers.pair(salts[2]);
-            normal = V3::select(everywhere & side.lt(c(0.5)), normal.neg(), normal);
+            normal = V3::select(everywhere & two_sided & side.lt(c(0.5)), normal.neg(), normal);
             direction = V3::select(everywhere, normal.to_world(warp::cosine_hemisphere(u, v)), direction);
             density = F::select(everywhere, one, density);
+        }
+        if flat.any() {
+            point = V3::select(flat, normal.mad(F::gather(&pairs.offset, pair), point), point);
         }
         let flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
         let sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));

@@ -5,7 +5,7 @@
 
 use super::aim;
 use super::light_paths::{Film, Turn, change, density_ratio};
-use super::lights::{self, Receiver};
+use super::lights::{self, LightHit, Receiver};
 use super::materials::{Bsdf, Dielectric, reflect_bent};
 use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
@@ -94,7 +94,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
             let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
-            let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal });
+            let met =
+                LightHit { distance: F::load(&batch.hits.t[i..]), cos: direction.dot(s.ng).abs(), front: s.outside };
+            let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal }, &met);
             let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             if let Some((light_paths, plan)) = pass.light_paths
                 && vertex > 1
@@ -109,7 +111,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                     weight = F::select(found, one / (one + by_light), weight);
                 }
             }
-            let shines = lights::radiance(&tables.lights, light).mul(throughput).scale(shown * weight);
+            let shines = lights::radiance(&tables.lights, light, &met).mul(throughput).scale(shown * weight);
             seen = V3::select(emits, shines, seen);
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);

@@ -62,7 +62,7 @@ pub fn surface<F: Lanes>(
             u: F::select(pick, m.u, s.u),
             v: F::select(pick, m.v, s.v),
             material: F::U::select(pick, m.material, s.material),
-            light: F::U::select(pick, F::U::splat(0), s.light),
+            light: F::U::select(pick, m.light, s.light),
         };
     }
     s
@@ -259,7 +259,11 @@ fn on_triangles<F: Lanes>(
         let whole = F::U::gather(&instances.material, instance);
         material = F::U::select(transformed & !whole.eq(F::U::splat(NONE)), whole, material);
     }
-    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light: F::U::splat(0) }
+    let mut light = F::U::splat(0);
+    if !triangles.light.is_empty() {
+        light = F::U::gather(&triangles.light, triangle) + F::U::splat(1);
+    }
+    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light }
 }
 
 /// The matrix of an instance: rows of its linear part, and the translation.

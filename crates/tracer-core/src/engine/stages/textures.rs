@@ -1,4 +1,4 @@
-//! Texture look-up over lanes: wrap, then the nearest texel or the four around, decoded from sRGB before they are mixed.
+//! Texture look-up over lanes: mapping, wrap, then the nearest texel or the four around, decoded from sRGB before they are mixed.
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -16,6 +16,13 @@ pub fn texture_color<F: Lanes>(table: &TextureTable, id: F::U, u: F, v: F, mask:
     let height = F::U::gather(&table.height, id);
     let wrap = F::U::gather(&table.wrap, id);
     let nearest = F::U::gather(&table.nearest, id).eq(one);
+    let (mut u, mut v) = (u, v);
+    if !table.mapping.is_empty() {
+        let place = id * F::U::splat(6);
+        let [xu, xv, x] = F::gather3(&table.mapping, place);
+        let [yu, yv, y] = F::gather3(&table.mapping, place + F::U::splat(3));
+        (u, v) = (xu.fma(u, xv.fma(v, x)), yu.fma(u, yv.fma(v, y)));
+    }
     // Row 0 is the top of the picture.
     let (x, y) = (u, c(1.0) - v);
     let (x0, x1, fx) = axis(x, width, wrap, nearest);

@@ -19,7 +19,7 @@ use super::{MeshError, read_regular_file};
 use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::codes;
-use scene_format::desc::{Albedo, Color, Material, NamedMaterial, Texture, TextureFilter, TextureWrap};
+use scene_format::desc::{Albedo, Color, Mapping, Material, NamedMaterial, Texture, TextureFilter, TextureWrap};
 use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -208,7 +208,7 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
 fn default_albedo() -> Color {
     match Albedo::default() {
         Albedo::Color(color) => color.value,
-        Albedo::Texture(_) => [0.8; 3],
+        Albedo::Texture(_) | Albedo::Checkerboard(_) => [0.8; 3],
     }
 }
 
@@ -223,7 +223,8 @@ fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, notes: &mut Notes) -> O
         notes.unsupported("`Kd` other than 1 beside `map_Kd`");
     }
     let wrap = if picture.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat };
-    Some(Albedo::Texture(Texture { file: file.into(), filter: TextureFilter::default(), wrap }))
+    let (filter, mapping) = (TextureFilter::default(), Mapping::default());
+    Some(Albedo::Texture(Texture { file: file.into(), filter, wrap, mapping }))
 }
 
 fn clipped(statement: &str, color: Color, notes: &mut Notes) -> Color {

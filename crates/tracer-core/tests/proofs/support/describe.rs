@@ -2,8 +2,9 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, Color, Effects, Emission, Image, Instances, Light, Material, MaterialRef, Mesh, Object, PixelFilter,
-    Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens, Transform, Vec3,
+    Albedo, Color, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef, Mesh, Object,
+    PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens,
+    Transform, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
@@ -111,7 +112,7 @@ pub fn textured(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Materi
 
 /// A picture as an albedo.
 pub fn picture(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Albedo {
-    Albedo::Texture(Texture { file: file.to_owned().into(), filter, wrap })
+    Albedo::Texture(Texture { file: file.to_owned().into(), filter, wrap, mapping: Mapping::default() })
 }
 
 /// A mirror.

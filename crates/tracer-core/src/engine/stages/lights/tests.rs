@@ -1,5 +1,6 @@
 //! Directions to luminous spheres, from outside, from within and at grazing angles.
 
+use super::selection::probability;
 use super::*;
 use crate::lanes::ArrayF;
 use crate::scene::{Light, NONE, Sphere};
@@ -27,6 +28,11 @@ fn facing_up(p: V3<S>) -> Receiver<S> {
     Receiver { p, n: V3::splat([0.0, 1.0, 0.0]) }
 }
 
+/// How a sphere was met does not matter.
+fn met() -> LightHit<S> {
+    LightHit { distance: S::splat(1.0), cos: S::splat(1.0), front: S::first(1) }
+}
+
 /// Lights of these centres, radii and radiances.
 fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let spheres: Vec<Sphere> = lights
@@ -37,7 +43,7 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let lights: Vec<Light> = lights
         .iter()
         .enumerate()
-        .map(|(k, &(.., radiance))| Light::Sphere { sphere: k as u32, radiance: [radiance, 0.5, 0.0] })
+        .map(|(k, &(.., radiance))| Light::Sphere { sphere: k as u32, radiance: [radiance, 0.5, 0.0], two_sided: true })
         .collect();
     LightTable::new(&lights, &spheres)
 }
@@ -64,7 +70,7 @@ fn densities_integrate_to_one() {
         for _ in 0..20 {
             let p = (center + distance * random.direction()).as_vec3();
             let v = V3::<S>::splat(p.to_array());
-            let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), facing_up(v)));
+            let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), facing_up(v), &met()));
             // Where the point really is, after rounding. Close to the surface the solid angle grows with a square root of the
             // distance to it: rounding of the point (1e-7) then moves it by up to sqrt(2e-7) = 5e-4.
             let at = (p.as_dvec3() - center.as_vec3().as_dvec3()).length();
@@ -93,7 +99,7 @@ fn samples_meet_the_light() {
             let choice = Choice { light: k, probability: S::splat(1.0) };
             let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random));
             // Each of them is rounded three times at most.
-            let product = scalar(sample.inverse_pdf) * scalar(pdf(&lights, k, facing_up(v)));
+            let product = scalar(sample.inverse_pdf) * scalar(pdf(&lights, k, facing_up(v), &met()));
             assert!((product - 1.0).abs() < 6.0 * 2f64.powi(-24), "distance {distance}: {product}");
             let (wi, t) = (point(sample.wi), scalar(sample.distance));
             assert!((wi.length() - 1.0).abs() < 2e-6);
@@ -190,7 +196,7 @@ fn densities_hold_the_choice_of_the_light() {
             let expected = scalar(chance) / solid_angle(distance);
             // Some twenty roundings of 2^-24.
             let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
-            assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at))), "light {k} from {p:?}");
+            assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at, &met()))), "light {k} from {p:?}");
             let choice = Choice { light, probability: chance };
             let sample = sample(&table, &choice, v, number(&mut random), number(&mut random));
             assert!(is_right(1.0 / scalar(sample.inverse_pdf)), "light {k} from {p:?}, sampled");

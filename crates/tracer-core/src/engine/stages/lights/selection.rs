@@ -1,24 +1,9 @@
-//! Luminous spheres: which one, a direction to it, and the density of a direction that met one.
+//! Which light to ask: down the tree of lights.
 
-use super::materials::TWO_PI;
+use super::Receiver;
 use crate::lanes::{Bits, Lanes};
 use crate::math::V3;
-use crate::sampling::warp;
 use crate::scene::LightTable;
-
-/// A direction to a light.
-pub struct LightSample<F: Lanes> {
-    /// Unit direction.
-    pub wi: V3<F>,
-    /// Distance to the light's surface along it.
-    pub distance: F,
-    /// One over the density in solid angle, the choice of the light included.
-    pub inverse_pdf: F,
-    /// Radiance that comes from there.
-    pub radiance: V3<F>,
-    /// The light's primitive.
-    pub primitive: F::U,
-}
 
 /// A light, and how likely it was to be chosen.
 pub struct Choice<F: Lanes> {
@@ -28,19 +13,10 @@ pub struct Choice<F: Lanes> {
     pub probability: F,
 }
 
-/// Where light is asked for.
-#[derive(Clone, Copy)]
-pub struct Receiver<F: Lanes> {
-    /// The point.
-    pub p: V3<F>,
-    /// Unit normal: what comes from behind it is not asked for. Not read where there is one light.
-    pub n: V3<F>,
-}
-
 /// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over squared distance
 /// times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting, 2018). Unlike there the direction of the lights does not count (spheres shine everywhere), and distance and cosine are
-/// rather those of the middle than bounds ([`Node::importance`]).
+/// Splitting, 2018). Unlike there the way that lights face counts only for single ones, and distance and cosine are rather those of the
+/// middle than bounds ([`Node::importance`]).
 #[inline(always)]
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
     let (mut u, mut content, mut probability) = (u, root::<F>(lights), F::splat(1.0));
@@ -66,7 +42,7 @@ const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
 
 /// The probability that [`choose`] takes this light.
 #[inline(always)]
-fn probability<F: Lanes>(lights: &LightTable, light: F::U, at: Receiver<F>) -> F {
+pub fn probability<F: Lanes>(lights: &LightTable, light: F::U, at: Receiver<F>) -> F {
     let (mut content, mut probability) = (root::<F>(lights), F::splat(1.0));
     let mut trail = F::U::gather(&lights.trail, light);
     for level in 0..lights.depth {
@@ -103,18 +79,22 @@ impl<F: Lanes> Step<F> {
         let inner = content.lt(F::U::splat(LightTable::LEAF));
         let children = F::U::select(inner, content, F::U::splat(0));
         let nodes = [Node::load(lights, children), Node::load(lights, children + F::U::splat(1))];
-        Step::between(inner, nodes, at)
+        Step::between(lights, inner, nodes, at)
     }
     /// From the root, which has children, and the same ones for all lanes.
     #[inline(always)]
     fn below_root(lights: &LightTable, at: Receiver<F>) -> Self {
         let nodes = lights.tree.as_chunks().0;
-        Step::between(F::first(F::N), [Node::splat(&nodes[1]), Node::splat(&nodes[2])], at)
+        Step::between(lights, F::first(F::N), [Node::splat(&nodes[1]), Node::splat(&nodes[2])], at)
     }
     #[inline(always)]
-    fn between(inner: F::M, [a, b]: [Node<F>; 2], at: Receiver<F>) -> Self {
+    fn between(lights: &LightTable, inner: F::M, [a, b]: [Node<F>; 2], at: Receiver<F>) -> Self {
         let contents = [a.content, b.content];
-        let (a, b) = (a.importance(at), b.importance(at));
+        let (a, b) = if lights.has_flat() {
+            (a.importance(at) * a.facing(at), b.importance(at) * b.facing(at))
+        } else {
+            (a.importance(at), b.importance(at))
+        };
         let sum = a + b;
         let any = F::splat(0.0).lt(sum);
         let first = F::select(any, a / F::select(any, sum, F::splat(1.0)), F::splat(0.5));
@@ -137,6 +117,9 @@ struct Node<F: Lanes> {
     content: F::U,
     /// See [`LightTable::tree`].
     few: F,
+    /// Unit normal of a light with one side, and zero, else zeros and one. Not loaded where all lights are spheres.
+    normal: V3<F>,
+    around: F,
 }
 
 /// Lights in a sphere of radius r whose middle is d away send as if they were sqrt(d^2 + r^2 / 10) away. A bound on the distance would be
@@ -151,21 +134,39 @@ impl<F: Lanes> Node<F> {
         let at = node * F::U::splat(LightTable::STRIDE);
         let [x, y, z, radius] = F::gather4(&lights.tree, at);
         let [power, content, few] = F::gather3(&lights.tree, at + F::U::splat(4));
-        Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few }
+        let (mut normal, mut around) = (V3::zero(), F::splat(1.0));
+        if lights.has_flat() {
+            let [x, y, z, all] = F::gather4(&lights.tree, at + F::U::splat(LightTable::FACING as u32));
+            (normal, around) = (V3(x, y, z), all);
+        }
+        Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few, normal, around }
     }
 
     /// The same for all lanes, from its numbers.
     #[inline(always)]
     fn splat(numbers: &[f32; LightTable::STRIDE as usize]) -> Self {
         let c = F::splat;
-        let &[x, y, z, radius, power, content, few, _] = numbers;
+        let &[x, y, z, radius, power, content, few, _, nx, ny, nz, around] = numbers;
         Node {
             center: V3(c(x), c(y), c(z)),
             radius: c(radius),
             power: c(power),
             content: c(content).to_bits(),
             few: c(few),
+            normal: V3(c(nx), c(ny), c(nz)),
+            around: c(around),
         }
+    }
+
+    /// How much of its face a light with one side turns to the receiver: its cosine there, seen from its middle; above zero wherever the
+    /// receiver is in front of it. One for others.
+    #[inline(always)]
+    fn facing(&self, receiver: Receiver<F>) -> F {
+        let from = receiver.p.sub(self.center);
+        let length2 = from.dot(from);
+        let cos = from.dot(self.normal).max(F::splat(0.0))
+            / F::select(F::splat(0.0).lt(length2), length2, F::splat(1.0)).sqrt();
+        (cos + self.around).min(F::splat(1.0))
     }
 
     /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine there: of few lights
@@ -180,62 +181,3 @@ impl<F: Lanes> Node<F> {
         self.power * inverse * (height * inverse.sqrt()).min(F::splat(1.0))
     }
 }
-
-/// 1 - cos of the half angle under which a sphere is seen from squared distance d2, without cancellation; 2 (all directions) from
-/// within. Uniform in solid angle: the density of a direction is 1 / (2 pi times this).
-#[inline(always)]
-fn one_minus_cos<F: Lanes>(d2: F, r2: F) -> F {
-    let one = F::splat(1.0);
-    let inside = d2.le(r2);
-    let sin2 = r2 / F::select(inside, r2, d2);
-    let cos = (one - sin2).max(F::splat(0.0)).sqrt();
-    F::select(inside, F::splat(2.0), sin2 / (one + cos))
-}
-
-/// A direction from `p` to the chosen light, uniform in the solid angle under which it is seen.
-#[inline(always)]
-pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
-    let k = choice.light;
-    let c = F::splat;
-    let [x, y, z, radius, red, green, blue, primitive] = lights.rows.row::<F>(k);
-    let to_center = V3(x, y, z).sub(p);
-    let d2 = to_center.dot(to_center);
-    let r2 = radius * radius;
-    let inside = d2.le(r2);
-    let opening = one_minus_cos(d2, r2);
-    let at_center = d2.le(c(0.0));
-    let inverse = c(1.0) / F::select(at_center, c(1.0), d2).sqrt();
-    let axis = V3::select(at_center, V3(c(0.0), c(0.0), c(1.0)), to_center.scale(inverse));
-    let local = warp::cone(u, v, opening);
-    let wi = axis.to_world(local);
-    let along = d2 * inverse * local.2;
-    let sin2 = local.0.fma(local.0, local.1 * local.1);
-    let half_chord = d2.fnma(sin2, r2).max(c(0.0)).sqrt();
-    let distance = F::select(inside, along + half_chord, along - half_chord);
-    LightSample {
-        wi,
-        distance,
-        inverse_pdf: if lights.len > 1 { opening * c(TWO_PI) / choice.probability } else { opening * c(TWO_PI) },
-        radiance: V3(red, green, blue),
-        primitive: primitive.to_bits(),
-    }
-}
-
-/// Density with which [`choose`] and [`sample`] take a direction that meets light k.
-#[inline(always)]
-pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>) -> F {
-    let [x, y, z, radius, ..] = lights.rows.row::<F>(k);
-    let to_center = V3(x, y, z).sub(at.p);
-    let opening = one_minus_cos(to_center.dot(to_center), radius * radius);
-    probability(lights, k, at) / (opening * F::splat(TWO_PI))
-}
-
-/// Radiance of light k.
-#[inline(always)]
-pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U) -> V3<F> {
-    let [.., red, green, blue, _] = lights.rows.row::<F>(k);
-    V3(red, green, blue)
-}
-
-#[cfg(test)]
-mod tests;

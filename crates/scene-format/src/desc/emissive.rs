@@ -1,0 +1,60 @@
+//! Surfaces that shine.
+
+use super::{Color, Emission};
+use crate::diagnostic::Spanned;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::Item;
+use crate::words::{Words, scene_struct};
+
+/// A surface that shines and reflects nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Emissive {
+    /// How much light.
+    pub emission: Spanned<Emission>,
+    /// Whether it shines to both sides, not only outwards.
+    pub two_sided: bool,
+}
+
+scene_struct! {
+    /// A surface that shines and reflects nothing: any object with it is a light. How much it shines is said by exactly one of
+    /// `radiance` and `power`.
+    pub(crate) struct EmissiveWords as "Emissive", "an emissive material", exactly one of [radiance, power] {
+        /// Radiance L of every point, in all directions.
+        radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
+        /// Power of each copy: L = P / (pi A), A the area that shines (both sides where `two_sided`).
+        power: Option<Spanned<Color>> = None => Rule::light("in W");
+        /// Whether it shines to both sides; else only to the normal's: outwards.
+        two_sided: bool = false;
+    }
+}
+
+impl Words for Emissive {
+    const TYPE: Type = EmissiveWords::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let words = EmissiveWords::read(reader, item, at)?;
+        let emission = match (words.radiance, words.power) {
+            (Some(color), _) => Spanned { value: Emission::Radiance(color.value), span: color.span },
+            (_, Some(color)) => Spanned { value: Emission::Power(color.value), span: color.span },
+            // None was written, or what was written could not be read: reported.
+            _ => return None,
+        };
+        Some(Emissive { emission, two_sided: words.two_sided })
+    }
+
+    fn form(&self, all: bool) -> Form {
+        let mut words = EmissiveWords { radiance: None, power: None, two_sided: self.two_sided };
+        match self.emission.value {
+            Emission::Power(color) => words.power = Some(color.into()),
+            Emission::Radiance(color) | Emission::Intensity(color) => words.radiance = Some(color.into()),
+        }
+        let mut form = words.form(all);
+        // Of the amounts the one that is not written has no default to show: only one may be there.
+        if let Form::Struct { fields, .. } = &mut form {
+            fields.retain(|field| !matches!(field.value, Form::Variant { name: "None", .. }));
+        }
+        form
+    }
+}

@@ -1,0 +1,26 @@
+//! Boxes.
+
+use super::Placements;
+use crate::desc::{MaterialRef, PerAxis, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0 to 1, as a
+    /// rectangle that faces outwards.
+    pub struct RectBox as "Box", "a box" {
+        /// Its middle.
+        center: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Lengths of its sides along x, y and z, or one number for all.
+        size: Spanned<PerAxis<3>> = PerAxis([1.0; 3]) => Rule::length("a length");
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
+        /// placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

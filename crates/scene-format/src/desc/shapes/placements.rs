@@ -1,0 +1,120 @@
+//! Copies of an object.
+
+use crate::desc::Transform;
+use crate::diagnostic::Spanned;
+use crate::form::Form;
+use crate::read::{Reader, make_room};
+use crate::schema::{FieldDef, Type};
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Many copies of one object.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub enum Placements {
+    /// One copy, where `transform` puts it.
+    #[default]
+    One,
+    /// Copies, each with its own transforms (about the origin of the scene unless they say `about`).
+    List(Box<PlacementList>),
+    /// A text file of placements, one a line, relative to the scene file.
+    File(Box<Spanned<Arc<Path>>>),
+}
+
+/// Placements that a scene writes out. The steps of all of them stand in one list: a scene may have millions.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct PlacementList {
+    steps: Vec<Spanned<Transform>>,
+    /// Where the steps of each placement end.
+    ends: Vec<u32>,
+}
+
+impl PlacementList {
+    /// Adds a step to the last placement, which [`PlacementList::end`] ends.
+    pub fn push(&mut self, step: Spanned<Transform>) {
+        self.steps.push(step);
+    }
+
+    /// Ends a placement.
+    pub fn end(&mut self) {
+        self.ends.push(self.steps.len() as u32);
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The placements, each with its steps from first to last.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Spanned<Transform>]> {
+        let mut start = 0;
+        self.ends.iter().map(move |&end| {
+            let steps = &self.steps[start..end as usize];
+            start = end as usize;
+            steps
+        })
+    }
+}
+
+impl FromIterator<Vec<Spanned<Transform>>> for PlacementList {
+    fn from_iter<I: IntoIterator<Item = Vec<Spanned<Transform>>>>(placements: I) -> Self {
+        let mut list = PlacementList::default();
+        for steps in placements {
+            list.steps.extend(steps);
+            list.end();
+        }
+        list
+    }
+}
+
+/// The text in `File("..")` or `{ File = ".." }`: the name of a file needs no word around it.
+fn wrapped_text(item: Item<'_, '_>) -> Option<String> {
+    let mut inside = match item.kind() {
+        Kind::Map if item.lexeme().starts_with('{') => item.fields().map(|(_, value)| value).collect::<Vec<_>>(),
+        Kind::Tuple => item.children().collect(),
+        _ => Vec::new(),
+    };
+    let only = inside.pop().filter(|only| only.kind() == Kind::Text && inside.is_empty())?;
+    Some(only.lexeme().to_owned())
+}
+
+impl Words for Placements {
+    const TYPE: Type = Type::OneOf(&[Type::List(&Type::List(&Transform::TYPE)), Type::File]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        match item.kind() {
+            Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| Placements::File(Box::new(file))),
+            Kind::List => {
+                let mut list = PlacementList::default();
+                reader.items(item, at, |reader, placement| {
+                    let steps = reader.items(placement, at, |reader, step| {
+                        let value = <Spanned<Transform>>::read(reader, step, at);
+                        make_room(&mut list.steps, item, step);
+                        list.steps.extend(value);
+                    });
+                    if steps.is_some() {
+                        make_room(&mut list.ends, item, placement);
+                        list.end();
+                    }
+                });
+                Some(if list.is_empty() { Placements::One } else { Placements::List(Box::new(list)) })
+            }
+            _ => {
+                let expected = "a list of lists of transforms, or the name of a placements file between quotes";
+                reader.wrong_kind(item, at.noun, expected, wrapped_text(item))
+            }
+        }
+    }
+
+    fn form(&self, all: bool) -> Form {
+        match self {
+            Placements::One => Form::List(Vec::new()),
+            Placements::List(list) => {
+                let placement = |steps: &[Spanned<Transform>]| Form::list(steps.iter().map(|step| step.form(all)));
+                Form::list(list.iter().map(placement))
+            }
+            Placements::File(file) => file.form(all),
+        }
+    }
+}

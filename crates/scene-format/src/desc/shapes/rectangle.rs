@@ -1,0 +1,29 @@
+//! Flat rectangles.
+
+use super::Placements;
+use crate::desc::{MaterialRef, PerAxis, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A flat rectangle. Seen against its normal, its sides run to the right and upwards: to the right is (0, 1, 0) x normal,
+    /// or (1, 0, 0) where the normal is upright. Texture coordinates grow along the sides from 0 to 1. Where it shines it shines to
+    /// the normal's side.
+    pub struct Rectangle as "Rectangle", "a rectangle" {
+        /// Its middle.
+        center: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Direction that it faces.
+        normal: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Lengths of its sides to the right and upwards, or one number for both.
+        size: Spanned<PerAxis<2>> = PerAxis([1.0; 2]) => Rule::length("a length");
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
+        /// placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

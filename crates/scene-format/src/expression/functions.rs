@@ -1,0 +1,159 @@
+//! The functions of expressions. Angles are in degrees.
+
+use super::Value;
+
+/// Names that stand for a number.
+pub(super) const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
+
+/// A function: its name, how it is called, and what it does; `None` where it does not take such values.
+pub(super) struct Function {
+    pub name: &'static str,
+    pub call: &'static str,
+    pub apply: fn(&[Value]) -> Option<Value>,
+}
+
+macro_rules! functions {
+    ($($name:literal $call:literal $apply:expr;)+) => {
+        pub(super) const FUNCTIONS: &[Function] = &[$(Function { name: $name, call: $call, apply: $apply },)+];
+    };
+}
+
+functions! {
+    "abs" "abs(x)" |a| each(a, f64::abs);
+    "sign" "sign(x)" |a| each(a, |x| if x > 0.0 { 1.0 } else if x < 0.0 { -1.0 } else { 0.0 });
+    "floor" "floor(x)" |a| each(a, f64::floor);
+    "ceil" "ceil(x)" |a| each(a, f64::ceil);
+    "round" "round(x)" |a| each(a, f64::round);
+    "sqrt" "sqrt(x)" |a| each(a, f64::sqrt);
+    "exp" "exp(x)" |a| each(a, libm::exp);
+    "log" "log(x)" |a| each(a, libm::log);
+    "sin" "sin(degrees)" |a| each(a, |x| turned(x).0);
+    "cos" "cos(degrees)" |a| each(a, |x| turned(x).1);
+    "tan" "tan(degrees)" |a| each(a, |x| turned(x).0 / turned(x).1);
+    "asin" "asin(x)" |a| each(a, |x| libm::asin(x).to_degrees());
+    "acos" "acos(x)" |a| each(a, |x| libm::acos(x).to_degrees());
+    "atan" "atan(x)" |a| each(a, |x| libm::atan(x).to_degrees());
+    "atan2" "atan2(y, x)" |a| pairwise(a, |y, x| libm::atan2(y, x).to_degrees());
+    "min" "min(a, b, ..)" |a| fold(a, f64::min);
+    "max" "max(a, b, ..)" |a| fold(a, f64::max);
+    "clamp" "clamp(x, low, high)" |a| match a {
+        [x, low, high] => x.zip(low, f64::max)?.zip(high, f64::min),
+        _ => None,
+    };
+    "mix" "mix(a, b, t)" |a| match a {
+        [from, to, t] => {
+            let way = to.zip(from, |b, a| b - a)?;
+            from.zip(&way.zip(t, |d, t| d * t)?, |a, d| a + d)
+        }
+        _ => None,
+    };
+    "step" "step(edge, x)" |a| pairwise(a, |edge, x| if x < edge { 0.0 } else { 1.0 });
+    "smoothstep" "smoothstep(low, high, x)" |a| match a {
+        [Value::Number(low), Value::Number(high), x] => x.map(|x| {
+            let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        }),
+        _ => None,
+    };
+    "length" "length(v)" |a| match a {
+        [v @ (Value::Pair(_) | Value::Triple(_))] => Some(Value::Number(length(v.numbers()))),
+        _ => None,
+    };
+    "normalize" "normalize(v)" |a| match a {
+        [v @ (Value::Pair(_) | Value::Triple(_))] => {
+            let length = length(v.numbers());
+            v.map(|x| x / length)
+        }
+        _ => None,
+    };
+    "dot" "dot(a, b)" |a| match a {
+        [a @ (Value::Pair(_) | Value::Triple(_)), b] if a.numbers().len() == b.numbers().len() => {
+            Some(Value::Number(a.numbers().iter().zip(b.numbers()).map(|(a, b)| a * b).sum()))
+        }
+        _ => None,
+    };
+    "cross" "cross(a, b)" |a| match a {
+        [Value::Triple([ax, ay, az]), Value::Triple([bx, by, bz])] => {
+            Some(Value::Triple([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]))
+        }
+        _ => None,
+    };
+    "hsv" "hsv(hue, saturation, value)" |a| match a {
+        [Value::Number(h), Value::Number(s), Value::Number(v)] => Some(Value::Triple(hsv(*h, *s, *v))),
+        _ => None,
+    };
+    "random" "random(n, ..)" |a| match a {
+        [] => None,
+        _ if a.len() > 4 => None,
+        _ => {
+            let numbers: Option<Vec<f64>> =
+                a.iter().map(|x| if let Value::Number(x) = x { Some(*x) } else { None }).collect();
+            numbers.map(|numbers| Value::Number(random(&numbers)))
+        }
+    };
+    "len" "len(list)" |a| match a {
+        [Value::List(items)] => Some(Value::Number(items.len() as f64)),
+        [v @ (Value::Pair(_) | Value::Triple(_))] => Some(Value::Number(v.numbers().len() as f64)),
+        _ => None,
+    };
+    "if" "if(condition, a, b)" |a| match a {
+        [Value::Bool(condition), a, b] => Some(if *condition { a } else { b }.clone()),
+        _ => None,
+    };
+}
+
+fn each(arguments: &[Value], f: impl Fn(f64) -> f64) -> Option<Value> {
+    match arguments {
+        [x] => x.map(f),
+        _ => None,
+    }
+}
+
+fn pairwise(arguments: &[Value], f: impl Fn(f64, f64) -> f64) -> Option<Value> {
+    match arguments {
+        [a, b] => a.zip(b, f),
+        _ => None,
+    }
+}
+
+fn fold(arguments: &[Value], f: impl Fn(f64, f64) -> f64) -> Option<Value> {
+    let (first, rest) = arguments.split_first()?;
+    rest.iter().try_fold(first.map(|x| x)?, |so_far, x| so_far.zip(x, &f))
+}
+
+fn length(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Sine and cosine of an angle in degrees; exact at whole right angles.
+fn turned(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        rest => (libm::sin(rest.to_radians()), libm::cos(rest.to_radians())),
+    }
+}
+
+/// A colour by hue in degrees, saturation and value (Smith: Color Gamut Transform Pairs, 1978), sRGB, made linear.
+fn hsv(hue: f64, saturation: f64, value: f64) -> [f64; 3] {
+    let channel = |offset: f64| {
+        let k = (offset + hue / 60.0).rem_euclid(6.0);
+        value - value * saturation * k.min(4.0 - k).clamp(0.0, 1.0)
+    };
+    [5.0, 3.0, 1.0].map(|offset| crate::read::linear_from_srgb(channel(offset)))
+}
+
+/// A number from 0 to 1, the same for the same numbers: a hash of their bits (SplitMix64, Steele et al. 2014).
+fn random(numbers: &[f64]) -> f64 {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    for number in numbers {
+        // Zero has two signs.
+        state = (state ^ (number + 0.0).to_bits()).wrapping_add(0x9e37_79b9_7f4a_7c15);
+        state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        state ^= state >> 31;
+    }
+    (state >> 11) as f64 / (1u64 << 53) as f64
+}

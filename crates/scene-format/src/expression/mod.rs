@@ -1,0 +1,51 @@
+//! Expressions: texts that begin with `=` where a number, a vector, a colour or a truth value may stand.
+//!
+//! Total: no loops, no functions of one's own, at most [`MAX_BYTES`] long and [`MAX_DEPTH`] deep, so every one ends soon. The same on every
+//! machine: own `libm`, angles in degrees.
+
+mod functions;
+mod parse;
+mod value;
+
+pub(crate) use parse::evaluate;
+pub(crate) use value::Value;
+
+use crate::codes::Code;
+use std::ops::Range;
+
+/// Longer ones are refused.
+pub(crate) const MAX_BYTES: usize = 4096;
+/// Deeper ones are refused.
+const MAX_DEPTH: usize = 64;
+
+/// What is wrong with an expression.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub code: Code,
+    /// The bytes of the text that are meant.
+    pub at: Range<usize>,
+    pub message: String,
+    pub expected: String,
+    pub hint: String,
+}
+
+/// What a name stands for.
+pub(crate) enum Named {
+    Value(Value),
+    /// Nothing; these names are known.
+    Unknown(Vec<String>),
+    /// What it stands for could not be read, which was reported.
+    Failed,
+}
+
+/// Whether a name has a meaning of its own.
+pub(crate) fn is_known(name: &str) -> bool {
+    let constant = functions::CONSTANTS.iter().any(|(constant, _)| *constant == name);
+    constant || matches!(name, "true" | "false") || functions::FUNCTIONS.iter().any(|function| function.name == name)
+}
+
+/// Why there is no value: `None` where that was reported.
+pub(crate) type Failure = Option<Fault>;
+
+#[cfg(test)]
+mod tests;

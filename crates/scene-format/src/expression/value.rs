@@ -1,0 +1,70 @@
+//! Values of expressions.
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    Number(f64),
+    Bool(bool),
+    Pair([f64; 2]),
+    Triple([f64; 3]),
+    List(Vec<Value>),
+}
+
+impl Value {
+    /// `a number`
+    pub fn noun(&self) -> &'static str {
+        match self {
+            Value::Number(_) => "a number",
+            Value::Bool(_) => "true or false",
+            Value::Pair(_) => "a pair of numbers",
+            Value::Triple(_) => "a vector",
+            Value::List(_) => "a list",
+        }
+    }
+
+    /// The numbers that it is made of; none of lists and truth values.
+    pub fn numbers(&self) -> &[f64] {
+        match self {
+            Value::Number(x) => std::slice::from_ref(x),
+            Value::Pair(pair) => pair,
+            Value::Triple(triple) => triple,
+            Value::Bool(_) | Value::List(_) => &[],
+        }
+    }
+
+    /// A value of so many numbers.
+    pub fn of(numbers: &[f64]) -> Option<Value> {
+        match *numbers {
+            [x] => Some(Value::Number(x)),
+            [x, y] => Some(Value::Pair([x, y])),
+            [x, y, z] => Some(Value::Triple([x, y, z])),
+            _ => None,
+        }
+    }
+
+    /// Number by number.
+    pub fn map(&self, f: impl Fn(f64) -> f64) -> Option<Value> {
+        let numbers: Vec<f64> = self.numbers().iter().map(|&x| f(x)).collect();
+        Value::of(&numbers)
+    }
+
+    /// Number by number of two; a single number goes with all of the other's.
+    pub fn zip(&self, other: &Value, f: impl Fn(f64, f64) -> f64) -> Option<Value> {
+        let (a, b) = (self.numbers(), other.numbers());
+        let count = a.len().max(b.len());
+        if a.is_empty() || b.is_empty() || (a.len() != b.len() && a.len() != 1 && b.len() != 1) {
+            return None;
+        }
+        let of = |numbers: &[f64], k: usize| numbers[if numbers.len() == 1 { 0 } else { k }];
+        let numbers: Vec<f64> = (0..count).map(|k| f(of(a, k), of(b, k))).collect();
+        Value::of(&numbers)
+    }
+
+    /// Whether all of its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        match self {
+            Value::List(items) => items.iter().all(Value::is_finite),
+            _ => self.numbers().iter().all(|x| x.is_finite()),
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! Values by name, and the expressions that use them.
+
+use super::{Reader, Step, shortened};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expression::{self, Named, Value};
+use crate::form::Form;
+use crate::schema::{FieldDef, Type};
+use crate::suggest;
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+use std::collections::BTreeMap;
+
+/// The field `vars`: its values stay with the reader.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Vars;
+
+/// A name and what it stands for.
+#[derive(Debug)]
+struct Var {
+    name: String,
+    span: Span,
+    /// Where the value stands on the tape.
+    slot: u32,
+    state: State,
+    used: bool,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    NotYet,
+    /// Being reckoned: whoever asks for it now goes round in a circle.
+    Open,
+    Done(Value),
+    Failed,
+}
+
+/// All values by name.
+#[derive(Debug, Default)]
+pub(super) struct Table {
+    list: Vec<Var>,
+    by_name: BTreeMap<String, usize>,
+    /// Some could not be read: names may be missing.
+    damaged: bool,
+}
+
+impl Words for Vars {
+    const TYPE: Type = Type::Map(&Type::Value);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.vars(item, at)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Map(Vec::new())
+    }
+}
+
+/// Whether a text is an expression.
+pub(crate) fn is_expression(item: Item<'_, '_>) -> bool {
+    item.kind() == Kind::Text && item.lexeme().trim_start_matches(['"', '\'', 'r', '#']).starts_with('=')
+}
+
+impl Reader<'_> {
+    /// `{ "name": value }`
+    fn vars(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vars> {
+        match item.kind() {
+            Kind::Map => {}
+            Kind::Tuple if item.name().is_none() && item.children().next().is_none() => return Some(Vars),
+            _ => {
+                self.vars.damaged = true;
+                return self.wrong_type(item, at, "names with their values: { \"height\": 0.75 }");
+            }
+        }
+        self.vars.damaged |= item.is_damaged();
+        for (key, value) in item.fields() {
+            let name = key.text().into_owned();
+            self.path.push(Step::Key(name.clone()));
+            let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
+                && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+            if !plain || expression::is_known(&name) {
+                let why =
+                    if plain { "has a meaning of its own in expressions" } else { "cannot stand in an expression" };
+                self.report(
+                    Diagnostic::error(codes::BAD_VAR_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
+                        .expected("a name of letters, digits and `_` that is no function"),
+                );
+            } else if let Some(&first) = self.vars.by_name.get(&name) {
+                let first = self.vars.list[first].span;
+                self.report(
+                    Diagnostic::error(codes::DUPLICATE_NAME, key.span(), format!("two vars have the name \"{name}\""))
+                        .hint("rename one of the two, or remove it")
+                        .label(first, "the first one is here"),
+                );
+            } else {
+                self.vars.by_name.insert(name.clone(), self.vars.list.len());
+                let slot = value.index() as u32;
+                self.vars.list.push(Var { name, span: key.span(), slot, state: State::NotYet, used: false });
+            }
+            self.path.pop();
+        }
+        for k in 0..self.vars.list.len() {
+            self.path.push(Step::Key(self.vars.list[k].name.clone()));
+            self.var(k, item);
+            self.path.pop();
+        }
+        Some(Vars)
+    }
+
+    /// The value of a name, reckoned when it is first asked for. `near`: any item of the tree.
+    fn var(&mut self, k: usize, near: Item<'_, '_>) -> State {
+        if let State::NotYet = self.vars.list[k].state {
+            self.vars.list[k].state = State::Open;
+            let value = near.other(self.vars.list[k].slot).and_then(|item| self.value(item));
+            // A circle has been told where it closes.
+            if let State::Open = self.vars.list[k].state {
+                self.vars.list[k].state = value.map_or(State::Failed, State::Done);
+            }
+        }
+        self.vars.list[k].state.clone()
+    }
+
+    /// A value of `vars`.
+    fn value(&mut self, item: Item<'_, '_>) -> Option<Value> {
+        match item.kind() {
+            Kind::Broken => None,
+            Kind::Integer | Kind::Float => {
+                let number = item.number().filter(|number| number.is_finite());
+                if number.is_none() {
+                    self.report(
+                        Diagnostic::error(codes::NOT_FINITE, item.span(), "the value of a var must be a finite number")
+                            .expected("a number"),
+                    );
+                }
+                number.map(Value::Number)
+            }
+            Kind::Bool => Some(Value::Bool(item.lexeme() == "true")),
+            Kind::Text => match self.expression(item) {
+                Some(value) => value,
+                None => self.text_color(item, &VAR).map(Value::Triple),
+            },
+            Kind::List | Kind::Tuple if item.name().is_none() => {
+                let mut items = Vec::new();
+                for child in item.children() {
+                    items.push(self.value(child)?);
+                }
+                let numbers: Option<Vec<f64>> =
+                    items.iter().map(|item| if let Value::Number(x) = item { Some(*x) } else { None }).collect();
+                let is_vector =
+                    item.kind() == Kind::Tuple || numbers.as_ref().is_some_and(|n| matches!(n.len(), 2 | 3));
+                if is_vector && !matches!(items.len(), 2 | 3) {
+                    self.wrong_count(item, &VAR, items.len(), 3);
+                    return None;
+                }
+                let vector = numbers.filter(|_| is_vector).and_then(|numbers| Value::of(&numbers));
+                Some(vector.unwrap_or(Value::List(items)))
+            }
+            _ => self.wrong_kind(item, "the value of a var", expected(), None),
+        }
+    }
+
+    /// The value of an expression; `None` where the item is none, `Some(None)` where it is a wrong one, which has been reported.
+    pub(crate) fn expression(&mut self, item: Item<'_, '_>) -> Option<Option<Value>> {
+        if !is_expression(item) {
+            return None;
+        }
+        let text = item.text();
+        let body = text.strip_prefix('=')?;
+        let result = expression::evaluate(body, &mut |name| {
+            let Some(&k) = self.vars.by_name.get(name) else {
+                if self.vars.damaged {
+                    return Named::Failed;
+                }
+                return Named::Unknown(self.vars.list.iter().map(|var| var.name.clone()).collect());
+            };
+            self.vars.list[k].used = true;
+            match self.var(k, item) {
+                State::Done(value) => Named::Value(value),
+                State::Open => {
+                    self.circle(k, item);
+                    Named::Failed
+                }
+                State::Failed | State::NotYet => Named::Failed,
+            }
+        });
+        let fault = match result {
+            Ok(value) => return Some(Some(value)),
+            Err(None) => return Some(None),
+            Err(Some(fault)) => fault,
+        };
+        // Without escapes the text stands in the file as it is.
+        let mut span = item.span();
+        if item.lexeme().get(1..item.lexeme().len().max(2) - 1) == Some(&*text) {
+            let from = span.start + 2;
+            (span.start, span.end) = (from + fault.at.start as u32, from + fault.at.end as u32);
+        }
+        let mut diagnostic = Diagnostic::error(fault.code, span, fault.message).expected(fault.expected);
+        diagnostic.hint = fault.hint;
+        self.report(diagnostic);
+        Some(None)
+    }
+
+    fn circle(&mut self, k: usize, item: Item<'_, '_>) {
+        let open: Vec<&str> =
+            (self.vars.list.iter()).filter(|var| matches!(var.state, State::Open)).map(|var| &*var.name).collect();
+        let var = &self.vars.list[k];
+        let message = match open.len() {
+            1 => format!("`{}` stands for itself", var.name),
+            _ => format!("{} stand for each other", suggest::join(&open, "and")),
+        };
+        let fault = Diagnostic::error(codes::CIRCLE, item.span(), message)
+            .expected("values that do not need themselves")
+            .label(var.span, "the circle begins here");
+        self.vars.list[k].state = State::Failed;
+        self.report(fault);
+    }
+
+    /// An expression where a number stands.
+    pub(super) fn number_of(&mut self, value: Value, item: Item<'_, '_>, at: &'static FieldDef) -> Option<f64> {
+        match value {
+            Value::Number(number) => Some(number),
+            other => self.wrong_value(&other, item, at),
+        }
+    }
+
+    /// Reports an expression whose value is of the wrong kind.
+    pub(super) fn wrong_value<T>(&mut self, value: &Value, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
+        let message = format!("{} cannot be {}", super::plain(at.noun), value.noun());
+        let expected = super::value::expected_for(at, item);
+        self.report(Diagnostic::error(codes::EXPRESSION_TYPE, item.span(), message).expected(expected));
+        None
+    }
+
+    /// Warns of names that nothing uses.
+    pub(super) fn unused_vars(&mut self) {
+        let unused: Vec<(String, Span)> =
+            self.vars.list.iter().filter(|var| !var.used).map(|var| (var.name.clone(), var.span)).collect();
+        for (name, span) in unused {
+            self.path = vec![Step::Field("vars"), Step::Key(name.clone())];
+            let message = format!("nothing uses the var \"{}\"", shortened(&name));
+            let hint = format!("remove it, or write \"={name}\" where its value is due");
+            self.report(Diagnostic::warning(codes::UNUSED_VAR, span, message).hint(hint));
+        }
+        self.path.clear();
+    }
+}
+
+/// What may stand in `vars`.
+fn expected() -> &'static str {
+    "a number, a vector, a colour, true or false, a list of these, or an expression: \"=2*r\""
+}
+
+/// For colours in `vars`.
+static VAR: FieldDef = FieldDef {
+    name: "",
+    noun: "the value of a var",
+    doc: &[],
+    kind: Type::Value,
+    rule: crate::schema::Rule::ANY,
+    default: None,
+};

@@ -1,0 +1,106 @@
+//! Lights: which one, a direction to it, and the density of a direction that met one.
+//!
+//! Radiance is in the engine's unit, per solid angle and projected area. Densities are in solid angle at the receiver. A light shines alike in all
+//! directions, from its front: outwards, or the side of its normal; from its back, too, where it has two sides. A sample of a light that does
+//! not shine to the receiver has radiance zero.
+
+mod flat;
+mod selection;
+mod sphere;
+
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::scene::LightTable;
+pub use selection::{Choice, choose};
+
+/// A direction to a light.
+pub struct LightSample<F: Lanes> {
+    /// Unit direction.
+    pub wi: V3<F>,
+    /// Distance to the light's surface along it; of flat lights to just before it.
+    pub distance: F,
+    /// One over the density in solid angle, the choice of the light included.
+    pub inverse_pdf: F,
+    /// Radiance that comes from there.
+    pub radiance: V3<F>,
+    /// The light's primitive, which is not in the way; `NONE` where the ray ends before it.
+    pub primitive: F::U,
+}
+
+/// Where light is asked for.
+#[derive(Clone, Copy)]
+pub struct Receiver<F: Lanes> {
+    /// The point.
+    pub p: V3<F>,
+    /// Unit normal: what comes from behind it is not asked for. Not read where there is one light.
+    pub n: V3<F>,
+}
+
+/// How a ray met a light.
+#[derive(Clone, Copy)]
+pub struct LightHit<F: Lanes> {
+    /// So far from the receiver.
+    pub distance: F,
+    /// Cosine to the light's normal there, above zero.
+    pub cos: F,
+    /// It was met from its front.
+    pub front: F::M,
+}
+
+/// A direction from `p` to the chosen light.
+#[inline(always)]
+pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
+    let k = choice.light;
+    let mut sample = sphere::sample(lights, k, p, u, v);
+    if lights.has_flat() {
+        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        if is_flat.any() {
+            let s = flat::sample(lights, flat_row(lights, k), p, u, v);
+            sample = LightSample {
+                wi: V3::select(is_flat, s.wi, sample.wi),
+                distance: F::select(is_flat, s.distance, sample.distance),
+                inverse_pdf: F::select(is_flat, s.inverse_pdf, sample.inverse_pdf),
+                radiance: V3::select(is_flat, s.radiance, sample.radiance),
+                primitive: F::U::select(is_flat, s.primitive, sample.primitive),
+            };
+        }
+    }
+    if lights.len > 1 {
+        sample.inverse_pdf = sample.inverse_pdf / choice.probability;
+    }
+    sample
+}
+
+/// The row of a flat light; anything for spheres.
+#[inline(always)]
+fn flat_row<U: Bits>(lights: &LightTable, k: U) -> U {
+    let spheres = U::splat(lights.spheres);
+    U::select(k.lt(spheres), U::splat(0), k - spheres)
+}
+
+/// Density with which [`choose`] and [`sample`] take a direction that has met light `k`.
+#[inline(always)]
+pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightHit<F>) -> F {
+    let mut inverse = sphere::inverse_pdf(lights, k, at.p);
+    if lights.has_flat() {
+        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        inverse = F::select(is_flat, flat::inverse_pdf(lights, flat_row(lights, k), hit), inverse);
+    }
+    selection::probability(lights, k, at) / inverse
+}
+
+/// Radiance of light `k` to where it was met from.
+#[inline(always)]
+pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U, hit: &LightHit<F>) -> V3<F> {
+    let [.., red, green, blue, _, inwards] = lights.rows.row::<F>(k);
+    let shines = hit.front | F::splat(0.0).lt(inwards);
+    let mut radiance = V3::select(shines, V3(red, green, blue), V3::zero());
+    if lights.has_flat() {
+        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        radiance = V3::select(is_flat, flat::radiance(lights, flat_row(lights, k), hit.front), radiance);
+    }
+    radiance
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,197 @@
+//! Objects that shine: rectangles, boxes, meshes and spheres with `Emissive`, as paths of the reference see them, and against closed forms.
+
+use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_picture};
+use crate::support::describe::*;
+use crate::support::meshes::{icosphere, square, torus};
+use crate::support::{compiled, film};
+use scene_format::SceneDesc;
+use scene_format::desc::{
+    Emission, Emissive, Light, Material, MaterialRef, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
+    SphereLight, Transform, Vec3,
+};
+
+/// All whose guides are compared here, for the strictness of the tests.
+const GUIDED: usize = 5;
+
+fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
+    Material::Emissive(Box::new(Emissive { emission: Emission::Radiance(radiance).into(), two_sided }))
+}
+
+fn powered(power: [f64; 3], two_sided: bool) -> Material {
+    Material::Emissive(Box::new(Emissive { emission: Emission::Power(power).into(), two_sided }))
+}
+
+fn inline(material: Material) -> MaterialRef {
+    MaterialRef::Inline(Box::new(material.into()))
+}
+
+fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material) -> Object {
+    Object::Rectangle(Box::new(Rectangle {
+        center: center.into(),
+        normal: normal.into(),
+        size: PerAxis(size).into(),
+        material: inline(material),
+        transform: Vec::new(),
+        placements: Placements::One,
+    }))
+}
+
+fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform>) -> Object {
+    Object::Box(Box::new(RectBox {
+        center: center.into(),
+        size: PerAxis(size).into(),
+        material: inline(material),
+        transform: transform.into_iter().map(Into::into).collect(),
+        placements: Placements::One,
+    }))
+}
+
+fn floor() -> Object {
+    rectangle([0.0; 3], [0.0, 1.0, 0.0], [8.0, 8.0], diffuse([0.7, 0.6, 0.5]))
+}
+
+fn view(objects: Vec<Object>) -> SceneDesc {
+    scene(32, Vec::new(), objects).camera([0.5, 2.5, 6.0], [0.0, 0.8, 0.0], 45.0).bounces(3)
+}
+
+/// A square lamp that faces down, sideways, to both sides; sheared, so that it is no rectangle; mirrored copies.
+#[test]
+fn rectangles_as_the_reference_sees_them() {
+    let samples = Samples { engine: 512, reference: 512 };
+    let down = rectangle([0.0, 2.0, 0.0], [0.0, -1.0, 0.0], [1.0, 0.6], shining([9.0, 7.0, 5.0], false));
+    let ball = sphere([-0.8, 0.6, 0.3], 0.6, diffuse([0.3, 0.5, 0.8]));
+    assert_same_picture("lamp above", &view(vec![floor(), down, ball.clone()]), samples);
+    let panel =
+        |two_sided| rectangle([1.0, 0.9, -0.3], [-1.0, 0.2, 0.4], [1.2, 0.7], shining([4.0, 5.0, 6.0], two_sided));
+    let polished = sphere([-0.8, 0.6, 0.3], 0.6, blinn_phong([0.5; 3], 80.0, 0.2));
+    assert_same_picture("panel", &view(vec![floor(), panel(false), polished.clone()]), samples);
+    assert_same_picture("two sides", &view(vec![floor(), panel(true), polished]), samples);
+    let mut sheared = panel(false);
+    if let Object::Rectangle(rectangle) = &mut sheared {
+        let steps = [
+            rotate([0.3, 0.2, 1.0], 35.0),
+            Transform::Scale { factor: [1.0, 1.8, 0.6], about: None },
+            rotate([0.0, 1.0, 0.4], -20.0),
+        ];
+        rectangle.transform = steps.map(Into::into).to_vec();
+        let turned = |z: f64| vec![Transform::Scale { factor: [1.0, 1.0, z], about: Some(Box::new([0.0; 3])) }.into()];
+        rectangle.placements = Placements::List(Box::new([turned(1.0), turned(-1.0)].into_iter().collect()));
+    }
+    assert_same_picture("sheared and mirrored", &view(vec![floor(), sheared, ball]), samples);
+}
+
+/// A box, a mesh of triangles and a sphere that shine outwards only, beside a lamp.
+#[test]
+fn bodies_as_the_reference_sees_them() {
+    let samples = Samples { engine: 512, reference: 512 };
+    let turned = vec![rotate([0.3, 1.0, 0.2], 40.0)];
+    let cube = cuboid([0.9, 0.8, 0.0], [0.5, 0.8, 0.3], powered([30.0, 20.0, 10.0], false), turned);
+    let ring = torus(0.3, 10, 6).obj("torus-10-6");
+    let ring =
+        mesh(&ring, shining([1.0, 2.0, 3.0], false), Shading::Flat, vec![Transform::Translate([-0.9, 1.2, -0.5])]);
+    let ball = sphere([-0.2, 0.4, 1.4], 0.3, powered([3.0, 4.0, 2.0], false));
+    let mut desc = view(vec![floor(), cube, ring, ball, sphere([0.1, 0.5, 0.2], 0.5, diffuse([0.6; 3]))]);
+    desc.lights.push(Light::SphereLight(light([1.0, 3.0, 1.0], 0.2, [20.0; 3])).into());
+    assert_same_picture("bodies", &desc, samples);
+    // From within a body that shines outwards only comes nothing; from one with two sides it comes.
+    let inside = |two_sided| {
+        let around = sphere([0.0, 1.0, 0.0], 9.0, shining([0.5, 0.7, 0.9], two_sided));
+        view(vec![floor(), around, sphere([-0.8, 0.6, 0.3], 0.6, diffuse([0.3, 0.5, 0.8]))])
+    };
+    let dark = film(&compiled(&inside(false)), 4, 1);
+    assert!((0..32).all(|y| (0..32).all(|x| dark.radiance(x, y) == [0.0; 3])));
+    assert_same_picture("within", &inside(true), samples);
+}
+
+/// Light of flat lamps over glass and mirrors is the same by guides and light paths as by paths alone.
+#[test]
+fn over_glass_and_mirrors() {
+    let on_floor = |lamps: Vec<Object>, object: Object| {
+        let floor = rectangle([0.0; 3], [0.0, 1.0, 0.0], [40.0, 40.0], diffuse([0.8, 0.6, 0.4]));
+        scene(32, Vec::new(), [vec![floor, object], lamps].concat())
+            .camera([-3.0, 14.0, 18.0], [-1.0, 0.0, 0.0], 40.0)
+            .bounces(6)
+    };
+    let high = |two_sided| rectangle([6.0, 14.0, 0.0], [-0.4, -1.0, 0.0], [8.0, 6.0], shining([10.0; 3], two_sided));
+    let ball = |y: f64, material| sphere([0.0, y, 0.0], 2.5, material);
+    assert_guiding_is_unbiased("glass under a panel", &on_floor(vec![high(false)], ball(3.0, glass(1.5))), 512, GUIDED);
+    let standing = rectangle([-4.5, 2.5, 0.0], [1.0, 0.0, 0.1], [5.0, 5.0], shining([6.0, 8.0, 10.0], true));
+    assert_guiding_is_unbiased(
+        "mirror beside a panel",
+        &on_floor(vec![standing], ball(2.6, mirror([0.9; 3]))),
+        512,
+        GUIDED,
+    );
+    // The lamp's plane cuts the ball.
+    let cutting = rectangle([6.5, 2.5, 0.0], [0.0, 1.0, 0.0], [6.0, 6.0], shining([6.0, 8.0, 10.0], false));
+    assert_guiding_is_unbiased(
+        "beside its plane",
+        &on_floor(vec![cutting, high(false)], ball(3.0, glass(1.5))),
+        512,
+        GUIDED,
+    );
+    let block = cuboid([6.0, 9.0, 1.0], [4.0, 3.0, 5.0], shining([8.0; 3], false), vec![rotate([1.0, 0.3, 0.2], 30.0)]);
+    assert_guiding_is_unbiased("under a box", &on_floor(vec![block], ball(2.6, mirror([0.9, 0.7, 0.3]))), 512, GUIDED);
+    let lump = icosphere(1).obj("icosphere-1");
+    let steps = vec![scale(3.5), Transform::Translate([6.0, 12.0, 0.0])];
+    let lump = mesh(&lump, shining([10.0; 3], false), Shading::Flat, steps);
+    assert_guiding_is_unbiased("under a mesh", &on_floor(vec![lump], ball(3.0, glass(1.5))), 512, GUIDED);
+}
+
+/// A lamp is the same light whichever word says it.
+#[test]
+fn a_sphere_that_shines_is_a_sphere_light() {
+    let with = |lights: Vec<SphereLight>, objects: Vec<Object>| {
+        let ball = sphere([-0.8, 0.6, 0.3], 0.6, mirror([0.9; 3]));
+        scene(32, lights, [vec![floor(), ball], objects].concat()).camera([0.5, 2.5, 6.0], [0.0, 0.8, 0.0], 45.0)
+    };
+    let (center, radius, radiance) = ([1.0, 2.0, 0.5], 0.25, [40.0, 50.0, 30.0]);
+    let ball = sphere(center, radius, shining(radiance, true));
+    let pixels = |desc: SceneDesc| {
+        let picture = film(&compiled(&desc), 16, 1);
+        (0..1024).map(|k| picture.radiance(k % 32, k / 32)).collect::<Vec<_>>()
+    };
+    assert!(pixels(with(vec![light(center, radius, radiance)], vec![])) == pixels(with(vec![], vec![ball])));
+}
+
+/// Irradiance right under the middle of a square lamp of side 2a at height h that faces down, of radiance one: the four corners' form factors
+/// (Howell: A Catalog of Radiation Heat Transfer Configuration Factors, B-3), E = 4 a / sqrt(a^2 + h^2) atan(a / sqrt(a^2 + h^2)).
+#[test]
+fn light_under_a_square_lamp() {
+    for (a, h) in [(0.5, 1.0), (2.0, 1.0), (0.05, 1.0), (0.5, 0.05)] {
+        let lamp = rectangle([0.0, h, 0.0], [0.0, -1.0, 0.0], [2.0 * a; 2], shining([1.0; 3], false));
+        let ground = rectangle([0.0; 3], [0.0, 1.0, 0.0], [100.0; 2], diffuse([0.5; 3]));
+        // From within the gap, down at a spot that is small beside both.
+        let mut desc = scene(8, Vec::new(), vec![ground, lamp]).bounces(0);
+        desc = desc.camera([0.4 * a, 0.5 * h, 0.0], [0.0; 3], 0.01);
+        let picture = film(&compiled(&desc), 1024, 5);
+        let mean = (0..64).map(|k| picture.radiance(k % 8, k / 8)[0]).sum::<f64>() / 64.0;
+        let s = (a * a + h * h).sqrt();
+        let expected = 0.5 / std::f64::consts::PI * 4.0 * a / s * (a / s).atan();
+        let error = (0..64).map(|k| picture.variance(k % 8, k / 8)).sum::<f64>().sqrt() / 64.0;
+        assert!((mean - expected).abs() < 4.0 * error + 2e-4 * expected, "{a} {h}: {mean} +- {error}, not {expected}");
+    }
+}
+
+/// The square of two triangles in a file, and the word: the same place, and the same light.
+#[test]
+fn a_square_of_a_file_shines_like_the_word() {
+    let file = square(1.0).obj("square-1");
+    let steps = || vec![rotate([0.0, 0.0, 1.0], 180.0), Transform::Translate([0.0, 2.0, 0.0])];
+    let word = {
+        let mut word = rectangle([0.0; 3], [0.0, 1.0, 0.0], [2.0, 2.0], shining([3.0; 3], false));
+        if let Object::Rectangle(rectangle) = &mut word {
+            rectangle.transform = steps().into_iter().map(Into::into).collect();
+        }
+        word
+    };
+    let of_file = mesh(&file, shining([3.0; 3], false), Shading::Flat, steps());
+    let samples = Samples { engine: 512, reference: 512 };
+    assert_same_picture("a square's file", &view(vec![floor(), of_file.clone()]), samples);
+    let mean = |object: Object| {
+        let picture = film(&compiled(&view(vec![floor(), object])), 256, 3);
+        (0..1024).map(|k| picture.radiance(k % 32, k / 32)[1]).sum::<f64>() / 1024.0
+    };
+    let (a, b) = (mean(word), mean(of_file));
+    assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
+}

@@ -1,0 +1,81 @@
+//! Lamps of other shapes than spheres, and shapes with flat sides.
+
+use super::draw::{magnitude, once_in};
+use super::meshes::{Point, Shape};
+use super::world::{World, inline};
+use scene_format::desc::{
+    Emission, Emissive, Light, Material, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+};
+use scene_format::diagnostic::Spanned;
+use tracer_reference::Random;
+
+/// Steps that turn a shape about its middle, and sometimes mirror it or make it longer.
+fn steps(random: &mut Random) -> Vec<Spanned<Transform>> {
+    let axis = random.direction().to_array();
+    let turn = Transform::Rotate { axis, degrees: random.between(0.0, 360.0), about: None };
+    let stretch = Transform::Scale { factor: [1.0, random.between(0.4, 1.0), -1.0], about: None };
+    if once_in(random, 3) { vec![turn.into(), stretch.into()] } else { vec![turn.into()] }
+}
+
+/// Adds a rectangle within a sphere.
+pub fn rectangle(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let angle = random.between(0.2, 1.3);
+    let size =
+        if once_in(random, 3) { [radius * 1.4; 2] } else { [2.0 * radius * angle.cos(), 2.0 * radius * angle.sin()] };
+    let rectangle = Rectangle {
+        center: center.into(),
+        normal: random.direction().to_array().into(),
+        size: PerAxis(size).into(),
+        material: inline(material),
+        transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
+        placements: Placements::One,
+    };
+    world.desc.objects.push(Object::Rectangle(Box::new(rectangle)).into());
+}
+
+/// Adds a box within a sphere, written where it is or copied there.
+pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let size = [0; 3].map(|_| random.between(0.2, 1.15) * radius);
+    let copied = once_in(random, 3);
+    let there = vec![Transform::Translate(center).into()];
+    let cuboid = RectBox {
+        center: if copied { [0.0; 3] } else { center }.into(),
+        size: PerAxis(if once_in(random, 3) { [1.1 * radius; 3] } else { size }).into(),
+        material: inline(material),
+        transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
+        placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+    };
+    world.desc.objects.push(Object::Box(Box::new(cuboid)).into());
+}
+
+/// Makes objects that shine of some of the lamps, within the spheres that those were and about as strong.
+pub fn other_lamps(world: &mut World, random: &mut Random) {
+    for light in std::mem::take(&mut world.desc.lights) {
+        let Light::SphereLight(lamp) = &light.value;
+        let Emission::Radiance(color) = lamp.emission.value else {
+            world.desc.lights.push(light);
+            continue;
+        };
+        let (center, radius) = (lamp.center.value, lamp.radius.value);
+        let two_sided = once_in(random, 2);
+        let amount = magnitude(random, 0.5, 2.0);
+        let emission = if once_in(random, 3) {
+            let area = 4.0 * std::f64::consts::PI * radius * radius;
+            Emission::Power(color.map(|c| c * amount * std::f64::consts::PI * area))
+        } else {
+            Emission::Radiance(color.map(|c| c * amount))
+        };
+        let material = Material::Emissive(Box::new(Emissive { emission: emission.into(), two_sided }));
+        match random.below(5) {
+            0 | 1 => rectangle(world, center, radius, material, random),
+            2 => cuboid(world, center, radius, material, random),
+            3 => world.sphere(center, radius, material),
+            _ => {
+                let shape = if once_in(random, 2) { Shape::ball(1) } else { Shape::ring(0.4, 12, 6) };
+                let file = world.file("lamp", "obj", shape.obj().into_bytes());
+                let size = Transform::Scale { factor: [0.7 * radius; 3], about: None };
+                world.placed(file, material, vec![size, Transform::Translate(center)]);
+            }
+        }
+    }
+}
