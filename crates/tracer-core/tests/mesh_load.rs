@@ -4,7 +4,7 @@ use scene_format::desc::{Albedo, Material, TextureWrap};
 use scene_format::diagnostic::Span;
 use std::fs;
 use std::path::Path;
-use tracer_core::mesh::{MeshData, MeshError, NO_INDEX, load};
+use tracer_core::mesh::{MeshData, MeshError, NO_INDEX, Place, load};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
 
@@ -235,9 +235,9 @@ fn a_broken_mtl_file_is_an_error_of_its_line() {
         ),
     ] {
         match with_mtl(mtl, &["m"]) {
-            Err(MeshError::Broken { path, line: found, message: said, expected: wanted }) => {
+            Err(MeshError::Broken { path, place: found, message: said, expected: wanted }) => {
                 assert!(path.ends_with("my model.mtl"));
-                assert_eq!((found, said.as_str(), wanted.as_str()), (line, message, expected));
+                assert_eq!((found, said.as_str(), wanted.as_str()), (Place::Line(line), message, expected));
             }
             other => panic!("{mtl}: {other:?}"),
         }
