@@ -86,7 +86,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
         ("Transparent", &["glass", "dielectric", "refractive"]),
         ("BlinnPhong", &["phong", "glossy", "plastic", "roughplastic"]),
-        ("Mesh", &["obj", "off", "trianglemesh", "model", "shape"]),
+        ("Mesh", &["obj", "off", "ply", "stl", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
@@ -104,7 +104,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
             Some("a floor is a very large sphere, or a mesh of two triangles")
         }
         "box" | "cube" | "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
-            Some("other shapes are meshes: name an OBJ or OFF file in a `Mesh`")
+            Some("other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`")
         }
         "directional" | "distant" | "sun" | "directionallight" | "distantlight" if has("SphereLight") => {
             Some("a sun is a large sphere light far away")

@@ -1,11 +1,10 @@
-//! Meshes whose vertices carry everything and whose faces name them by number: what the reader of OFF has in common
-//! with others.
+//! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY and STL share.
 
 use super::cursor::Fault;
 use super::normals::unit;
 use super::oddities::{Oddities, Oddity};
 use super::polygon::{PolygonCutter, TooIntricate, is_degenerate};
-use super::{MeshData, MeshError, NO_INDEX};
+use super::{MAX_COORDINATE, MeshData, MeshError, NO_INDEX};
 use std::path::Path;
 
 /// Largest number of vertices, so that an index is never mistaken for [`NO_INDEX`].
@@ -13,6 +12,9 @@ pub(super) const MOST_VERTICES: u64 = 1 << 31;
 
 /// Most corners of one face.
 const MOST_CORNERS: usize = 1 << 24;
+
+/// A face may have so many corners however few vertices there are.
+const FREE_CORNERS: usize = 64;
 
 /// A mesh in the making.
 #[derive(Default)]
@@ -93,6 +95,11 @@ impl Builder {
             let message = format!("a face with {count} corners");
             return Err(Fault::new(at, message, format!("at most {MOST_CORNERS}")));
         }
+        // Edges between the rings of an outline with holes pass twice through a vertex, so that there are fewer than twice
+        // as many corners as vertices. An outline with more is no simple one, and would take long to look through.
+        if count > FREE_CORNERS + 2 * self.mesh.positions.len() {
+            return Err(TooIntricate::fault(at, count));
+        }
         self.make_room(count - 2);
         let MeshData { positions, triangles, .. } = &mut self.mesh;
         let border = corners.iter().map(|&corner| positions[corner as usize]);
@@ -131,6 +138,16 @@ impl Builder {
         mesh.warnings.extend(oddities.to_warning(path));
         Ok(mesh)
     }
+}
+
+/// A coordinate, read at a byte, of at most [`MAX_COORDINATE`] in magnitude.
+#[inline]
+pub(super) fn coordinate(value: f64, at: usize) -> Result<f64, Box<Fault>> {
+    if value.abs() <= MAX_COORDINATE {
+        return Ok(value);
+    }
+    let message = format!("the coordinate `{value:e}` is too large");
+    Err(Fault::new(at, message, format!("a magnitude of at most {MAX_COORDINATE:e}")))
 }
 
 /// A fault where a header promises more of something than the bytes that follow can hold.

@@ -69,6 +69,13 @@ impl MeshError {
         MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
     }
 
+    /// A fault at a byte of a binary file.
+    #[cold]
+    pub(super) fn at_byte(path: &Path, fault: Fault) -> MeshError {
+        let place = Place::Byte(fault.at as u64);
+        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
+    }
+
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh) or `E0511` (empty mesh).
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {

@@ -1,4 +1,4 @@
-//! Triangle meshes from files: OBJ (with MTL) and OFF, placements of copies, and vertex normals.
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY and STL, placements of copies, and vertex normals.
 //!
 //! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
 //! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
@@ -25,7 +25,9 @@ mod mtl;
 mod obj;
 mod oddities;
 mod off;
+mod ply;
 mod polygon;
+mod stl;
 
 mod error;
 pub mod normals;
@@ -100,6 +102,10 @@ pub enum MeshFormat {
     Obj,
     /// Object File Format (Geomview), ASCII: OFF with the prefixes ST, C and N.
     Off,
+    /// Polygon File Format (Stanford), ASCII and binary of both byte orders.
+    Ply,
+    /// Stereolithography, ASCII and binary.
+    Stl,
 }
 
 /// Makes a mesh of the bytes of its file; the path is for messages.
@@ -107,13 +113,15 @@ type Read = fn(&[u8], &Path) -> Result<MeshData, MeshError>;
 
 impl MeshFormat {
     /// All there are: what else asks about formats of meshes asks these.
-    pub const ALL: [MeshFormat; 2] = [MeshFormat::Obj, MeshFormat::Off];
+    pub const ALL: [MeshFormat; 4] = [MeshFormat::Obj, MeshFormat::Off, MeshFormat::Ply, MeshFormat::Stl];
 
     /// Name, extension and reader.
     const fn entry(self) -> (&'static str, &'static str, Read) {
         match self {
             MeshFormat::Obj => ("OBJ", "obj", obj::read),
             MeshFormat::Off => ("OFF", "off", off::read),
+            MeshFormat::Ply => ("PLY", "ply", ply::read),
+            MeshFormat::Stl => ("STL", "stl", stl::read),
         }
     }
 
@@ -146,8 +154,8 @@ impl MeshFormat {
 /// Reads the mesh in `path`, of the format that its extension says.
 ///
 /// # Errors
-/// When there is no such file, it cannot be read or has another extension, when it is broken (with the line), and when no
-/// triangle is left.
+/// When there is no such file, it cannot be read or has another extension, when it is broken (with the line or the
+/// byte), and when no triangle is left.
 pub fn load(path: &Path) -> Result<MeshData, MeshError> {
     let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
     let text = read_regular_file(path)?;
