@@ -377,7 +377,8 @@ codes! {
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
     FILE_UNREADABLE "E0502" "a file cannot be read";
-    /// A mesh file breaks the rules of its format (OBJ or OFF). The message says where in the file and what was expected.
+    /// A mesh file breaks the rules of its format (OBJ, OFF, PLY or STL). The message says where in the file
+    /// and what was expected.
     BROKEN_MESH "E0510" "a mesh file is broken";
     /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
     /// exported with faces.

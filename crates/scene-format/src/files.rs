@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// What a file that a scene names holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
-    /// Triangles: OFF or OBJ.
+    /// Triangles: OBJ, OFF, PLY or STL.
     Mesh,
     /// Placements of a mesh, one a line.
     Placements,

@@ -4,7 +4,7 @@ use scene_format::desc::{Albedo, Material, TextureWrap};
 use scene_format::diagnostic::Span;
 use std::fs;
 use std::path::Path;
-use tracer_core::mesh::{MeshData, MeshError, NO_INDEX, load};
+use tracer_core::mesh::{MeshData, MeshError, MeshFormat, NO_INDEX, Place, load};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
 
@@ -21,10 +21,35 @@ fn extensions_decide_the_format() {
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
         ("a.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
         ("a.b.Off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\nelement face 1\n\
+             property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        ),
+        ("a.Stl", "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"),
     ] {
         let path = folder.path().join(name);
         fs::write(&path, text).expect("written");
         assert_eq!(load(&path).expect("a mesh").triangles, [[0, 1, 2]], "{name}");
+    }
+}
+
+/// What the language says of itself names every format that is read here.
+#[test]
+fn the_words_of_the_language_name_every_format() {
+    let reference = scene_format::reference();
+    let row = reference.lines().find(|line| line.starts_with("| `file` |") && line.contains("OBJ")).expect("a row");
+    let explained = scene_format::explain("E0510").expect("an explanation");
+    let hint = "Scene(objects: [Cube()])";
+    let faults = match scene_format::load_str("m.ron", hint, scene_format::Syntax::Ron, Path::new("."), &[]) {
+        Err(scene_format::LoadError::Invalid { diagnostics, .. }) => diagnostics,
+        other => panic!("{other:?}"),
+    };
+    let hint = faults.iter().map(|fault| fault.hint.clone()).collect::<String>();
+    for format in MeshFormat::ALL {
+        for text in [row, &format!("{explained:?}"), &hint] {
+            assert!(text.contains(format.name()), "{} in {text}", format.name());
+        }
     }
 }
 
@@ -40,17 +65,17 @@ fn files_that_cannot_be_read_are_named_with_a_hint() {
         ("cat.OBJ", "E0501", format!("{no_file} cat.OBJ"), "", "the folder has `Cat.obj`"),
         ("dir.obj", "E0502", "dir.obj is not a regular file".into(), "a file, not a folder, pipe or device", ""),
         (
-            "cat.ply",
+            "cat.fbx",
             "E0502",
-            "cat.ply: meshes of this type cannot be read".into(),
-            "a mesh file that ends in `.obj` or `.off`",
-            "export the mesh as OBJ or OFF",
+            "cat.fbx: meshes of this type cannot be read".into(),
+            "a mesh file that ends in `.obj`, `.off`, `.ply` or `.stl`",
+            "export the mesh as OBJ, OFF, PLY or STL",
         ),
         (
             "cat.obj.gz",
             "E0502",
             "cat.obj.gz: meshes of this type cannot be read".into(),
-            "a mesh file that ends in `.obj` or `.off`",
+            "a mesh file that ends in `.obj`, `.off`, `.ply` or `.stl`",
             "unpack the file first",
         ),
     ] {
@@ -235,9 +260,9 @@ fn a_broken_mtl_file_is_an_error_of_its_line() {
         ),
     ] {
         match with_mtl(mtl, &["m"]) {
-            Err(MeshError::Broken { path, line: found, message: said, expected: wanted }) => {
+            Err(MeshError::Broken { path, place: found, message: said, expected: wanted }) => {
                 assert!(path.ends_with("my model.mtl"));
-                assert_eq!((found, said.as_str(), wanted.as_str()), (line, message, expected));
+                assert_eq!((found, said.as_str(), wanted.as_str()), (Place::Line(line), message, expected));
             }
             other => panic!("{mtl}: {other:?}"),
         }

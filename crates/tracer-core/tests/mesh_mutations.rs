@@ -17,12 +17,21 @@ const OFF: &str = "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0 # c\n0.5 0.25 0\n0 1 0\n-1e-3
     4 1 2 3 5\n2 0 1\n";
 const CNOFF: &str = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255 0 1\n1 0 0 0 0 1 0 255 0 255 1 1\n0 1 0 0 0 0 1 2 3 4 0.5 0\n\
     3 0 1 2\n";
+const PLY: &str = "ply\nformat ascii 1.0\ncomment c\nelement vertex 5\nproperty float x\nproperty float y\n\
+    property double z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty float u\n\
+    property float v\nelement edge 1\nproperty list char int a\nelement face 2\nproperty list uchar int vertex_indices\n\
+    element tristrips 1\nproperty list int int vertex_index\nend_header\n0 0 0 0 0 1 255 0 0\n1 0 0 0 0 1 0 1 0\n\
+    1 1 0 0 0 0 0 1 1\n0.5 0.25 0 1 2 3 7 0.5 0.5\n0 1 -1e-3 0 1 0 9 0 1\n2 0 1\n5 0 1 2 3 4\n3 0 1 2\n\
+    8 0 1 2 4 -1 1 2 3\n";
+const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0.5 1e0 0\nendloop\n\
+    endfacet\nendsolid a\nsolid b\n  facet normal 0 0 0\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n\
+    vertex 0 -1 2\nendloop\n  endfacet\nendsolid\n";
 const MTL: &str = "# m\nnewmtl m\nKa 1 1 1\nKd 0.8 0.7 0.6\nKs 0.5 0.5 0.5\nNs 250\nNi 1.45\nd 1.0\nillum 2\n\
     map_Kd -s 1 1 1 -clamp on fur.png\nnewmtl n\nd 0.5\nTf 1 1 1\nmap_Bump b.png\n";
 const PLACEMENTS: &str = "# where\n1 2 3\n1,2,3,0.5\n-1 2e3 3 2 0 1 0 45\n\n1 0 0 5 0 1 0 6 0 0 1 7\n";
 
 /// Words that mutations put in: numbers at the limits and statements out of place.
-const WORDS: [&str; 24] = [
+const WORDS: [&str; 30] = [
     "nan",
     "inf",
     "1e999",
@@ -47,6 +56,12 @@ const WORDS: [&str; 24] = [
     "v 1 1 1",
     "OFF",
     "\u{feff}",
+    "solid",
+    "endloop\nendfacet\nendsolid\n",
+    "element vertex 3\n",
+    "property list uchar int vertex_indices\n",
+    "binary_big_endian",
+    "end_header\n",
 ];
 
 fn mutants() -> usize {
@@ -150,9 +165,9 @@ fn assert_whole(mesh: &MeshData) {
     assert!(mesh.warnings.len() <= 2);
 }
 
-fn mutate_mesh(seed: u64, format: MeshFormat, original: &str) {
+fn mutate_mesh(seed: u64, format: MeshFormat, original: impl AsRef<[u8]>) {
     let count = mutants();
-    let good = run(seed, count, original.as_bytes(), |bytes| match parse(bytes, format, Path::new("none/m")) {
+    let good = run(seed, count, original.as_ref(), |bytes| match parse(bytes, format, Path::new("none/m")) {
         Ok(mesh) => {
             assert_whole(&mesh);
             true
@@ -174,6 +189,47 @@ fn mutated_obj_files() {
 fn mutated_off_files() {
     mutate_mesh(2, MeshFormat::Off, OFF);
     mutate_mesh(3, MeshFormat::Off, CNOFF);
+}
+
+/// The data of `PLY` in binary, of either order of bytes.
+fn binary_ply(name: &str, order: fn(&mut [u8])) -> Vec<u8> {
+    let data = PLY.find("end_header\n").expect("an end") + "end_header\n".len();
+    let mut bytes = PLY[..data].replace("ascii", name).into_bytes();
+    let put = |bytes: &mut Vec<u8>, mut number: Vec<u8>| {
+        order(&mut number);
+        bytes.extend(number);
+    };
+    for (line, text) in PLY[data..].lines().enumerate() {
+        let numbers: Vec<f64> = text.split(' ').map(|word| word.parse().expect("a number")).collect();
+        for (place, &number) in numbers.iter().enumerate() {
+            let raw = match (line, place) {
+                (0..5, 2) => number.to_le_bytes().to_vec(),
+                (0..5, 6) | (5..8, 0) => vec![number as u8],
+                (0..5, _) => (number as f32).to_le_bytes().to_vec(),
+                _ => (number as i32).to_le_bytes().to_vec(),
+            };
+            put(&mut bytes, raw);
+        }
+    }
+    bytes
+}
+
+#[test]
+fn mutated_ply_files() {
+    mutate_mesh(8, MeshFormat::Ply, PLY);
+    mutate_mesh(9, MeshFormat::Ply, binary_ply("binary_little_endian", |_| {}));
+    mutate_mesh(10, MeshFormat::Ply, binary_ply("binary_big_endian", |bytes| bytes.reverse()));
+}
+
+#[test]
+fn mutated_stl_files() {
+    mutate_mesh(11, MeshFormat::Stl, STL);
+    let mut bytes = [&b"solid made by hand"[..], &[b' '; 62], &4_u32.to_le_bytes()].concat();
+    for k in 0..4_u8 {
+        let number = |axis: u8| f32::from(k * axis % 5 + axis / 3).to_le_bytes();
+        bytes.extend((0..12).flat_map(number).chain([0, 0]));
+    }
+    mutate_mesh(12, MeshFormat::Stl, bytes);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory};
 use std::ffi::OsString;
 use std::path::Path;
+use tracer_core::mesh::MeshFormat;
 
 /// The parts of a command's help, without headings and arguments that the usage line names and the first line explains.
 const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{options}{after-help}";
@@ -65,7 +66,7 @@ fn of_file(word: &str) -> Option<String> {
     let extension = Path::new(word).extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ron" | "toml") => Some(format!("to render a scene: {}", render(word))),
-        Some("obj" | "off") => {
+        Some(_) if MeshFormat::of(Path::new(word)).is_some() => {
             Some("a mesh stands in a scene, as Mesh(file: \"..\"); to start a scene: tracer new scene.ron".to_owned())
         }
         Some("png" | "exr" | "hdr" | "pfm") => Some(format!("to compare pictures: tracer compare {} ..", quoted(word))),

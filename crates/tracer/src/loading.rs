@@ -10,6 +10,7 @@ use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
+use tracer_core::mesh::MeshFormat;
 use tracer_core::{CompileError, Scene};
 
 /// The name that stands for standard input, and output.
@@ -67,7 +68,7 @@ fn no_scene(path: &Path) -> Option<String> {
         "png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm" => {
             format!("{shown} is a picture, not a scene; as a texture it stands in one: Texture(file: \"..\")")
         }
-        "obj" | "off" => format!(
+        _ if MeshFormat::of(path).is_some() => format!(
             "{shown} is a mesh, not a scene; it stands in one: Mesh(file: \"..\"). `tracer new scene.ron` starts a scene"
         ),
         "mtl" => format!("{shown} holds the materials of an OBJ mesh; the mesh's own file stands in a scene"),

@@ -86,7 +86,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
         ("Transparent", &["glass", "dielectric", "refractive"]),
         ("BlinnPhong", &["phong", "glossy", "plastic", "roughplastic"]),
-        ("Mesh", &["obj", "off", "trianglemesh", "model", "shape"]),
+        ("Mesh", &["obj", "off", "ply", "stl", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
         ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
@@ -106,7 +106,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
     match name.to_ascii_lowercase().as_str() {
         "plane" | "ground" | "floor" if has("Rectangle") => Some("a floor is a large `Rectangle(size: 20)`"),
         "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
-            Some("other shapes are meshes: name an OBJ or OFF file in a `Mesh`")
+            Some("other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`")
         }
         "directional" | "distant" | "sun" | "directionallight" | "distantlight" if has("SphereLight") => {
             Some("a sun is a large sphere light far away")

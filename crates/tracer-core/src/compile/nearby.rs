@@ -1,5 +1,6 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
+use crate::mesh::MeshFormat;
 use scene_format::codes;
 use scene_format::desc::{Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
@@ -144,7 +145,7 @@ fn best<'n>(wanted: &Path, near: &'n [PathBuf]) -> Option<&'n PathBuf> {
 fn kind(file: &Path) -> String {
     let extension = file.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
-        "obj" | "off" => "mesh".to_owned(),
+        _ if MeshFormat::of(file).is_some() => "mesh".to_owned(),
         "png" | "jpg" | "jpeg" => "picture".to_owned(),
         _ => extension,
     }

@@ -311,6 +311,40 @@ impl<'a> Cursor<'a> {
         Some(if negative { -magnitude } else { magnitude })
     }
 
+    /// A whole number from 0, stepped over.
+    #[inline]
+    pub(super) fn count(&mut self, expected: &str) -> Result<u64, Box<Fault>> {
+        let start = self.at;
+        match self.integer() {
+            Some(count @ 0..) if self.is_at_end_of_word() => Ok(count.unsigned_abs()),
+            _ => Err(self.no_integer(start, "a whole number from 0", expected)),
+        }
+    }
+
+    /// The fault that what starts at a byte is not `what`.
+    #[cold]
+    pub(super) fn no_integer(&mut self, start: usize, what: &str, expected: &str) -> Box<Fault> {
+        self.at = start;
+        let message = if self.is_at_end_of_statement() {
+            "a number is missing at the end of the line".to_owned()
+        } else {
+            format!("{} is not {what}", shown(self.word()))
+        };
+        Fault::new(start, message, expected)
+    }
+
+    /// Steps to the next line; a fault when anything more stands in this one.
+    #[inline]
+    pub(super) fn end_of_line(&mut self, expected: &str) -> Result<(), Box<Fault>> {
+        self.skip_blanks();
+        if !self.is_at_end_of_statement() {
+            let at = self.at;
+            return Err(Fault::new(at, format!("{} is too much", shown(self.word())), expected));
+        }
+        self.skip_statement();
+        Ok(())
+    }
+
     /// Three coordinates of at most [`MAX_COORDINATE`] in magnitude, the first one here.
     #[inline]
     #[expect(clippy::indexing_slicing, reason = "the cursor never goes beyond the end of its text")]

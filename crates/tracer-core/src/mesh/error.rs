@@ -1,11 +1,31 @@
 //! What can be wrong with a mesh file.
 
-use super::FileError;
 use super::cursor::Fault;
+use super::{FileError, MeshFormat};
 use scene_format::Diagnostic;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
+use std::fmt;
 use std::path::{Path, PathBuf};
+
+/// A place in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// 1-based line of a text.
+    Line(u64),
+    /// Byte of a binary file, counted from 0.
+    Byte(u64),
+}
+
+/// As it follows the name of the file.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(f, ":{line}"),
+            Place::Byte(byte) => write!(f, ": byte {byte}"),
+        }
+    }
+}
 
 /// Why a mesh could not be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -20,12 +40,12 @@ pub enum MeshError {
         path: PathBuf,
     },
     /// The file (or its MTL file) is wrong.
-    #[error("{}:{line}: {message}", path.display())]
+    #[error("{}{place}: {message}", path.display())]
     Broken {
         /// The file.
         path: PathBuf,
-        /// 1-based line.
-        line: u64,
+        /// Where in it.
+        place: Place,
         /// What is wrong.
         message: String,
         /// What was expected; may be empty.
@@ -42,15 +62,18 @@ pub enum MeshError {
 }
 
 impl MeshError {
-    /// A fault at a byte of `text`.
+    /// A fault in a line of `text`.
     #[cold]
-    pub(super) fn at_fault(path: &Path, text: &[u8], fault: Fault) -> MeshError {
-        MeshError::Broken {
-            path: path.to_owned(),
-            line: fault.line_in(text),
-            message: fault.message,
-            expected: fault.expected,
-        }
+    pub(super) fn at_line(path: &Path, text: &[u8], fault: Fault) -> MeshError {
+        let place = Place::Line(fault.line_in(text));
+        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
+    }
+
+    /// A fault at a byte of a binary file.
+    #[cold]
+    pub(super) fn at_byte(path: &Path, fault: Fault) -> MeshError {
+        let place = Place::Byte(fault.at as u64);
+        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
     }
 
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh) or `E0511` (empty mesh).
@@ -60,15 +83,24 @@ impl MeshError {
             MeshError::UnknownFormat { path } => {
                 let packed =
                     path.extension().is_some_and(|e| ["gz", "zip", "xz", "bz2", "zst"].iter().any(|p| e == *p));
-                let hint = if packed { "unpack the file first" } else { "export the mesh as OBJ or OFF" };
+                let hint = if packed {
+                    "unpack the file first".to_owned()
+                } else {
+                    format!("export the mesh as {}", MeshFormat::list(|format| format.name().to_owned()))
+                };
+                let extensions = MeshFormat::list(|format| format!("`.{}`", format.extension()));
                 Diagnostic::error(codes::FILE_UNREADABLE, span, self.to_string())
-                    .expected("a mesh file that ends in `.obj` or `.off`")
+                    .expected(format!("a mesh file that ends in {extensions}"))
                     .hint(hint)
             }
-            MeshError::Broken { path, line, message, expected } => {
-                Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken: {message}"))
+            MeshError::Broken { path, place, message, expected } => {
+                let (at, line) = match *place {
+                    Place::Line(line) => (String::new(), line),
+                    Place::Byte(byte) => (format!(" at byte {byte}"), 0),
+                };
+                Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken{at}: {message}"))
                     .expected(expected.clone())
-                    .at_line(path, *line)
+                    .at_line(path, line)
             }
             MeshError::Empty { path, hint } => Diagnostic::error(codes::EMPTY_MESH, span, self.to_string())
                 .expected("at least one triangle with an area")

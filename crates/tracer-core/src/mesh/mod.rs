@@ -1,4 +1,4 @@
-//! Triangle meshes from files: OFF and OBJ (with MTL), placements of copies, and vertex normals.
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY and STL, placements of copies, and vertex normals.
 //!
 //! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
 //! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
@@ -18,19 +18,22 @@
     )
 )]
 
+mod builder;
 mod cursor;
 mod file;
 mod mtl;
 mod obj;
 mod oddities;
 mod off;
+mod ply;
 mod polygon;
+mod stl;
 
 mod error;
 pub mod normals;
 pub mod placements;
 
-pub use error::MeshError;
+pub use error::{MeshError, Place};
 pub use file::FileError;
 pub(crate) use file::read_regular_file;
 
@@ -95,22 +98,55 @@ impl MeshData {
 /// A file format of meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
-    /// Object File Format (Geomview), ASCII: OFF with the prefixes ST, C and N.
-    Off,
     /// Wavefront OBJ with MTL.
     Obj,
+    /// Object File Format (Geomview), ASCII: OFF with the prefixes ST, C and N.
+    Off,
+    /// Polygon File Format (Stanford), ASCII and binary of both byte orders.
+    Ply,
+    /// Stereolithography, ASCII and binary.
+    Stl,
 }
 
+/// Makes a mesh of the bytes of its file; the path is for messages.
+type Read = fn(&[u8], &Path) -> Result<MeshData, MeshError>;
+
 impl MeshFormat {
+    /// All there are: what else asks about formats of meshes asks these.
+    pub const ALL: [MeshFormat; 4] = [MeshFormat::Obj, MeshFormat::Off, MeshFormat::Ply, MeshFormat::Stl];
+
+    /// Name, extension and reader.
+    const fn entry(self) -> (&'static str, &'static str, Read) {
+        match self {
+            MeshFormat::Obj => ("OBJ", "obj", obj::read),
+            MeshFormat::Off => ("OFF", "off", off::read),
+            MeshFormat::Ply => ("PLY", "ply", ply::read),
+            MeshFormat::Stl => ("STL", "stl", stl::read),
+        }
+    }
+
+    /// As people call it: `OBJ`.
+    pub const fn name(self) -> &'static str {
+        self.entry().0
+    }
+
+    /// The extension of its files, in lower case: `obj`.
+    pub const fn extension(self) -> &'static str {
+        self.entry().1
+    }
+
     /// By the extension of a file name, in upper or lower case.
     pub fn of(path: &Path) -> Option<MeshFormat> {
         let extension = path.extension()?;
-        if extension.eq_ignore_ascii_case("off") {
-            Some(MeshFormat::Off)
-        } else if extension.eq_ignore_ascii_case("obj") {
-            Some(MeshFormat::Obj)
-        } else {
-            None
+        Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+
+    /// All formats in words: `OBJ, OFF or STL`.
+    fn list(word: impl Fn(MeshFormat) -> String) -> String {
+        let words = Self::ALL.map(word);
+        match &words[..] {
+            [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+            _ => words.concat(),
         }
     }
 }
@@ -118,8 +154,8 @@ impl MeshFormat {
 /// Reads the mesh in `path`, of the format that its extension says.
 ///
 /// # Errors
-/// When there is no such file, it cannot be read or has another extension, when it is broken (with the line), and when no
-/// triangle is left.
+/// When there is no such file, it cannot be read or has another extension, when it is broken (with the line or the
+/// byte), and when no triangle is left.
 pub fn load(path: &Path) -> Result<MeshData, MeshError> {
     let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
     let text = read_regular_file(path)?;
@@ -131,8 +167,6 @@ pub fn load(path: &Path) -> Result<MeshData, MeshError> {
 /// # Errors
 /// As [`load`].
 pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, MeshError> {
-    match format {
-        MeshFormat::Off => off::read(text, path),
-        MeshFormat::Obj => obj::read(text, path),
-    }
+    let (_, _, read) = format.entry();
+    read(text, path)
 }

@@ -13,7 +13,7 @@ pub(super) enum Oddity {
     DegenerateTriangle,
     /// A polygon whose border crosses itself: cut as well as can be.
     CrossingPolygon,
-    /// An OFF face of fewer than three corners.
+    /// An OFF or PLY face of fewer than three corners.
     SmallFace,
     /// An OBJ `l`.
     LineElement,
@@ -35,12 +35,16 @@ pub(super) enum Oddity {
     FaceColor,
     /// A vertex with a weight other than 1.
     Weight,
-    /// A line after the last face of an OFF file.
+    /// A line after the last face of an OFF file, or what comes last in another.
     TrailingLine,
+    /// A byte after the data of a binary file.
+    TrailingByte,
+    /// A PLY face with texture coordinates for each corner.
+    CornerUvs,
 }
 
 impl Oddity {
-    const ALL: [Oddity; 14] = [
+    const ALL: [Oddity; 16] = [
         Oddity::DegenerateTriangle,
         Oddity::CrossingPolygon,
         Oddity::SmallFace,
@@ -55,6 +59,8 @@ impl Oddity {
         Oddity::FaceColor,
         Oddity::Weight,
         Oddity::TrailingLine,
+        Oddity::TrailingByte,
+        Oddity::CornerUvs,
     ];
 
     /// What is counted, for one and for many, and what was done with it.
@@ -80,6 +86,10 @@ impl Oddity {
             Oddity::FaceColor => ["face colour", "face colours", "ignored"],
             Oddity::Weight => ["vertex weight other than 1", "vertex weights other than 1", "ignored"],
             Oddity::TrailingLine => ["line after the last face", "lines after the last face", "ignored"],
+            Oddity::TrailingByte => ["byte after the last face", "bytes after the last face", "ignored"],
+            Oddity::CornerUvs => {
+                ["face with texture coordinates of its own", "faces with texture coordinates of their own", "ignored"]
+            }
         }
     }
 }

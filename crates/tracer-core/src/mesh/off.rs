@@ -8,19 +8,15 @@
 //!
 //! The counts of the header are only compared with what is there; memory is reserved by the size of the file.
 
+use super::builder::{Builder, MOST_VERTICES, check_room};
 use super::cursor::{Blanks, Cursor, Fault, shown};
-use super::normals::unit;
-use super::oddities::{Oddities, Oddity};
-use super::polygon::{PolygonCutter, TooIntricate, is_degenerate};
-use super::{MeshData, MeshError, NO_INDEX};
+use super::oddities::Oddity;
+use super::{MeshData, MeshError};
 use std::path::Path;
 
 /// Shortest lines of a vertex (`0 0 0`) and a face (`1 0`) with their line break.
 const SHORTEST_VERTEX: u64 = 6;
 const SHORTEST_FACE: u64 = 4;
-
-/// Largest number of vertices, so that an index is never mistaken for [`NO_INDEX`].
-const MOST_VERTICES: u64 = 1 << 31;
 
 /// What each vertex has besides its position.
 #[derive(Clone, Copy, Default)]
@@ -54,41 +50,15 @@ struct Counts {
 
 /// Reads an OFF file.
 pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
-    let mut reader = Reader {
-        cursor: Cursor::new(text, Blanks { comma: false, continuation: false }),
-        mesh: MeshData::default(),
-        zero_normals: Vec::new(),
-        cutter: PolygonCutter::default(),
-        oddities: Oddities::default(),
-    };
-    let counts = reader.read_all().map_err(|fault| MeshError::at_fault(path, text, *fault))?;
-    let Reader { mut mesh, zero_normals, oddities, .. } = reader;
-    if mesh.triangles.is_empty() {
-        let mut hint = format!("the file has {} vertices and {} faces", counts.vertices, counts.faces);
-        let odd = oddities.summary();
-        if !odd.is_empty() {
-            hint += ": ";
-            hint += &odd;
-        }
-        return Err(MeshError::Empty { path: path.to_owned(), hint });
-    }
-    if zero_normals.len() == mesh.normals.len() {
-        mesh.normals = Vec::new();
-    } else if !zero_normals.is_empty() {
-        let without = |corner: u32| if zero_normals.binary_search(&corner).is_ok() { NO_INDEX } else { corner };
-        mesh.normal_triangles = Some(mesh.triangles.iter().map(|triangle| triangle.map(without)).collect());
-    }
-    mesh.warnings.extend(oddities.to_warning(path));
-    Ok(mesh)
+    let mut reader =
+        Reader { cursor: Cursor::new(text, Blanks { comma: false, continuation: false }), builder: Builder::default() };
+    let counts = reader.read_all().map_err(|fault| MeshError::at_line(path, text, *fault))?;
+    reader.builder.finish(path, &format!("the file has {} vertices and {} faces", counts.vertices, counts.faces))
 }
 
 struct Reader<'a> {
     cursor: Cursor<'a>,
-    mesh: MeshData,
-    /// Vertices whose normal has no length, ascending.
-    zero_normals: Vec<u32>,
-    cutter: PolygonCutter,
-    oddities: Oddities,
+    builder: Builder,
 }
 
 impl Reader<'_> {
@@ -98,19 +68,19 @@ impl Reader<'_> {
         }
         let layout = self.read_keyword()?;
         let counts = self.read_counts()?;
-        self.mesh.positions.reserve_exact(counts.vertices);
+        self.builder.mesh.positions.reserve_exact(counts.vertices);
         for number in 0..counts.vertices {
             self.find_line("vertices", number, counts.vertices)?;
             self.read_vertex(layout)?;
         }
-        self.mesh.triangles.reserve(counts.faces);
+        self.builder.mesh.triangles.reserve_exact(counts.faces);
         let mut corners = Vec::new();
         for number in 0..counts.faces {
             self.find_line("faces", number, counts.faces)?;
             self.read_face(&mut corners)?;
         }
         while self.cursor.find_statement() {
-            self.oddities.add(Oddity::TrailingLine);
+            self.builder.oddities.add(Oddity::TrailingLine);
             self.cursor.skip_statement();
         }
         Ok(counts)
@@ -160,60 +130,26 @@ impl Reader<'_> {
             return Err(Fault::new(self.cursor.at(), "the file ends before its counts", EXPECTED));
         }
         let vertices_at = self.cursor.at();
-        let vertices = self.read_count(EXPECTED)?;
+        let vertices = self.cursor.count(EXPECTED)?;
         self.cursor.skip_blanks();
         let faces_at = self.cursor.at();
-        let faces = self.read_count(EXPECTED)?;
+        let faces = self.cursor.count(EXPECTED)?;
         self.cursor.skip_blanks();
         if !self.cursor.is_at_end_of_statement() {
-            self.read_count(EXPECTED)?;
+            self.cursor.count(EXPECTED)?;
         }
-        self.expect_end_of_line(EXPECTED)?;
+        self.cursor.end_of_line(EXPECTED)?;
         // The last line may lack its line break.
-        let room = self.cursor.rest().len() as u64 + 1;
+        let bytes = self.cursor.rest().len();
         for (at, count, shortest, what) in
             [(vertices_at, vertices, SHORTEST_VERTEX, "vertices"), (faces_at, faces, SHORTEST_FACE, "faces")]
         {
-            if count > room / shortest {
-                let message = format!("the header promises {count} {what}, but the file is too short for them");
-                let expected = format!("at most {} {what} in the {} bytes that follow", room / shortest, room - 1);
-                return Err(Fault::new(at, message, expected));
-            }
+            check_room(at, count, (bytes as u64 + 1) / shortest, what, bytes)?;
         }
         if vertices > MOST_VERTICES {
             return Err(Fault::new(vertices_at, format!("{vertices} vertices"), format!("at most {MOST_VERTICES}")));
         }
         Ok(Counts { vertices: vertices as usize, faces: faces as usize })
-    }
-
-    fn read_count(&mut self, expected: &str) -> Result<u64, Box<Fault>> {
-        let start = self.cursor.at();
-        match self.cursor.integer() {
-            Some(count @ 0..) if self.cursor.is_at_end_of_word() => Ok(count.unsigned_abs()),
-            _ => Err(self.no_count(start, expected)),
-        }
-    }
-
-    #[cold]
-    fn no_count(&self, start: usize, expected: &str) -> Box<Fault> {
-        let mut cursor = self.cursor.clone();
-        cursor.go_back_to(start);
-        let message = if cursor.is_at_end_of_statement() {
-            "a number is missing at the end of the line".to_owned()
-        } else {
-            format!("{} is not a whole number from 0", shown(cursor.word()))
-        };
-        Fault::new(start, message, expected)
-    }
-
-    fn expect_end_of_line(&mut self, expected: &str) -> Result<(), Box<Fault>> {
-        self.cursor.skip_blanks();
-        if !self.cursor.is_at_end_of_statement() {
-            let at = self.cursor.at();
-            return Err(Fault::new(at, format!("{} is too much", shown(self.cursor.word())), expected));
-        }
-        self.cursor.skip_statement();
-        Ok(())
     }
 
     fn find_line(&mut self, what: &str, number: usize, count: usize) -> Result<(), Box<Fault>> {
@@ -242,28 +178,18 @@ impl Reader<'_> {
         // Many programs write colours without saying C.
         match count.checked_sub(known) {
             Some(0) if !layout.color => {}
-            Some(3 | 4) => self.oddities.add(Oddity::VertexColor),
+            Some(3 | 4) => self.builder.oddities.add(Oddity::VertexColor),
             _ => {
                 let message = format!("a vertex with {} numbers", 3 + count);
                 return Err(Fault::new(self.cursor.at(), message, layout.expected()));
             }
         }
-        let index = self.mesh.positions.len() as u32;
-        self.mesh.positions.push(position);
+        self.builder.mesh.positions.push(position);
         if layout.normal {
-            let normal = unit([numbers[0], numbers[1], numbers[2]]);
-            if normal.is_none() {
-                self.zero_normals.push(index);
-                self.oddities.add(Oddity::ZeroNormal);
-            }
-            self.mesh.normals.push(normal.unwrap_or_default());
+            self.builder.add_normal([numbers[0], numbers[1], numbers[2]]);
         }
         if layout.uv {
-            let uv = [numbers[count - 2] as f32, numbers[count - 1] as f32];
-            if !uv.iter().all(|coordinate| coordinate.is_finite()) {
-                return Err(Fault::new(self.cursor.at(), "a texture coordinate is too large", "at most 3.4e38"));
-            }
-            self.mesh.uvs.push(uv);
+            self.builder.add_uv([numbers[count - 2], numbers[count - 1]], self.cursor.at())?;
         }
         self.cursor.skip_statement();
         Ok(())
@@ -272,21 +198,13 @@ impl Reader<'_> {
     fn read_face(&mut self, corners: &mut Vec<u32>) -> Result<(), Box<Fault>> {
         const EXPECTED: &str = "a face on a line of its own: the number of its corners, then their indices";
         let start = self.cursor.at();
-        let count = self.read_count(EXPECTED)?;
-        let vertices = self.mesh.positions.len();
+        let count = self.cursor.count(EXPECTED)?;
         corners.clear();
         for _ in 0..count {
             self.cursor.skip_blanks();
             let at = self.cursor.at();
-            let corner = self.read_count(EXPECTED)?;
-            if corner >= vertices as u64 {
-                let expected = match vertices {
-                    0 => "no face in a file without vertices".to_owned(),
-                    _ => format!("an index from 0 to {}, as the file has {vertices} vertices", vertices - 1),
-                };
-                return Err(Fault::new(at, format!("there is no vertex {corner}"), expected));
-            }
-            corners.push(corner as u32);
+            let corner = self.cursor.count(EXPECTED)?;
+            corners.push(self.builder.corner(corner as i64, at)?);
         }
         self.cursor.skip_blanks();
         let mut color = 0;
@@ -301,36 +219,10 @@ impl Reader<'_> {
             self.cursor.skip_blanks();
         }
         if color > 0 {
-            self.oddities.add(Oddity::FaceColor);
+            self.builder.oddities.add(Oddity::FaceColor);
         }
-        self.add_polygon(corners, start)?;
+        self.builder.add_face(corners, start)?;
         self.cursor.skip_statement();
-        Ok(())
-    }
-
-    #[expect(clippy::indexing_slicing, reason = "the reader of faces has checked every index")]
-    fn add_polygon(&mut self, corners: &[u32], start: usize) -> Result<(), Box<Fault>> {
-        let MeshData { positions, triangles, .. } = &mut self.mesh;
-        let position = |corner: u32| positions[corner as usize];
-        match *corners {
-            [] | [_] | [_, _] => self.oddities.add(Oddity::SmallFace),
-            [a, b, c] => {
-                if is_degenerate([a, b, c].map(position)) {
-                    self.oddities.add(Oddity::DegenerateTriangle);
-                } else {
-                    triangles.push([a, b, c]);
-                }
-            }
-            _ => {
-                let cut = self
-                    .cutter
-                    .cut(corners.iter().map(|&corner| position(corner)))
-                    .map_err(|TooIntricate| TooIntricate::fault(start, corners.len()))?;
-                triangles.extend(cut.triangles.iter().map(|triangle| triangle.map(|number| corners[number as usize])));
-                self.oddities.add_many(Oddity::DegenerateTriangle, (corners.len() - 2 - cut.triangles.len()) as u64);
-                self.oddities.add_many(Oddity::CrossingPolygon, u64::from(cut.crossing));
-            }
-        }
         Ok(())
     }
 }

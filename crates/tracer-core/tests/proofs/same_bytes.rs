@@ -10,6 +10,7 @@ use scene_format::desc::{
     Transform,
 };
 use std::ops::ControlFlow;
+use std::path::Path;
 use tracer_core::Level;
 use tracer_core::{Crop, Film, Look, Observer, Progress, RenderOptions, Scene, Unobserved, develop};
 
@@ -128,6 +129,32 @@ fn rendered(scene: &Scene, options: &RenderOptions) -> Vec<[u64; 7]> {
     let film = tracer_core::render(scene, options, &Unobserved);
     assert_eq!(film.counters.dropped, 0);
     bits(&film)
+}
+
+/// The same mesh by way of every format.
+#[test]
+fn formats_of_meshes() {
+    let ball = icosphere(2).in_order_of_use();
+    let ring = torus(0.4, 12, 8).in_order_of_use();
+    let picture_of = |ball: &Path, ring: &Path, shading: Shading| {
+        let light = light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]);
+        let wall = glossy(picture_albedo(TextureWrap::Repeat, TextureFilter::Bilinear), 50.0, 0.3, true);
+        let turned = vec![rotate([1.0, 2.0, 3.0], 40.0), Transform::Translate([1.0, 0.5, 0.0])];
+        let painted = if shading == Shading::Flat { mirror([0.9, 0.8, 0.7]) } else { wall };
+        let objects = vec![mesh(ball, glass(1.5), shading, vec![scale(0.9)]), mesh(ring, painted, shading, turned)];
+        let desc = scene(24, vec![light], objects).camera([0.5, 3.0, 6.0], [0.0; 3], 45.0);
+        rendered(&compiled(&desc), &RenderOptions { samples: Some(4), ..options() })
+    };
+    for shading in [Shading::Auto, Shading::Smooth, Shading::Flat] {
+        let obj = picture_of(&ball.obj("ordered-ball"), &ring.obj("ordered-ring"), shading);
+        assert!(obj.iter().any(|p| p[0] != obj[0][0]), "nothing to see");
+        assert!(obj == picture_of(&ball.ply("ordered-ball"), &ring.ply("ordered-ring"), shading), "PLY {shading:?}");
+        if shading == Shading::Flat {
+            assert!(obj == picture_of(&ball.off("ordered-ball"), &ring.off("ordered-ring"), shading), "OFF");
+            // Of the ring STL would join the seam.
+            assert!(obj == picture_of(&ball.stl("ordered-ball"), &ring.off("ordered-ring"), shading), "STL");
+        }
+    }
 }
 
 #[test]

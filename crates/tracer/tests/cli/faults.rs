@@ -245,8 +245,11 @@ fn a_picture_or_a_mesh_is_no_scene() {
         .run(&["render", "a.png", "-o", "b.png"])
         .ends(2)
         .says(&["a.png is a picture, not a scene", "Texture(file:"]);
-    sandbox.write("cat.obj", "v 0 0 0\n");
-    sandbox.run(&["check", "cat.obj"]).ends(2).says(&["cat.obj is a mesh, not a scene", "Mesh(file:", "tracer new"]);
+    for mesh in ["cat.obj", "cat.off", "cat.PLY", "cat.stl"] {
+        sandbox.write(mesh, "v 0 0 0\n");
+        let no_scene = format!("{mesh} is a mesh, not a scene");
+        sandbox.run(&["check", mesh]).ends(2).says(&[&no_scene, "Mesh(file:", "tracer new"]);
+    }
     sandbox.write("cat.mtl", "newmtl fur\n");
     sandbox.run(&["info", "cat.mtl"]).ends(2).says(&["cat.mtl holds the materials of an OBJ mesh"]);
     sandbox.run(&["compare", "scene.ron", "a.png"]).ends(2).says(&["scene.ron is not a picture"]);

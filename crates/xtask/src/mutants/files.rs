@@ -3,6 +3,9 @@
 use super::{Mutant, suite, units};
 
 const PIECE: &str = "crates/tracer-core/src/mesh/obj/piece.rs";
+const PLY: &str = "crates/tracer-core/src/mesh/ply/mod.rs";
+const PLY_SOURCE: &str = "crates/tracer-core/src/mesh/ply/source.rs";
+const STL: &str = "crates/tracer-core/src/mesh/stl.rs";
 const MESH: &str = "crates/tracer-core/src/mesh/mod.rs";
 const NORMALS: &str = "crates/tracer-core/src/mesh/normals.rs";
 const POLYGON: &str = "crates/tracer-core/src/mesh/polygon.rs";
@@ -33,6 +36,41 @@ pub const MUTANTS: &[Mutant] = &[
         find: "normal = parse_index(cursor, self.normals.len(), start)?;",
         replace: "normal = parse_index(cursor, self.uvs.len(), start)?;",
         caught_by: suite("mesh_obj", &[]),
+    },
+    Mutant {
+        name: "ply-bytes-in-the-other-order",
+        file: PLY_SOURCE,
+        find: "if BIG {",
+        replace: "if !BIG {",
+        caught_by: suite("mesh_ply", &["a_cube_is_the_same_in_every_encoding_and_type"]),
+    },
+    Mutant {
+        name: "ply-lists-skipped-by-their-length",
+        file: PLY,
+        find: "length.saturating_mul(item.bytes())",
+        replace: "length.saturating_mul(item.bytes().min(1))",
+        caught_by: suite("mesh_ply", &["what_is_not_needed_is_stepped_over"]),
+    },
+    Mutant {
+        name: "ply-strips-wound-one-way",
+        file: PLY,
+        find: "odd = !odd;",
+        replace: "odd = false;",
+        caught_by: suite("mesh_ply", &["strips_of_triangles_are_unwound"]),
+    },
+    Mutant {
+        name: "stl-joins-nothing",
+        file: STL,
+        find: "vertices[number] = vertices[first];",
+        replace: "vertices[number] = first as u32;",
+        caught_by: suite("mesh_stl", &["corners_are_one_vertex_where_all_their_bits_are_the_same"]),
+    },
+    Mutant {
+        name: "stl-text-for-binary",
+        file: STL,
+        find: " && !text.iter().take(LOOKED_AT).any(|&byte| byte == 0)",
+        replace: "",
+        caught_by: suite("mesh_stl", &["binary_files_may_start_with_solid"]),
     },
     Mutant {
         name: "barycentre-by-the-triangles",

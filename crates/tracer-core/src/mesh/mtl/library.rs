@@ -57,7 +57,7 @@ impl Library {
         let mut library = Library::default();
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
         let mut cursor = Cursor::new(text, Blanks { comma: false, continuation: true });
-        library.parse_statements(&mut cursor, path).map_err(|fault| MeshError::at_fault(path, text, *fault))?;
+        library.parse_statements(&mut cursor, path).map_err(|fault| MeshError::at_line(path, text, *fault))?;
         Ok(library)
     }
 

@@ -122,7 +122,7 @@ impl<'a> Assembly<'a> {
         }
         let mut good = Vec::with_capacity(parts.len());
         for (number, part) in parts.into_iter().enumerate() {
-            let mut part = part.map_err(|bad| MeshError::at_fault(path, text, *self.fault_of(text, number, bad)))?;
+            let mut part = part.map_err(|bad| MeshError::at_line(path, text, *self.fault_of(text, number, bad)))?;
             oddities.merge(std::mem::take(&mut part.oddities));
             good.push(part);
         }

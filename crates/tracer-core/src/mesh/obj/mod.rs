@@ -34,19 +34,19 @@ pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
 
 fn read_in_pieces(text: &[u8], path: &Path, piece_bytes: usize) -> Result<MeshData, MeshError> {
     if let Some(fault) = foreign_encoding(text) {
-        return Err(MeshError::at_fault(path, text, *fault));
+        return Err(MeshError::at_line(path, text, *fault));
     }
     let pieces: Vec<Piece> = cut(text, piece_bytes).into_par_iter().map(|part| Piece::parse(text, part)).collect();
     let mut oddities = Oddities::default();
     let mut good = Vec::with_capacity(pieces.len());
     for mut piece in pieces {
         if let Some(fault) = piece.fault {
-            return Err(MeshError::at_fault(path, text, *fault));
+            return Err(MeshError::at_line(path, text, *fault));
         }
         oddities.merge(std::mem::take(&mut piece.oddities));
         good.push(piece);
     }
-    let assembly = Assembly::new(good).map_err(|fault| MeshError::at_fault(path, text, *fault))?;
+    let assembly = Assembly::new(good).map_err(|fault| MeshError::at_line(path, text, *fault))?;
     let mesh = assembly.into_mesh(text, path, &mut oddities)?;
     if mesh.triangles.is_empty() {
         let odd = oddities.summary();

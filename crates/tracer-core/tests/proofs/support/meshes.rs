@@ -64,6 +64,60 @@ impl Mesh {
         }
         write(&format!("{name}.off"), text.as_bytes())
     }
+
+    /// As a binary PLY file with what the mesh has, in double precision.
+    pub fn ply(&self, name: &str) -> PathBuf {
+        let (places, triangles) = (self.positions.len(), self.triangles.len());
+        let mut bytes = format!("ply\nformat binary_big_endian 1.0\nelement vertex {places}\n").into_bytes();
+        let has =
+            [(&["x", "y", "z"][..], places), (&["nx", "ny", "nz"], self.normals.len()), (&["u", "v"], self.uvs.len())];
+        for name in has.iter().filter(|(_, count)| *count > 0).flat_map(|(names, _)| *names) {
+            bytes.extend(format!("property double {name}\n").bytes());
+        }
+        let faces = format!("element face {triangles}\nproperty list uchar uint vertex_indices\nend_header\n");
+        bytes.extend(faces.bytes());
+        for vertex in 0..places {
+            let parts = [&self.positions[vertex][..], self.normals.get(vertex).map_or(&[], |normal| normal)];
+            let parts = parts.into_iter().chain([self.uvs.get(vertex).map_or(&[][..], |uv| uv)]);
+            bytes.extend(parts.flatten().flat_map(|x| x.to_be_bytes()));
+        }
+        for triangle in &self.triangles {
+            bytes.push(3);
+            bytes.extend(triangle.iter().flat_map(|&corner| (corner as u32).to_be_bytes()));
+        }
+        write(&format!("{name}.ply"), &bytes)
+    }
+
+    /// As an ASCII STL file: the places of the triangles' corners.
+    pub fn stl(&self, name: &str) -> PathBuf {
+        let mut text = format!("solid {name}\n");
+        for triangle in &self.triangles {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle.map(|corner| self.positions[corner]) {
+                writeln!(text, "vertex {x} {y} {z}").unwrap();
+            }
+            text += "endloop\nendfacet\n";
+        }
+        text += "endsolid\n";
+        write(&format!("{name}.stl"), text.as_bytes())
+    }
+
+    /// With its vertices in the order in which the triangles name them, without those that none names.
+    pub fn in_order_of_use(&self) -> Mesh {
+        let mut numbers = vec![None; self.positions.len()];
+        let mut mesh = Mesh::default();
+        for triangle in &self.triangles {
+            mesh.triangles.push(triangle.map(|corner| {
+                *numbers[corner].get_or_insert_with(|| {
+                    mesh.positions.push(self.positions[corner]);
+                    mesh.normals.extend(self.normals.get(corner));
+                    mesh.uvs.extend(self.uvs.get(corner));
+                    mesh.positions.len() - 1
+                })
+            }));
+        }
+        mesh
+    }
 }
 
 fn normalised(p: [f64; 3]) -> [f64; 3] {
