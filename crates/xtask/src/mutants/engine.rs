@@ -4,7 +4,10 @@ use super::{Mutant, proofs, units};
 
 const MATERIALS: &str = "crates/tracer-core/src/engine/stages/materials.rs";
 const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
-const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights.rs";
+const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights/mod.rs";
+const LIGHT_SELECTION: &str = "crates/tracer-core/src/engine/stages/lights/selection.rs";
+const SPHERE_LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/sphere.rs";
+const FLAT_LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/flat.rs";
 const CAMERA: &str = "crates/tracer-core/src/engine/stages/camera.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const SHARE: &str = "crates/tracer-core/src/engine/stages/share.rs";
@@ -233,41 +236,41 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "light-sample-without-the-choice-of-light",
         file: LIGHTS,
-        find: "opening * c(TWO_PI) / choice.probability",
-        replace: "opening * c(TWO_PI)",
+        find: "sample.inverse_pdf = sample.inverse_pdf / choice.probability;",
+        replace: "",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "mis-without-the-choice-of-light",
         file: LIGHTS,
-        find: "    probability(lights, k, at) / (opening * F::splat(TWO_PI))",
-        replace: "    F::splat(1.0) / (opening * F::splat(TWO_PI))",
+        find: "selection::probability(lights, k, at) / inverse",
+        replace: "F::splat(1.0) / inverse",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "cone-as-a-disc",
-        file: LIGHTS,
+        file: SPHERE_LIGHT,
         find: "F::select(inside, F::splat(2.0), sin2 / (one + cos))",
         replace: "F::select(inside, F::splat(2.0), sin2 / (one + one))",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "far-side-of-a-light-from-within",
-        file: LIGHTS,
+        file: SPHERE_LIGHT,
         find: "F::select(inside, along + half_chord, along - half_chord)",
         replace: "along - half_chord",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "light-tree-takes-the-other-child",
-        file: LIGHTS,
+        file: LIGHT_SELECTION,
         find: "let second = step.first.le(u);",
         replace: "let second = u.lt(step.first);",
         caught_by: units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "light-tree-loses-lights-on-the-horizon",
-        file: LIGHTS,
+        file: LIGHT_SELECTION,
         find: "(middle + r).max(zero)",
         replace: "(middle - r).max(zero)",
         caught_by: units(&["engine::stages::lights"]),
@@ -278,6 +281,42 @@ pub const MUTANTS: &[Mutant] = &[
         find: "Receiver { p: origin, n: normal }",
         replace: "Receiver { p: origin, n: normal.neg() }",
         caught_by: proofs(&["analytic::several_lamps"]),
+    },
+    // Flat lights.
+    Mutant {
+        name: "flat-lights-without-their-cosine",
+        file: FLAT_LIGHT,
+        find: "row.area * wi.dot(row.normal).abs() / d2",
+        replace: "row.area / d2",
+        caught_by: units(&["engine::stages::lights::flat"]),
+    },
+    Mutant {
+        name: "triangles-that-shine-as-parallelograms",
+        file: FLAT_LIGHT,
+        find: "self.has(LightTable::TRIANGLE) & one.lt(u + v)",
+        replace: "self.has(LightTable::TRIANGLE) & one.lt(u - v)",
+        caught_by: units(&["engine::stages::lights::flat"]),
+    },
+    Mutant {
+        name: "backs-that-shine",
+        file: FLAT_LIGHT,
+        find: "V3::select(outside | row.has(LightTable::TWO_SIDED), row.radiance, V3::zero())",
+        replace: "row.radiance",
+        caught_by: units(&["engine::stages::lights::flat"]),
+    },
+    Mutant {
+        name: "rays-that-end-on-the-light",
+        file: FLAT_LIGHT,
+        find: "F::select(front, row.offset, -row.offset)",
+        replace: "F::select(front, -row.offset, row.offset)",
+        caught_by: proofs(&["shining"]),
+    },
+    Mutant {
+        name: "light-tree-asks-backs",
+        file: LIGHT_SELECTION,
+        find: "let cos = from.dot(self.normal).max(F::splat(0.0))",
+        replace: "let cos = from.dot(self.normal).abs()",
+        caught_by: units(&["engine::stages::lights::flat"]),
     },
     // Camera and filters.
     Mutant {

@@ -69,9 +69,16 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "lights-send-photons-away-from-casters",
         file: PLAN,
-        find: "let axis = (caster.center - light.center)",
-        replace: "let axis = (light.center - caster.center)",
+        find: "(caster - center).try_normalize()",
+        replace: "(center - caster).try_normalize()",
         caught_by: proofs(&["caustics::photons_are_worth_it"]),
+    },
+    Mutant {
+        name: "flat-lights-that-send-to-both-sides",
+        file: PLAN,
+        find: "let sides = if light.two_sided() { 2.0 } else { 1.0 };",
+        replace: "let sides = 2.0;",
+        caught_by: proofs(&["shining::over_glass"]),
     },
     Mutant {
         name: "spheres-without-their-photons",
