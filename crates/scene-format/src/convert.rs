@@ -5,7 +5,7 @@ use crate::desc::Scene;
 use crate::form::{Entry, Form};
 use crate::load::{LoadError, load_str, parse};
 use crate::print;
-use crate::read::is_expression;
+use crate::read::{REPEAT, is_expression, repeat_body};
 use crate::schema::{Content, EnumDef, StructDef, Type, fits};
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
@@ -88,12 +88,23 @@ impl Converter<'_, '_> {
 
     /// An entry with its comments.
     fn entry(&mut self, name: String, start: u32, item: Item<'_, '_>, kind: Type) -> Entry {
+        self.entry_of(name, start, item, |converter| converter.form(item, kind))
+    }
+
+    /// An entry with its comments, whose value is made so.
+    fn entry_of(
+        &mut self,
+        name: String,
+        start: u32,
+        item: Item<'_, '_>,
+        value: impl FnOnce(&mut Self) -> Form,
+    ) -> Entry {
         let before = self.comments_before(start);
         let end = item.span().end;
         // The fields of a TOML table follow after its header has ended.
         let header = item.children().next().is_some_and(|child| child.span().start >= end);
         let early = if header { self.comment_after(end) } else { None };
-        let value = self.form(item, kind);
+        let value = value(self);
         let after = if header { early } else { self.comment_after(end) };
         Entry { name, value, before, after }
     }
@@ -113,9 +124,7 @@ impl Converter<'_, '_> {
                 Kind::List | Kind::Tuple => self.vector(item),
                 _ => Form::Lexeme(self.number(item)),
             },
-            Type::List(inner) => Form::List(
-                item.children().map(|child| self.entry(String::new(), child.span().start, child, *inner)).collect(),
-            ),
+            Type::List(inner) => self.list(item, inner),
             Type::Map(inner) => Form::Map(
                 item.fields()
                     .map(|(key, value)| self.entry(key.text().into_owned(), key.span().start, value, *inner))
@@ -138,6 +147,30 @@ impl Converter<'_, '_> {
                 }
             }
         }
+    }
+
+    /// The items of a list, each of this type or a `Repeat` of such.
+    fn list(&mut self, item: Item<'_, '_>, inner: &'static Type) -> Form {
+        let entries = item.children().map(|child| {
+            let start = child.span().start;
+            match repeat_body(child) {
+                Some(body) => self.entry_of(String::new(), start, child, |converter| converter.repeat(body, inner)),
+                None => self.entry(String::new(), start, child, *inner),
+            }
+        });
+        Form::List(entries.collect())
+    }
+
+    fn repeat(&mut self, body: Item<'_, '_>, inner: &'static Type) -> Form {
+        let fields = body.fields().map(|(key, value)| {
+            let (name, start) = (key.text().into_owned(), key.span().start);
+            match REPEAT.field(&name) {
+                Some(field) if !matches!(field.kind, Type::List(_)) => self.entry(name, start, value, field.kind),
+                _ => self.entry_of(name, start, value, |converter| converter.list(value, inner)),
+            }
+        });
+        let fields = Form::Struct { name: REPEAT.name, fields: fields.collect() };
+        Form::Variant { name: REPEAT.name, content: Some(Box::new(fields)) }
     }
 
     fn vector(&self, item: Item<'_, '_>) -> Form {

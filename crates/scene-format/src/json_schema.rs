@@ -5,6 +5,7 @@
 
 use crate::desc::Scene;
 use crate::form::Form;
+use crate::read::REPEAT;
 use crate::schema::{Content, EnumDef, FieldDef, Rule, StructDef, Type, VariantDef, prose};
 use serde_json::{Map, Value, json};
 
@@ -85,8 +86,18 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
             vector(rule, 3),
             { "type": "string", "pattern": "^(#[0-9a-fA-F]{6}$|=)" },
         ] }),
-        Type::Value => json!({ "type": ["number", "boolean", "string", "array"] }),
-        Type::List(inner) => json!({ "type": "array", "items": type_schema(*inner, rule, definitions) }),
+        Type::Value => json!({}),
+        Type::List(inner) => {
+            let item = Value::Object(type_schema(*inner, rule, definitions));
+            let repeat = reference(REPEAT.name, definitions, |definitions| struct_schema(&REPEAT, definitions));
+            let repeat = json!({
+                "type": "object",
+                "properties": { (REPEAT.name): repeat },
+                "required": [REPEAT.name],
+                "additionalProperties": false,
+            });
+            json!({ "type": "array", "items": { "anyOf": [item, repeat] } })
+        }
         Type::Map(inner) => {
             json!({ "type": "object", "additionalProperties": type_schema(*inner, rule, definitions) })
         }

@@ -257,6 +257,10 @@ impl Setter {
                     return Err(self.no_parts(item, step, noun));
                 }
                 match item.children().nth(*index) {
+                    Some(child) if crate::read::repeat_body(child).is_some() && !rest.is_empty() => Err(self
+                        .fault(codes::BAD_SET_PATH, step, format!("item {index} of {noun} is a `Repeat`"))
+                        .expected("an item that stands for itself")
+                        .hint("give what differs a name in `vars`, and set that: --set vars.height=2")),
                     Some(child) => self.find(child, *inner, rest, &format!("item {index} of {noun}")),
                     None => {
                         let count = item.children().count();

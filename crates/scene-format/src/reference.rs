@@ -68,6 +68,22 @@ Scene(
 - Functions: `abs sign floor ceil round sqrt exp log`, `sin cos tan asin acos atan atan2(y, x)` in degrees, `min max clamp(x, low, high)
   mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `length normalize dot cross`, `hsv(hue, saturation, value)`,
   `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`.
+
+`Repeat`, an item of any list, puts its items into the list so many times; `i`, or what `index` says, counts from 0:
+
+```ron
+Scene(
+    background: 1,
+    objects: [
+        Repeat(count: 12, vars: { \"turn\": \"=30*i\" }, items: [
+            Sphere(center: \"=3*(cos(turn), 0, sin(turn))\", radius: \"=0.2 + 0.02*i\", material: Diffuse(albedo: \"=hsv(turn, 0.6, 0.9)\")),
+        ]),
+        Box(size: 0.2, placements: [Repeat(count: 5, index: \"k\", items: [[Translate((\"=k - 2\", 0, 0))]])]),
+    ],
+)
+```
+
+- `count` up to a million, `vars` reckoned anew each time, `Repeat`s within each other up to eight deep.
 - Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every machine.
 
 ## In an editor

@@ -111,6 +111,14 @@ fn one_fault_in_ron_is_one_error() {
             ("(20, 30, -20)", "\"=(20, 30)\"", "E0603"),
             ("version: 1,", "vars: { \"a\": \"=b\", \"b\": \"=a\" },", "E0407"),
             ("version: 1,", "vars: { \"a b\": 1 },", "E0408"),
+            ("Sphere(center: (20", "Repeat(count: 2), Sphere(center: (20", "E0202"),
+            ("Sphere(center: (20", "Repeat(count: 2.5, items: []), Sphere(center: (20", "E0305"),
+            (
+                "Sphere(center: (20",
+                "Repeat(count: 2, items: [Sphere(radius: 1, center: \"=i\")]), Sphere(center: (20",
+                "E0603",
+            ),
+            ("Sphere(center: (20", "Repeat(count: 2, index: \"pi\", items: []), Sphere(center: (20", "E0408"),
             ("version: 1,", "vars: { \"a\": 1, \"a\": 2 },", "E0402"),
             // Names.
             ("material: \"glass\"", "material: \"gloss2\"", "E0401"),

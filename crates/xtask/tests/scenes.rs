@@ -34,8 +34,8 @@ fn load(path: &Path) -> SceneDesc {
 #[test]
 fn all_scenes_compile() {
     let scenes = scenes();
-    // Nine figures, two of them in TOML too, and a gallery of five.
-    assert_eq!(scenes.len(), 16);
+    // Nine figures, two of them in TOML too, and a gallery of eight.
+    assert_eq!(scenes.len(), 19);
     for path in scenes {
         let scene = match tracer_core::compile(&load(&path)) {
             Ok(scene) => scene,

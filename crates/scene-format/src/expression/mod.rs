@@ -44,6 +44,12 @@ pub(crate) fn is_known(name: &str) -> bool {
     constant || matches!(name, "true" | "false") || functions::FUNCTIONS.iter().any(|function| function.name == name)
 }
 
+/// Whether expressions can use a name: a plain word without a meaning of its own.
+pub(crate) fn is_name(name: &str) -> bool {
+    let begins = name.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    begins && name.chars().all(|c| c.is_alphanumeric() || c == '_') && !is_known(name)
+}
+
 /// Why there is no value: `None` where that was reported.
 pub(crate) type Failure = Option<Fault>;
 

@@ -6,12 +6,14 @@
 mod check;
 mod hints;
 mod materials;
+mod repeat;
 mod value;
 mod variant;
 mod vars;
 mod vector;
 
 pub(crate) use check::scene;
+pub(crate) use repeat::{REPEAT, repeat_body};
 pub(crate) use value::{expected, hex_color, linear_from_srgb};
 pub(crate) use variant::choices;
 pub(crate) use vars::{Vars, is_expression};
@@ -47,6 +49,8 @@ pub(crate) struct Reader<'r> {
     path: Vec<Step>,
     materials: Materials,
     vars: vars::Table,
+    /// Items that repetitions have made.
+    repeated: u64,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
 }
@@ -98,7 +102,14 @@ pub(crate) fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_
 
 impl<'r> Reader<'r> {
     pub fn new(sink: &'r mut Sink) -> Reader<'r> {
-        Reader { sink, path: Vec::new(), materials: Materials::default(), vars: vars::Table::default(), file: None }
+        Reader {
+            sink,
+            path: Vec::new(),
+            materials: Materials::default(),
+            vars: vars::Table::default(),
+            repeated: 0,
+            file: None,
+        }
     }
 
     pub(crate) fn path(&self) -> String {
@@ -369,6 +380,16 @@ impl<'r> Reader<'r> {
         at: &'static FieldDef,
         mut read: impl FnMut(&mut Self, Item<'t, 's>),
     ) -> Option<()> {
+        self.items_into(item, at, &mut read)
+    }
+
+    /// As [`Reader::items`]; a `Repeat` among them stands for its items.
+    pub(super) fn items_into<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        at: &'static FieldDef,
+        read: &mut dyn FnMut(&mut Self, Item<'t, 's>),
+    ) -> Option<()> {
         if item.kind() != Kind::List {
             return self.not_a_list(item, at);
         }
@@ -380,12 +401,18 @@ impl<'r> Reader<'r> {
                 // The first one stays: whoever asks later whether the list is empty asks for it.
                 (piece, begin) = (children.begin, child.index() + 1);
             }
-            begin = child.release_before(begin);
+            // What is repeated is read again.
+            if self.vars.depth() == 0 {
+                begin = child.release_before(begin);
+            }
             if child.kind() == Kind::Broken {
                 continue;
             }
             self.path.push(Step::Index(index));
-            read(self, child);
+            match repeat_body(child) {
+                Some(body) => self.repeat(body, at, read),
+                None => read(self, child),
+            }
             self.path.pop();
         }
         Some(())

@@ -10,6 +10,7 @@ use crate::suggest;
 use crate::tree::{Item, Kind};
 use crate::words::Words;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The field `vars`: its values stay with the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -18,7 +19,7 @@ pub(crate) struct Vars;
 /// A name and what it stands for.
 #[derive(Debug)]
 struct Var {
-    name: String,
+    name: Arc<str>,
     span: Span,
     /// Where the value stands on the tape.
     slot: u32,
@@ -38,10 +39,42 @@ enum State {
 /// All values by name.
 #[derive(Debug, Default)]
 pub(super) struct Table {
+    /// Those of the scene, then those of the repetitions that are being read, the innermost last.
     list: Vec<Var>,
-    by_name: BTreeMap<String, usize>,
+    /// Those of the scene.
+    by_name: BTreeMap<Arc<str>, usize>,
+    /// Where those of each repetition begin.
+    frames: Vec<usize>,
     /// Some could not be read: names may be missing.
     damaged: bool,
+}
+
+impl Table {
+    /// Repetitions that are being read.
+    pub fn depth(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Begins a repetition with this index.
+    pub fn enter(&mut self, index: &str, count: f64) {
+        self.frames.push(self.list.len());
+        let state = State::Done(Value::Number(count));
+        self.list.push(Var { name: index.into(), span: Span::NONE, slot: 0, state, used: true });
+    }
+
+    /// Ends it.
+    pub fn leave(&mut self) {
+        if let Some(start) = self.frames.pop() {
+            self.list.truncate(start);
+        }
+    }
+
+    /// What a name means here: the innermost repetition's, else the scene's.
+    fn find(&self, name: &str) -> Option<usize> {
+        let scene = self.frames.first().copied().unwrap_or(self.list.len());
+        let inner = self.list[scene..].iter().rposition(|var| *var.name == *name).map(|k| scene + k);
+        inner.or_else(|| self.by_name.get(name).copied())
+    }
 }
 
 impl Words for Vars {
@@ -73,38 +106,63 @@ impl Reader<'_> {
             }
         }
         self.vars.damaged |= item.is_damaged();
+        self.named_values(item);
+        Some(Vars)
+    }
+
+    /// The `vars` of a repetition, for one of its times.
+    pub(super) fn vars_within(&mut self, item: Item<'_, '_>, at: &'static FieldDef) {
+        match item.kind() {
+            Kind::Map => self.named_values(item),
+            Kind::Tuple if item.name().is_none() && item.children().next().is_none() => {}
+            _ => {
+                let _: Option<()> = self.wrong_type(item, at, "names with their values: { \"angle\": \"=30*i\" }");
+            }
+        }
+    }
+
+    /// Takes names with their values, and reckons them.
+    fn named_values(&mut self, item: Item<'_, '_>) {
+        let start = self.vars.frames.last().copied().unwrap_or(0);
         for (key, value) in item.fields() {
-            let name = key.text().into_owned();
-            self.path.push(Step::Key(name.clone()));
-            let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
-                && name.chars().all(|c| c.is_alphanumeric() || c == '_');
-            if !plain || expression::is_known(&name) {
+            let name = key.text();
+            if !expression::is_name(&name) {
+                let known = expression::is_known(&name);
                 let why =
-                    if plain { "has a meaning of its own in expressions" } else { "cannot stand in an expression" };
+                    if known { "has a meaning of its own in expressions" } else { "cannot stand in an expression" };
+                self.path.push(Step::Key(name.clone().into_owned()));
                 self.report(
                     Diagnostic::error(codes::BAD_VAR_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
                         .expected("a name of letters, digits and `_` that is no function"),
                 );
-            } else if let Some(&first) = self.vars.by_name.get(&name) {
-                let first = self.vars.list[first].span;
-                self.report(
-                    Diagnostic::error(codes::DUPLICATE_NAME, key.span(), format!("two vars have the name \"{name}\""))
-                        .hint("rename one of the two, or remove it")
-                        .label(first, "the first one is here"),
-                );
-            } else {
-                self.vars.by_name.insert(name.clone(), self.vars.list.len());
-                let slot = value.index() as u32;
-                self.vars.list.push(Var { name, span: key.span(), slot, state: State::NotYet, used: false });
+                self.path.pop();
+                continue;
             }
-            self.path.pop();
+            if let Some(first) = self.vars.find(&name).filter(|&first| first >= start) {
+                let first = self.vars.list[first].span;
+                self.path.push(Step::Key(name.clone().into_owned()));
+                let mut fault =
+                    Diagnostic::error(codes::DUPLICATE_NAME, key.span(), format!("two vars have the name \"{name}\""))
+                        .hint("rename one of the two, or remove it");
+                if first != Span::NONE {
+                    fault = fault.label(first, "the first one is here");
+                }
+                self.report(fault);
+                self.path.pop();
+                continue;
+            }
+            let name: Arc<str> = (*name).into();
+            if self.vars.frames.is_empty() {
+                self.vars.by_name.insert(Arc::clone(&name), self.vars.list.len());
+            }
+            let slot = value.index() as u32;
+            self.vars.list.push(Var { name, span: key.span(), slot, state: State::NotYet, used: false });
         }
-        for k in 0..self.vars.list.len() {
-            self.path.push(Step::Key(self.vars.list[k].name.clone()));
+        for k in start..self.vars.list.len() {
+            self.path.push(Step::Key((*self.vars.list[k].name).to_owned()));
             self.var(k, item);
             self.path.pop();
         }
-        Some(Vars)
     }
 
     /// The value of a name, reckoned when it is first asked for. `near`: any item of the tree.
@@ -167,11 +225,11 @@ impl Reader<'_> {
         let text = item.text();
         let body = text.strip_prefix('=')?;
         let result = expression::evaluate(body, &mut |name| {
-            let Some(&k) = self.vars.by_name.get(name) else {
+            let Some(k) = self.vars.find(name) else {
                 if self.vars.damaged {
                     return Named::Failed;
                 }
-                return Named::Unknown(self.vars.list.iter().map(|var| var.name.clone()).collect());
+                return Named::Unknown(self.vars.list.iter().map(|var| (*var.name).to_owned()).collect());
             };
             self.vars.list[k].used = true;
             match self.var(k, item) {
@@ -234,7 +292,7 @@ impl Reader<'_> {
     /// Warns of names that nothing uses.
     pub(super) fn unused_vars(&mut self) {
         let unused: Vec<(String, Span)> =
-            self.vars.list.iter().filter(|var| !var.used).map(|var| (var.name.clone(), var.span)).collect();
+            self.vars.list.iter().filter(|var| !var.used).map(|var| ((*var.name).to_owned(), var.span)).collect();
         for (name, span) in unused {
             self.path = vec![Step::Field("vars"), Step::Key(name.clone())];
             let message = format!("nothing uses the var \"{}\"", shortened(&name));

@@ -183,7 +183,7 @@ impl<'a> MaterialBuilder<'a> {
     /// Loads the textures.
     pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>) {
         let load = |image: &Image| match image {
-            Image::File(path, span) => texture::load(path).map_err(|error| error.to_diagnostic(*span)),
+            Image::File(path, span) => texture::load(path).map_err(|error| Box::new(error.to_diagnostic(*span))),
             Image::Squares(colors) => Ok(squares(*colors)),
         };
         let loaded: Vec<_> = self.images.par_iter().map(load).collect();
@@ -196,7 +196,7 @@ impl<'a> MaterialBuilder<'a> {
                     }
                     images.push(texture);
                 }
-                Err(error) => diagnostics.push(error),
+                Err(error) => diagnostics.push(*error),
             }
         }
         if images.len() == self.images.len() {

@@ -22,13 +22,15 @@ pub fn rectangle(world: &mut World, center: Point, radius: f64, material: Materi
     let angle = random.between(0.2, 1.3);
     let size =
         if once_in(random, 3) { [radius * 1.4; 2] } else { [2.0 * radius * angle.cos(), 2.0 * radius * angle.sin()] };
+    let copied = once_in(random, 4);
+    let there = vec![Transform::Translate(center).into()];
     let rectangle = Rectangle {
-        center: center.into(),
+        center: if copied { [0.0; 3] } else { center }.into(),
         normal: random.direction().to_array().into(),
         size: PerAxis(size).into(),
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
-        placements: Placements::One,
+        placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
     };
     world.desc.objects.push(Object::Rectangle(Box::new(rectangle)).into());
 }

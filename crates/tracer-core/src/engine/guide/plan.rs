@@ -220,10 +220,10 @@ impl PairTable {
             let directions = if pair.aim == aim::EVERYWHERE { sides * std::f64::consts::PI } else { 1.0 };
             let density = pair.probability;
             table.push_light(scene, light, caster.center, any_flat);
-            for axis_index in 0..3 {
-                table.caster_center[axis_index].push(caster.center[axis_index] as f32);
-                table.radiance[axis_index].push(radiance[axis_index] as f32);
-                table.flux[axis_index].push((radiance[axis_index] * area * directions / density) as f32);
+            for (axis, radiance) in radiance.into_iter().enumerate() {
+                table.caster_center[axis].push(caster.center[axis] as f32);
+                table.radiance[axis].push(radiance as f32);
+                table.flux[axis].push((radiance * area * directions / density) as f32);
             }
             table.area.push((area * directions) as f32);
             table.cap.push(pair.cap as f32);

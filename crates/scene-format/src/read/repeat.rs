@@ -1,0 +1,150 @@
+//! `Repeat` in a list: its items as often as it says, with an index that counts.
+
+use super::{Reader, Step};
+use crate::codes;
+use crate::diagnostic::Diagnostic;
+use crate::expression;
+use crate::schema::{FieldDef, Rule, StructDef, Type};
+use crate::tree::{Item, Kind};
+use crate::words::Words;
+
+/// Repetitions of one `Repeat`, at most.
+const MOST_TIMES: f64 = 1e6;
+/// `Repeat`s within each other, at most.
+const MOST_NESTED: usize = 8;
+/// Items that all repetitions of a scene make, at most.
+const MOST_ITEMS: u64 = 10_000_000;
+
+/// Its fields.
+pub(crate) static REPEAT: StructDef = StructDef {
+    name: "Repeat",
+    noun: "a repetition",
+    doc: &[" Puts its items into the list so many times."],
+    fields: &[
+        FieldDef {
+            name: "count",
+            noun: "the count of a repetition",
+            doc: &[" How many times."],
+            kind: Type::Integer,
+            rule: Rule::within("a whole number", 0.0, MOST_TIMES),
+            default: None,
+        },
+        FieldDef {
+            name: "index",
+            noun: "the index of a repetition",
+            doc: &[" The name that counts from 0 in expressions within."],
+            kind: Type::Text,
+            rule: Rule::ANY,
+            default: Some(|| crate::form::Form::Text("i".to_owned())),
+        },
+        FieldDef {
+            name: "vars",
+            noun: "the vars of a repetition",
+            doc: &[" Values by name, reckoned anew each time."],
+            kind: Type::Map(&Type::Value),
+            rule: Rule::ANY,
+            default: Some(|| crate::form::Form::Map(Vec::new())),
+        },
+        FieldDef {
+            name: "items",
+            noun: "the items of a repetition",
+            doc: &[" What is put into the list each time."],
+            kind: Type::List(&Type::Value),
+            rule: Rule::ANY,
+            default: None,
+        },
+    ],
+    bare: None,
+    exactly_one: &[],
+};
+
+/// The fields of an item that is a `Repeat`.
+pub(crate) fn repeat_body<'t, 's>(item: Item<'t, 's>) -> Option<Item<'t, 's>> {
+    match item.kind() {
+        Kind::Struct | Kind::Tuple => (item.name() == Some(REPEAT.name)).then_some(item),
+        Kind::Map => {
+            let mut fields = item.fields();
+            let (key, value) = fields.next()?;
+            (key.text() == REPEAT.name && fields.next().is_none()).then_some(value)
+        }
+        _ => None,
+    }
+}
+
+impl Reader<'_> {
+    /// Reads the items of a `Repeat` as often as it says.
+    pub(super) fn repeat<'t, 's>(
+        &mut self,
+        body: Item<'t, 's>,
+        at: &'static FieldDef,
+        read: &mut dyn FnMut(&mut Self, Item<'t, 's>),
+    ) {
+        let Some(fields) = self.fields_unnamed(body, &REPEAT) else { return };
+        let count =
+            fields.get(0).and_then(|count| self.at_field(0, |reader| u32::read(reader, count, &REPEAT.fields[0])));
+        let index = match fields.get(1) {
+            Some(name) => self.at_field(1, |reader| reader.index_name(name)),
+            None => Some("i".to_owned()),
+        };
+        let (Some(count), Some(index), Some(items)) = (count, index, fields.get(3)) else { return };
+        // That it is too much was told.
+        if self.repeated > MOST_ITEMS {
+            return;
+        }
+        if self.vars.depth() >= MOST_NESTED {
+            return self.too_much(body, &format!("repetitions stand more than {MOST_NESTED} deep"));
+        }
+        for k in 0..count {
+            let (errors, told) = (self.sink.errors, self.sink.diagnostics.len());
+            self.vars.enter(&index, f64::from(k));
+            if let Some(vars) = fields.get(2) {
+                self.at_field(2, |reader| reader.vars_within(vars, &REPEAT.fields[2]));
+            }
+            let mut made = 0;
+            if self.sink.errors == errors {
+                self.at_field(3, |reader| {
+                    reader.items_into(items, at, &mut |reader, item| {
+                        made += 1;
+                        read(reader, item);
+                    })
+                });
+            }
+            self.vars.leave();
+            self.repeated += made.max(1);
+            if self.sink.errors == errors && self.repeated > MOST_ITEMS {
+                return self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
+            }
+            if self.sink.errors > errors {
+                // What is wrong the first time is wrong whatever the index.
+                for fault in self.sink.diagnostics.iter_mut().skip(told).filter(|_| k > 0) {
+                    fault.message += &format!(" ({index} = {k})");
+                }
+                return;
+            }
+        }
+    }
+
+    /// Reads with a field on the path.
+    fn at_field<T>(&mut self, slot: usize, read: impl FnOnce(&mut Self) -> T) -> T {
+        self.path.push(Step::Field(REPEAT.fields[slot].name));
+        let value = read(self);
+        self.path.pop();
+        value
+    }
+
+    fn index_name(&mut self, item: Item<'_, '_>) -> Option<String> {
+        let name = self.text(item, &REPEAT.fields[1])?.into_owned();
+        if expression::is_name(&name) {
+            return Some(name);
+        }
+        let message = format!("`{}` cannot stand in an expression", super::shortened(&name));
+        let expected = "a name of letters, digits and `_` that is no function";
+        self.report(Diagnostic::error(codes::BAD_VAR_NAME, item.span(), message).expected(expected));
+        None
+    }
+
+    fn too_much(&mut self, item: Item<'_, '_>, message: &str) {
+        let fault = Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer");
+        self.report(fault.hint("many copies of one mesh are cheaper by `placements`"));
+    }
+}
