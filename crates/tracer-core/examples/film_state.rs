@@ -1,8 +1,9 @@
-//! What it costs to keep the state of a rendering: `cargo run --release -p tracer-core --example film_state -- scenes/fig4.ron 3840x2160 12 FILE`
-//! (scene, size, samples, file to write).
+//! What it costs to keep the state of a rendering: `cargo run --release -p tracer-core --example film_state --
+//! scenes/fig4.ron 3840x2160 12 FILE` (scene, size, samples, file to write).
 //!
-//! Renders twice, without and with a state after every pass, and tells for both the time and the longest time in which no thread finished
-//! a batch; for the states their size, and how fast they were written. Light paths finish no batches: `render.integrator: Path` has none.
+//! Renders twice, without and with a state after every pass, and tells for both the time and the longest time in which
+//! no thread finished a batch; for the states their size, and how fast they were written. Light paths finish no
+//! batches: `render.integrator: Path` has none.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};

@@ -1,4 +1,5 @@
-//! Films that are saved, at the end or at work, and gone on with: the same film as made at once, and nothing taken on trust.
+//! Films that are saved, at the end or at work, and gone on with: the same film as made at once, and nothing taken on
+//! trust.
 
 use scene_format::{Override, Syntax, load_str};
 use std::ops::ControlFlow;
@@ -181,7 +182,8 @@ fn the_head_tells_what_there_is() {
     assert_eq!(saved.check().expect("whole"), head);
 }
 
-/// Cut anywhere, with a bit or byte changed anywhere, with numbers that lie and a checksum that fits: an error, soon, in little memory.
+/// Cut anywhere, with a bit or byte changed anywhere, with numbers that lie and a checksum that fits: an error, soon,
+/// in little memory.
 #[test]
 fn mutants_are_refused() {
     let scene = scene(&["image.width=20", "image.height=20", "render.clamp=0.5"]);

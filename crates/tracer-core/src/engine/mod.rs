@@ -183,21 +183,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     for worker in &workers {
         lock(worker).batch.watch.start(options.statistics);
     }
-    let sharing = match options.reuse {
-        None => scene.reuse,
-        Some(true) => Sharing::Always,
-        Some(false) => Sharing::Never,
-    };
-    let has_second = if sharing == Sharing::Indoors && samples_total > 0 {
-        second_vertices(scene, &kernels, pass_options, &workers)
-    } else {
-        0.0
-    };
-    let share_of_blocks = match sharing {
-        Sharing::Always => 1.0,
-        Sharing::Never => 0.0,
-        Sharing::Indoors => ((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0),
-    };
+    let share_of_blocks = share_of_blocks(scene, options, samples_total > 0, &kernels, pass_options, &workers);
     pass_options.reuse = share_of_blocks > 0.0;
     let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
     let plan = if wants_guide { Plan::new(scene, pass_options.seed) } else { None };
@@ -221,7 +207,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         workers.iter().for_each(|worker| lock(worker).batch.counters = Counters::default());
     }
     (film.reuse, film.caustics) = (pass_options.reuse, guides.is_some());
-    let (counters, costs) = (film.counters, film.costs);
+    let before = (film.counters, film.costs);
     let done = AtomicU64::new(if resumed { film.camera_samples() } else { 0 });
     let stopped = AtomicBool::new(false);
     let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES);
@@ -250,16 +236,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
             stopped: &stopped,
         };
         let left = painter.paint(&mut film, pass.clone(), keeper.take(), &workers);
-        film.counters = counters;
-        film.costs = costs;
-        let mut statistics = Statistics::default();
-        for worker in &workers {
-            let Batch { counters, watch, .. } = &lock(worker).batch;
-            film.counters.add(counters);
-            statistics.add(&watch.statistics);
-            film.costs.add(&watch.costs);
-        }
-        film.statistics = options.statistics.then_some(statistics);
+        gather(&mut film, before, options.statistics, &workers);
         film.unfinished = left;
         if film.unfinished.is_none() {
             film.whole = pass.end;
@@ -276,6 +253,43 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         }
     }
     Ok(film)
+}
+
+/// Puts what the workers have counted on the film, beside what it had before.
+fn gather(film: &mut Film, before: (Counters, Costs), statistics: bool, workers: &[Mutex<Worker>]) {
+    (film.counters, film.costs) = before;
+    let mut sums = Statistics::default();
+    for worker in workers {
+        let Batch { counters, watch, .. } = &lock(worker).batch;
+        film.counters.add(counters);
+        sums.add(&watch.statistics);
+        film.costs.add(&watch.costs);
+    }
+    film.statistics = statistics.then_some(sums);
+}
+
+/// The share of the blocks whose pixels share.
+fn share_of_blocks(
+    scene: &Scene,
+    options: &RenderOptions,
+    has_samples: bool,
+    kernels: &Kernels,
+    pass: trace::Pass<'_>,
+    workers: &[Mutex<Worker>],
+) -> f32 {
+    let sharing = match options.reuse {
+        None => scene.reuse,
+        Some(true) => Sharing::Always,
+        Some(false) => Sharing::Never,
+    };
+    match sharing {
+        Sharing::Always => 1.0,
+        Sharing::Never => 0.0,
+        Sharing::Indoors => {
+            let has_second = if has_samples { second_vertices(scene, kernels, pass, workers) } else { 0.0 };
+            ((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0)
+        }
+    }
 }
 
 /// Whether the pixels of a block share at a sample index: so large a share of the blocks does, by chance.

@@ -14,8 +14,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Sample ranges of the passes: powers of two up to the longest, then so many at a time, so that an early look costs little and
-/// later passes are long. None goes over a power of two, where guides change. The picture does not depend on them.
+/// Sample ranges of the passes: powers of two up to the longest, then so many at a time, so that an early look costs
+/// little and later passes are long. None goes over a power of two, where guides change. The picture does not depend on
+/// them.
 pub struct Passes {
     next: u32,
     samples: u32,
@@ -135,7 +136,8 @@ impl Painter<'_> {
     ) -> Option<Unfinished> {
         let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: pass.clone() }];
         let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
-        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to stay in the cache.
+        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to
+        // stay in the cache.
         let at_once = (pass.end - pass.start).min(SAMPLES);
         let deal = Deal::new(pieces, SAMPLES / at_once);
         let mut light = film.light_samples;

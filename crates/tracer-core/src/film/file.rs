@@ -1,4 +1,5 @@
-//! A film as a file: written from one or from a rendering at work ([`super::state`]), and read with nothing taken on trust.
+//! A film as a file: written from one or from a rendering at work ([`super::state`]), and read with nothing taken on
+//! trust.
 //!
 //! All numbers have their lowest byte first.
 //!
@@ -31,7 +32,8 @@ const LONGEST_TILE: u32 = 1 << 17;
 /// Pixels along a side at most.
 const MAX_SIDE: u32 = 1 << 16;
 
-/// The program that a film is of: its version, and a checksum of the engine's sources. Films of two programs do not mix.
+/// The program that a film is of: its version, and a checksum of the engine's sources. Films of two programs do not
+/// mix.
 pub const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("TRACER_SOURCES"));
 
 /// What whoever saves a film writes beside it: a name and a value.
@@ -482,8 +484,8 @@ fn tile_count(crop: Crop) -> usize {
 }
 
 impl Film {
-    /// Writes the film, with notes that [`SavedFilm::head`] gives back; gives its bytes. It is some three bytes a pixel and channel of what
-    /// the sums hold, whatever the number of samples.
+    /// Writes the film, with notes that [`SavedFilm::head`] gives back; gives its bytes. It is some three bytes a pixel
+    /// and channel of what the sums hold, whatever the number of samples.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -497,10 +499,10 @@ impl Film {
     /// use tracer_core::{Film, RenderOptions, Unobserved, compile, render, resume};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let text = "Scene(background: 1, image: Image(width: 8, height: 8), objects: [Sphere(center: (0, 0, 0), radius: 1)])";
-    /// let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
-    /// let scene = compile(&loaded.scene)?;
-    /// let samples = |count| RenderOptions { samples: Some(count), ..RenderOptions::default() };
+    /// let text = "Scene(background: 1, image: Image(width: 8, height: 8), objects: [Sphere(center: (0, 0, 0), radius:
+    /// 1)])"; let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
+    /// let scene = compile(&loaded.scene)?; let samples = |count| RenderOptions { samples: Some(count),
+    /// ..RenderOptions::default() };
     ///
     /// let mut file = Vec::new();
     /// render(&scene, &samples(3), &Unobserved).save(&mut file, &[("scene".into(), "ball.ron".into())])?;
@@ -525,7 +527,8 @@ impl Film {
     /// Reads a film that [`Film::save`] has written. [`SavedFilm`] does it in two steps, so that one can look before.
     ///
     /// # Errors
-    /// When it cannot be read, is damaged or no film, or another version of the program made it: then its samples do not mix with ours.
+    /// When it cannot be read, is damaged or no film, or another version of the program made it: then its samples do
+    /// not mix with ours.
     pub fn load(from: &mut impl Read) -> Result<Self, FilmError> {
         let saved = SavedFilm::open(from)?;
         if saved.head.program != PROGRAM {

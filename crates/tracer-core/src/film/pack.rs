@@ -1,8 +1,8 @@
 //! Whole numbers of a tile in as few bits as they need.
 //!
-//! Sums have many zeros on both sides: below the last place of the smallest sample, above the first of the largest sum. Pixels that lie
-//! together are alike, so of each group of 64 the least number is told, and of the others how far they lie above it, by as many bits
-//! as the farthest needs.
+//! Sums have many zeros on both sides: below the last place of the smallest sample, above the first of the largest sum.
+//! Pixels that lie together are alike, so of each group of 64 the least number is told, and of the others how far they
+//! lie above it, by as many bits as the farthest needs.
 
 use super::PIXELS;
 

@@ -1,8 +1,8 @@
 //! The film as it was at the end of a pass, told while threads add to it.
 //!
-//! To copy a film takes as long as its memory: a tenth of a second and more at 3840x2160, in which nothing would be rendered. So the next
-//! pass begins at once, and each tile is packed before anything is added to it: by the thread that comes to it, or by one that goes over all
-//! tiles meanwhile, whichever is first.
+//! To copy a film takes as long as its memory: a tenth of a second and more at 3840x2160, in which nothing would be
+//! rendered. So the next pass begins at once, and each tile is packed before anything is added to it: by the thread
+//! that comes to it, or by one that goes over all tiles meanwhile, whichever is first.
 
 use super::file::{FilmHead, FilmWriter, Note, record};
 use super::{Film, Tile};
@@ -25,8 +25,8 @@ struct Queue {
     hurry: AtomicBool,
 }
 
-/// A film as it was between two passes ([`crate::Observer::keep`]). It becomes whole while the rendering goes on, and whoever writes it waits
-/// for that: on a thread of its own.
+/// A film as it was between two passes ([`crate::Observer::state`]). It becomes whole while the rendering goes on, and
+/// whoever writes it waits for that: on a thread of its own.
 #[derive(Debug)]
 pub struct FilmState {
     head: FilmHead,

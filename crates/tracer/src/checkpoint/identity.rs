@@ -17,8 +17,8 @@ const SETTING: &str = "render.";
 const PART: &str = "part:";
 const FILE: &str = "file:";
 
-/// What is written beside the film. Samples may grow, and what makes the picture of the film may change: neither is in it. The scene is
-/// as it was afterwards.
+/// What is written beside the film. Samples may grow, and what makes the picture of the film may change: neither is in
+/// it. The scene is as it was afterwards.
 ///
 /// # Errors
 /// When a file of the scene cannot be read any more.

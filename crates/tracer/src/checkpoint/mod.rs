@@ -1,10 +1,12 @@
 //! Checkpoints: the state of a rendering on the disk, so that it can be gone on with whatever happens to the process.
 
+mod flushing;
 mod identity;
 mod place;
 mod read;
 mod told;
 
+pub use flushing::Flushing;
 pub use identity::notes;
 pub use place::{Lock, Place};
 pub use read::{Found, is_film, look_for};
@@ -27,7 +29,6 @@ pub struct Checkpoints {
     every: Duration,
     inner: Arc<Inner>,
     turn: Mutex<Turn>,
-    _lock: Lock,
 }
 
 struct Turn {
@@ -37,6 +38,8 @@ struct Turn {
 
 struct Inner {
     place: Place,
+    /// None where its folder was gone and another process came first.
+    lock: Mutex<Option<Lock>>,
     notes: Vec<Note>,
     shell: Shell,
     /// What is at the place is worse than the one before.
@@ -52,9 +55,16 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 impl Checkpoints {
     /// At a place that is locked; `is_spoilt`: what is there must not become the one before.
     pub fn new(place: Place, lock: Lock, every: Duration, notes: Vec<Note>, is_spoilt: bool, shell: Shell) -> Self {
-        let inner = Inner { place, notes, shell, is_spoilt: AtomicBool::new(is_spoilt), failed: Mutex::default() };
+        let inner = Inner {
+            place,
+            lock: Mutex::new(Some(lock)),
+            notes,
+            shell,
+            is_spoilt: AtomicBool::new(is_spoilt),
+            failed: Mutex::default(),
+        };
         let turn = Turn { last: Instant::now(), writer: None };
-        Checkpoints { every, inner: Arc::new(inner), turn: Mutex::new(turn), _lock: lock }
+        Checkpoints { every, inner: Arc::new(inner), turn: Mutex::new(turn) }
     }
 
     /// How long a pass may be: what it takes is lost with it, and what came since the last checkpoint.
@@ -102,12 +112,17 @@ impl Checkpoints {
 }
 
 impl Inner {
-    fn write(&self, samples: u32, save: impl FnOnce(&mut std::fs::File, &[Note]) -> io::Result<u64>) -> io::Result<()> {
+    fn write(&self, samples: u32, save: impl FnOnce(&mut Flushing, &[Note]) -> io::Result<u64>) -> io::Result<()> {
         let started = Instant::now();
         let mut notes = self.notes.clone();
         notes.push(("when".to_owned(), identity::now()));
         if self.place.make_folder()? {
             self.shell.say(&format!("the folder of {} was gone: it is made again", self.place.name()));
+            // The lock went with it.
+            *locked(&self.lock) = self.place.lock().ok();
+        }
+        if locked(&self.lock).is_none() {
+            return Err(io::Error::other("another process writes there now"));
         }
         let bytes = self.place.write(!self.is_spoilt.load(Ordering::Relaxed), |file| save(file, &notes))?;
         self.is_spoilt.store(false, Ordering::Relaxed);

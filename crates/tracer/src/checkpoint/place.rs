@@ -1,5 +1,6 @@
 //! Where a checkpoint lies: its file, the one before, the one that is being written, and the lock.
 
+use super::Flushing;
 use crate::failure::Failure;
 use crate::write::{WriteError, forget_unfinished, probe, real_place, remember_unfinished};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -73,7 +74,7 @@ impl Place {
     ///
     /// # Errors
     /// When it could not be written; then what was there is as it was.
-    pub fn write(&self, keep: bool, fill: impl FnOnce(&mut File) -> io::Result<u64>) -> io::Result<u64> {
+    pub fn write(&self, keep: bool, fill: impl FnOnce(&mut Flushing) -> io::Result<u64>) -> io::Result<u64> {
         let writing = self.with(".writing");
         remember_unfinished(&writing);
         let written = self.write_as(&writing, keep, fill);
@@ -85,14 +86,20 @@ impl Place {
         written
     }
 
-    fn write_as(&self, writing: &Path, keep: bool, fill: impl FnOnce(&mut File) -> io::Result<u64>) -> io::Result<u64> {
-        let mut file = File::create(writing)?;
+    fn write_as(
+        &self,
+        writing: &Path,
+        keep: bool,
+        fill: impl FnOnce(&mut Flushing) -> io::Result<u64>,
+    ) -> io::Result<u64> {
+        let mut file = Flushing::create(writing)?;
         let bytes = fill(&mut file)?;
-        file.sync_all()?;
+        file.end()?;
         if keep && self.real.exists() {
             let previous = self.previous();
             let _ = fs::remove_file(&previous);
-            // A second name, so that there is a checkpoint under the first at any moment; where there are no links, a moment without.
+            // A second name, so that there is a checkpoint under the first at any moment; where there are no links, a
+            // moment without.
             fs::hard_link(&self.real, &previous).or_else(|_| fs::rename(&self.real, &previous))?;
         }
         fs::rename(writing, &self.real)?;

@@ -107,25 +107,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         total: clock.last.duration_since(started).as_secs_f64(),
     };
 
-    if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
-        shell.say(&Stats::new(statistics).to_text());
-        shell.say(&Transport::new(&desc.render, &film).to_text());
-    } else if let Some(clamped) = film.clamped().filter(|_| shell.is_watched()) {
-        shell.say(&ClampedReport::from(clamped).to_text());
-    }
-    if film.counters.dropped > 0 {
-        shell.say(&format!(
-            "warning: {} samples were not finite and are left out; repeat with: {}",
-            film.counters.dropped,
-            repeat::command(args, &desc)
-        ));
-    }
-    if film.counters.beyond > 0 {
-        shell.say(&format!(
-            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
-            film.counters.beyond
-        ));
-    }
+    tell_of(&film, args, &desc, shell);
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
         write_report(path, report)?;
@@ -142,6 +124,29 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     }
     let failed = elsewhere || matches!(kept, Some(Err(_)));
     Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
+}
+
+/// What there is to say of a film: where the time went, what was left out.
+fn tell_of(film: &Film, args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
+    if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
+        shell.say(&Stats::new(statistics).to_text());
+        shell.say(&Transport::new(&desc.render, film).to_text());
+    } else if let Some(clamped) = film.clamped().filter(|_| shell.is_watched()) {
+        shell.say(&ClampedReport::from(clamped).to_text());
+    }
+    if film.counters.dropped > 0 {
+        shell.say(&format!(
+            "warning: {} samples were not finite and are left out; repeat with: {}",
+            film.counters.dropped,
+            repeat::command(args, desc)
+        ));
+    }
+    if film.counters.beyond > 0 {
+        shell.say(&format!(
+            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
+            film.counters.beyond
+        ));
+    }
 }
 
 /// What a checkpoint brought.

@@ -15,7 +15,8 @@ pub(super) struct Rescued {
     pub elsewhere: bool,
 }
 
-/// Writes a picture: into a folder that is made again if it is gone, else to the system's temporary folder. Either is said aloud.
+/// Writes a picture: into a folder that is made again if it is gone, else to the system's temporary folder. Either is
+/// said aloud.
 ///
 /// # Errors
 /// Why it could not be written at its place, if it could not be written elsewhere either.
