@@ -106,6 +106,10 @@ fn main() {
             film.bytes() as f64 / 1e6
         );
         gaps.join();
+        let (started, mut bytes) = (Instant::now(), Vec::new());
+        film.save(&mut bytes, &[]).expect("memory");
+        let rate = bytes.len() as f64 / 1e6 / started.elapsed().as_secs_f64();
+        println!("  {:.1} MB packed by one thread: {rate:.0} MB/s", bytes.len() as f64 / 1e6);
     }
     disk(path);
 }

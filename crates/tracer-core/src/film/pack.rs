@@ -2,42 +2,72 @@
 //!
 //! Sums have many zeros on both sides: below the last place of the smallest sample, above the first of the largest sum.
 //! Pixels that lie together are alike, so of each group of 64 the least number is told, and of the others how far they
-//! lie above it, by as many bits as the farthest needs.
+//! lie above it, by as many bits as the farthest needs. Where many are zero (light paths fall here and there) only
+//! which, and the others.
 
 use super::PIXELS;
 
 /// Numbers that have one width. In Z-order they are a square of pixels.
 const GROUP: usize = 64;
+/// In the first byte of a group: eight bytes say which numbers are not zero, and only those are told.
+const SPARSE: u8 = 128;
 
 /// An unsigned number of 192 bits, the lowest word first.
 type Wide = [u64; 3];
+
+/// Which numbers to tell: of all 64 a bit each, and what to say of it. Zeros are left out where that saves bytes.
+fn told(is_not_zero: u64, width: u32) -> (u64, u8) {
+    if is_not_zero.count_zeros() * width > 64 { (is_not_zero, SPARSE) } else { (u64::MAX, 0) }
+}
+
+/// The numbers of the bits that are set.
+fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let first = (bits != 0).then_some(bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        first
+    })
+}
 
 /// Appends numbers with their signs.
 pub(super) fn pack(numbers: impl Fn(usize) -> i128, out: &mut Vec<u8>) {
     for first in (0..PIXELS).step_by(GROUP) {
         let group: [i128; GROUP] = std::array::from_fn(|k| numbers(first + k));
-        let (mut any, mut least, mut most) = (0, group[0], group[0]);
-        for &number in &group {
+        let (mut any, mut is_not_zero) = (0, 0);
+        for (k, &number) in group.iter().enumerate() {
             any |= number;
-            least = least.min(number);
-            most = most.max(number);
+            is_not_zero |= u64::from(number != 0) << k;
         }
         if any == 0 {
             out.push(0);
             continue;
         }
         let shift = any.trailing_zeros();
-        let width = 128 - (most.wrapping_sub(least) as u128 >> shift).leading_zeros();
+        let range = |of: u64| {
+            let (mut least, mut most) = (i128::MAX, i128::MIN);
+            for k in ones(of) {
+                (least, most) = (least.min(group[k]), most.max(group[k]));
+            }
+            (least, 128 - (most.wrapping_sub(least) as u128 >> shift).leading_zeros())
+        };
+        let (least, width) = range(u64::MAX);
+        let (told, sparse) = told(is_not_zero, width);
+        let (least, width) = if sparse == 0 { (least, width) } else { range(told) };
         let base = least >> shift;
         // As many bytes of it as tell its sign, too.
         let bytes = (136 - base.leading_zeros().max(base.leading_ones())) / 8;
-        out.extend([1 + bytes as u8, shift as u8, width as u8]);
+        out.extend([sparse | (1 + bytes as u8), shift as u8, width as u8]);
+        if sparse != 0 {
+            out.extend(told.to_le_bytes());
+        }
         out.extend(&base.to_le_bytes()[..bytes as usize]);
         let mut bits = BitWriter::new(out);
-        for &number in &group {
-            let above = number.wrapping_sub(least) as u128 >> shift;
+        for k in ones(told) {
+            let above = group[k].wrapping_sub(least) as u128 >> shift;
             bits.push(above as u64, width.min(64));
-            bits.push((above >> 64) as u64, width.saturating_sub(64));
+            if width > 64 {
+                bits.push((above >> 64) as u64, width - 64);
+            }
         }
     }
 }
@@ -45,9 +75,12 @@ pub(super) fn pack(numbers: impl Fn(usize) -> i128, out: &mut Vec<u8>) {
 /// Appends numbers without signs.
 pub(super) fn pack_wide(numbers: impl Fn(usize) -> Wide, out: &mut Vec<u8>) {
     for first in (0..PIXELS).step_by(GROUP) {
-        let any = (first..first + GROUP)
-            .map(&numbers)
-            .fold([0; 3], |any: Wide, number| std::array::from_fn(|k| any[k] | number[k]));
+        let (mut any, mut is_not_zero) = ([0; 3], 0);
+        for k in 0..GROUP {
+            let number = numbers(first + k);
+            is_not_zero |= u64::from(number != [0; 3]) << k;
+            any = std::array::from_fn(|word| any[word] | number[word]);
+        }
         let Some(low) = (0..3).find(|&k| any[k] != 0) else {
             out.push(0);
             continue;
@@ -55,12 +88,17 @@ pub(super) fn pack_wide(numbers: impl Fn(usize) -> Wide, out: &mut Vec<u8>) {
         let high = (0..3).rfind(|&k| any[k] != 0).unwrap_or(low);
         let shift = 64 * low as u32 + any[low].trailing_zeros();
         let width = 64 * (high as u32 + 1) - any[high].leading_zeros() - shift;
-        out.extend([1, shift as u8, width as u8]);
+        let (told, sparse) = told(is_not_zero, width);
+        out.extend([sparse | 1, shift as u8, width as u8]);
+        if sparse != 0 {
+            out.extend(told.to_le_bytes());
+        }
         let mut bits = BitWriter::new(out);
-        for number in (first..first + GROUP).map(&numbers) {
-            let number = shifted_down(number, shift);
-            for (k, word) in number.into_iter().enumerate() {
-                bits.push(word, width.saturating_sub(64 * k as u32).min(64));
+        for k in ones(told) {
+            let number = shifted_down(numbers(first + k), shift);
+            bits.push(number[0], width.min(64));
+            for word in 1..width.div_ceil(64) {
+                bits.push(number[word as usize], (width - 64 * word).min(64));
             }
         }
     }
@@ -79,11 +117,22 @@ fn shifted_up(number: Wide, shift: u32) -> Wide {
     std::array::from_fn(|k| ((u128::from(word(k)) << 64 | u128::from(below(k))) << bits >> 64) as u64)
 }
 
+/// The head of a group: its first byte without [`SPARSE`], shift, width, and which numbers are told; zero where none is.
+fn head(from: &mut &[u8]) -> Option<(u8, u32, u32, u64)> {
+    let first = *from.split_off_first()?;
+    if first == 0 {
+        return Some((0, 0, 0, 0));
+    }
+    let [shift, width] = [from.split_off_first()?, from.split_off_first()?].map(|&byte| u32::from(byte));
+    let told = if first & SPARSE == 0 { u64::MAX } else { u64::from_le_bytes(from.split_off(..8)?.try_into().ok()?) };
+    Some((first & !SPARSE, shift, width, told))
+}
+
 /// Reads what [`pack`] has written; `None` where that is not what there is.
 pub(super) fn unpack(from: &mut &[u8], mut keep: impl FnMut(usize, i128)) -> Option<()> {
     for first in (0..PIXELS).step_by(GROUP) {
-        let Some(bytes) = usize::from(from.split_off_first().copied()?).checked_sub(1) else { continue };
-        let [shift, width] = [from.split_off_first()?, from.split_off_first()?].map(|&byte| u32::from(byte));
+        let (kind, shift, width, told) = head(from)?;
+        let Some(bytes) = usize::from(kind).checked_sub(1) else { continue };
         if !(1..=16).contains(&bytes) || shift > 127 || width > 128 - shift {
             return None;
         }
@@ -91,8 +140,8 @@ pub(super) fn unpack(from: &mut &[u8], mut keep: impl FnMut(usize, i128)) -> Opt
         base[..bytes].copy_from_slice(from.split_off(..bytes)?);
         let unused = 128 - 8 * bytes as u32;
         let base = i128::from_le_bytes(base) << unused >> unused;
-        let mut bits = BitReader::new(from, width)?;
-        for k in 0..GROUP {
+        let mut bits = BitReader::new(from, told.count_ones(), width)?;
+        for k in ones(told) {
             let above = u128::from(bits.take(width.min(64))) | u128::from(bits.take(width.saturating_sub(64))) << 64;
             keep(first + k, base.wrapping_add(above as i128) << shift);
         }
@@ -103,17 +152,15 @@ pub(super) fn unpack(from: &mut &[u8], mut keep: impl FnMut(usize, i128)) -> Opt
 /// Reads what [`pack_wide`] has written; `None` where that is not what there is.
 pub(super) fn unpack_wide(from: &mut &[u8], mut keep: impl FnMut(usize, Wide)) -> Option<()> {
     for first in (0..PIXELS).step_by(GROUP) {
-        match from.split_off_first()? {
-            0 => continue,
-            1 => {}
-            _ => return None,
+        let (kind, shift, width, told) = head(from)?;
+        if kind == 0 {
+            continue;
         }
-        let [shift, width] = [from.split_off_first()?, from.split_off_first()?].map(|&byte| u32::from(byte));
-        if width > 192 || shift > 192 - width {
+        if kind != 1 || width > 192 || shift > 192 - width {
             return None;
         }
-        let mut bits = BitReader::new(from, width)?;
-        for k in 0..GROUP {
+        let mut bits = BitReader::new(from, told.count_ones(), width)?;
+        for k in ones(told) {
             let number = [0, 1, 2].map(|k| bits.take(width.saturating_sub(64 * k).min(64)));
             keep(first + k, shifted_up(number, shift));
         }
@@ -162,9 +209,9 @@ struct BitReader<'a> {
 }
 
 impl<'a> BitReader<'a> {
-    /// Over a group of numbers of this width, which it takes off the front; `None` where there are too few bytes.
-    fn new(from: &mut &'a [u8], width: u32) -> Option<Self> {
-        let bytes = GROUP * width as usize / 8;
+    /// Over so many numbers of this width, which it takes off the front; `None` where there are too few bytes.
+    fn new(from: &mut &'a [u8], count: u32, width: u32) -> Option<Self> {
+        let bytes = (count * width).div_ceil(8) as usize;
         Some(BitReader { from: from.split_off(..bytes)?, held: 0, count: 0 })
     }
 
@@ -213,6 +260,8 @@ mod tests {
         for shift in 0..127 {
             comes_back(&std::array::from_fn(|k| (k as i128 * 0x1234_5678_9abc_def1 - (99 << 60)) << shift));
             comes_back(&std::array::from_fn(|k| if k == 77 { 1 << shift } else { -1 }));
+            assert!(comes_back(&std::array::from_fn(|k| if k == 77 { -3 << shift } else { 0 })) <= 3 + 13);
+            comes_back(&std::array::from_fn(|k| if k % 5 == 0 { (k as i128 - 99) << shift.min(119) } else { 0 }));
         }
         // Forty bits of each, and a few to say so.
         let h = |k: usize| (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 24;
