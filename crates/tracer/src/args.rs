@@ -143,7 +143,6 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-
 `tracer man render` has --syntax, --diagnostics, --format and --bits, too.";
 
 /// `tracer render`
@@ -186,7 +185,7 @@ pub struct RenderArgs {
     /// Time between checkpoints: 60s, 5m, 1h [default: 60s]
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub every: Option<Duration>,
-    /// Go on from a checkpoint, if it is there, and keep it up
+    /// Go on from this checkpoint, and keep it up to date
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
     /// Report of times, rays and memory to write as JSON

@@ -3,7 +3,7 @@
 use super::Place;
 use super::identity::{Asked, differences};
 use crate::failure::Failure;
-use crate::shell::Shell;
+use crate::shell::{Shell, Verbosity};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -57,7 +57,9 @@ pub fn look_for(place: &Place, scene: &Scene, crop: Crop, notes: &[Note], shell:
             Ok(Found { film: Some(film), is_spoilt: matches!(first, Fault::Unusable(_)) })
         }
         (Err(Fault::NotThere), Fault::NotThere) => {
-            shell.say(&format!("{name} is not there yet: the rendering begins anew"));
+            if shell.verbosity > Verbosity::Quiet {
+                shell.say(&format!("{name} is not there yet: the rendering begins anew"));
+            }
             Ok(Found { film: None, is_spoilt: false })
         }
         (Err(Fault::Refused(failure)), _) => Err(failure),

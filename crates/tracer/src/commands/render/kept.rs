@@ -4,7 +4,7 @@ use crate::args::RenderArgs;
 use crate::checkpoint::{Checkpoints, EVERY, Found, Lock, Place, is_film, look_for, notes};
 use crate::failure::Failure;
 use crate::loading::is_dash;
-use crate::shell::Shell;
+use crate::shell::{Shell, Verbosity};
 use scene_format::SceneDesc;
 use tracer_core::{Crop, Film, Scene};
 
@@ -47,8 +47,11 @@ impl Places {
                     place.name()
                 )));
             }
-            let name = place.name();
-            shell.say(&format!("warning: {name} is there already and is replaced; --resume {name} goes on with it"));
+            if shell.verbosity > Verbosity::Quiet {
+                let name = place.name();
+                shell
+                    .say(&format!("warning: {name} is there already and is replaced; --resume {name} goes on with it"));
+            }
         }
         let resume_lock = match (&resume, &write) {
             (Some(resume), Some(write)) if !resume.is(write) => Some(resume.lock()?),
