@@ -70,8 +70,8 @@ impl Checkpoints {
     /// How long a pass may be: what it takes is lost with it, and what came since the last checkpoint.
     pub fn longest_pass(&self) -> Duration {
         /// However seldom checkpoints are wanted.
-        const MOST: Duration = Duration::from_secs(10);
-        (self.every / 4).min(MOST)
+        const MOST: Duration = Duration::from_secs(60);
+        (self.every / 3).min(MOST)
     }
 
     /// Whether it is time for the next one, and the last one is on the disk.
