@@ -1,7 +1,7 @@
 //! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
 
 use crate::failure::Failure;
-use scene_format::desc::ToneMap;
+use scene_format::desc::{Acceleration, ToneMap};
 use scene_format::{SceneDesc, hash_hex};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -16,6 +16,8 @@ use tracer_core::{Crop, FilmHead, Note, PROGRAM};
 const SETTING: &str = "render.";
 const PART: &str = "part:";
 const FILE: &str = "file:";
+/// All that the film depends on: words that are in no part above, too.
+const WHOLE: &str = "whole";
 
 /// What is written beside the film. Samples may grow, and what makes the picture of the film may change: neither is in
 /// it. The scene is as it was afterwards.
@@ -25,6 +27,7 @@ const FILE: &str = "file:";
 pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failure> {
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let mut notes: Vec<Note> = vec![("scene".to_owned(), name.to_owned()), ("hash".to_owned(), hash_hex(desc))];
+    notes.push((WHOLE.to_owned(), hash_of_film(desc)));
     let render = &desc.render;
     let settings = [
         ("integrator", format!("{:?}", render.integrator)),
@@ -55,6 +58,18 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failu
         notes.push((format!("{FILE}{}", shown.display()), hash_of(file)?));
     }
     Ok(notes)
+}
+
+/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits.
+fn hash_of_film(desc: &mut SceneDesc) -> String {
+    let render = desc.render.clone();
+    let effects = desc.effects.clone();
+    desc.render.samples = 1.into();
+    desc.render.acceleration = Acceleration::Bvh;
+    (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
+    let hash = hash_hex(desc);
+    (desc.render, desc.effects) = (render, effects);
+    hash
 }
 
 /// SHA-256 of a file's contents.
@@ -126,6 +141,9 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
                 (_, None) => format!("{file} is no part of it any more"),
             });
         }
+    }
+    if found.is_empty() && there.get(WHOLE) != here.get(WHOLE) {
+        found.push("the scene has changed".to_owned());
     }
     found
 }
