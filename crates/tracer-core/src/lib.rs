@@ -50,7 +50,9 @@ pub mod texture;
 
 pub use compile::{CompileError, CompileTimes, check_files, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
-pub use engine::{Costs, Counters, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render};
-pub use film::{Clamped, Crop, Film};
+pub use engine::{
+    Costs, Counters, Misfit, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render, resume,
+};
+pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, Note, PROGRAM, SavedFilm};
 pub use level::Level;
 pub use scene::Scene;

@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_format::{Override, Syntax};
 use std::path::PathBuf;
+use std::time::Duration;
 use tracer_core::Crop;
 
 const EXAMPLES: &str = "\
@@ -47,7 +48,7 @@ pub enum Command {
     Render(RenderArgs),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
-    /// Tell what is in a scene
+    /// Tell what is in a scene or a checkpoint
     Info(InfoArgs),
     /// Translate a scene between RON and TOML
     Convert(ConvertArgs),
@@ -141,7 +142,8 @@ Examples:
 const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
-  tracer render fig4.ron -o a.exr -o a.png --samples 64 --set camera.fov=40";
+  tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
+`tracer man render` has --syntax, --diagnostics, --format and --bits, too.";
 
 /// `tracer render`
 #[derive(Debug, Args)]
@@ -177,6 +179,15 @@ pub struct RenderArgs {
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Keep the state in this file while rendering
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Time between checkpoints: 60s, 5m, 1h [default: 60s]
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub every: Option<Duration>,
+    /// Go on from this checkpoint, and keep it up to date
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
     /// Report of times, rays and memory to write as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
@@ -423,6 +434,21 @@ fn bits(text: &str) -> Result<Bits, String> {
     }
 }
 
+fn interval(text: &str) -> Result<Duration, String> {
+    let expected = || "expected a time from 1ms to 1000h, as in 60s, 5m, 1.5h or 500ms".to_owned();
+    let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.').len();
+    let (number, unit) = text.split_at(digits);
+    let of_one = match unit {
+        "ms" => 1e-3,
+        "s" | "" => 1.0,
+        "m" | "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err(expected()),
+    };
+    let seconds = number.parse::<f64>().map_err(|_| expected())? * of_one;
+    (1e-3..=3.6e6).contains(&seconds).then(|| Duration::from_secs_f64(seconds)).ok_or_else(expected)
+}
+
 fn exposure(text: &str) -> Result<f64, String> {
     let expected = "expected a number of stops, -64 to 64, as in -0.5";
     text.parse().ok().filter(|stops: &f64| stops.abs() <= 64.0).ok_or_else(|| expected.to_owned())
@@ -443,6 +469,12 @@ mod tests {
         assert_eq!(size("640x480"), Ok(Size { width: 640, height: 480 }));
         for bad in ["", "640", "0x4", "4x0", "4x70000", "-1x4", "4x4x4", "4 x 4"] {
             assert!(size(bad).is_err(), "{bad}");
+        }
+        for (text, milliseconds) in [("60s", 60_000), ("5m", 300_000), ("1.5h", 5_400_000), ("20ms", 20), ("7", 7000)] {
+            assert_eq!(interval(text), Ok(Duration::from_millis(milliseconds)));
+        }
+        for bad in ["", "s", "0s", "-1s", "1d", "1e400s", "nan", "1.2.3s", "5 m", "1001h"] {
+            assert!(interval(bad).is_err(), "{bad}");
         }
         assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         for bad in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4", "a,b,c,d"] {

@@ -19,6 +19,12 @@ pub fn command() -> Command {
     let everywhere: Vec<Arg> =
         cli.get_arguments().filter(|arg| arg.is_global_set()).map(|arg| arg.clone().hide(true)).collect();
     cli.mut_subcommands(|command| command.args(everywhere.clone()).help_template(TEMPLATE))
+        // A screen has no room for all: its last line says where these are.
+        .mut_subcommand("render", |command| {
+            ["syntax", "diagnostics", "format", "bits"]
+                .into_iter()
+                .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
+        })
 }
 
 /// Adds to a fault of the command line what was probably meant.

@@ -74,6 +74,8 @@ pub struct PictureReport {
     pub samples_min: u32,
     /// Most samples of a pixel.
     pub samples_max: u32,
+    /// Of these, fewest samples of a pixel that came from a checkpoint.
+    pub samples_resumed: u32,
 }
 
 /// Wall-clock seconds of the phases, one after the other: they sum to `total`.

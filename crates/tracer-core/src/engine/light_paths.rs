@@ -73,6 +73,12 @@ impl LightPaths {
         (!shares.is_empty()).then_some(LightPaths { seed, shares, pair_of, density, reach })
     }
 
+    /// Sample indices that are followed at a time.
+    pub fn at_once(&self) -> u32 {
+        let of_one: u64 = self.shares.iter().map(|share| u64::from(share.count)).sum();
+        (MOST / of_one).max(1) as u32
+    }
+
     /// Follows the light paths of these sample indices, which have one guide, onto the film.
     #[allow(clippy::too_many_arguments)]
     pub fn trace(
@@ -86,8 +92,7 @@ impl LightPaths {
         workers: &[Mutex<Worker>],
     ) {
         let pass = LightPass { seed: self.seed, plan, light_paths: self, guide };
-        let of_one: u64 = self.shares.iter().map(|share| u64::from(share.count)).sum();
-        let at_once = (MOST / of_one).max(1) as u32;
+        let at_once = self.at_once();
         for start in samples.clone().step_by(at_once as usize) {
             // Batches of full length, whichever sample index their paths are of.
             let count = at_once.min(samples.end - start);

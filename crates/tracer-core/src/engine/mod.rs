@@ -11,6 +11,7 @@ mod guide;
 mod kernels;
 mod lane_io;
 mod light_paths;
+mod passes;
 mod stages;
 mod statistics;
 mod trace;
@@ -18,7 +19,7 @@ mod trace;
 pub use batch::Counters;
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Cells, Crop, Film, Overlap};
+use crate::film::{Cells, Crop, Film, FilmState, Overlap};
 use crate::level::Level;
 use crate::sampling::sampler::hash3;
 use crate::scene::{Scene, Sharing};
@@ -28,12 +29,13 @@ use grid::Grid;
 use guide::Guides;
 use guide::plan::Plan;
 use kernels::Kernels;
-use light_paths::{LightPaths, OnFilm};
+use light_paths::LightPaths;
+use passes::{Painter, Passes};
 use std::ops::ControlFlow;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What a caller may decide about a rendering; `None` and zero take what the scene says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,6 +60,25 @@ pub struct RenderOptions {
     pub clamp: Option<f32>,
     /// Whether to keep [`Statistics`].
     pub statistics: bool,
+    /// Passes are made no longer than this, as far as those before tell, so that [`Observer::state`] comes often: it comes between passes only.
+    /// The picture does not depend on it.
+    pub longest_pass: Option<Duration>,
+}
+
+/// Why a film cannot be gone on with ([`resume`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Misfit {
+    /// It was made with another setting: which.
+    #[error("the film was made with another {0}")]
+    Setting(&'static str),
+    /// There is less to do than has been done.
+    #[error("the film has {held} samples per pixel, or is on the way to them; {asked} are asked for")]
+    Samples {
+        /// Samples per pixel that it has, or will have when the pass that was ended early is whole.
+        held: u32,
+        /// Samples per pixel that are asked for.
+        asked: u32,
+    },
 }
 
 /// Under a background pixels share in all blocks where such a share of the paths has a second vertex, as in rooms with a window, in none where
@@ -81,6 +102,12 @@ pub trait Observer: Sync {
     fn progress(&self, progress: Progress) -> ControlFlow<()>;
     /// Called between passes with the film so far: every pixel holds the same samples.
     fn pass(&self, _film: &Film) {}
+    /// Asked between passes, after [`Observer::pass`]: whether the film is wanted as it is now, to be kept while the rendering goes on.
+    fn wants_state(&self) -> bool {
+        false
+    }
+    /// Gives it, if it was wanted. It becomes whole in the next pass, so it must be written by a thread of its own.
+    fn state(&self, _state: FilmState) {}
 }
 
 /// Renders without being watched.
@@ -94,43 +121,69 @@ impl Observer for Unobserved {
 
 /// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early.
 pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
+    let film = new_film(scene, options);
+    go_on(scene, options, film, observer).unwrap_or_else(|misfit| unreachable!("a new film: {misfit}"))
+}
+
+/// Goes on with a film that [`render`] made, in this process or in one before ([`Film::load`]): in the end it is the one that would have been
+/// made at once. More samples may be asked for than then, also where it had all of them.
+///
+/// # Errors
+/// When the film is not one of this scene with these options, as far as the film tells: what is in the scene is for the caller to compare.
+/// When it has more samples than are asked for.
+pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
+    let fresh = new_film(scene, options);
+    fits("size", film.size() == fresh.size())?;
+    fits("crop", film.crop() == fresh.crop())?;
+    fits("seed", film.seed() == fresh.seed())?;
+    fits("clamp", film.clamp == fresh.clamp)?;
+    fits("range of brightness", film.has_unit_of(&fresh))?;
+    let samples = options.samples.unwrap_or(scene.samples);
+    let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
+    if samples < held {
+        return Err(Misfit::Samples { held, asked: samples });
+    }
+    go_on(scene, options, film, observer)
+}
+
+fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
+    if same { Ok(()) } else { Err(Misfit::Setting(what)) }
+}
+
+/// A film without samples.
+fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
+    let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
+    let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
+    Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp)
+}
+
+/// Adds the samples that a film lacks.
+fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
     let level = options.level.unwrap_or_else(Level::best);
     let kernels = Kernels::new(level);
     let samples = options.samples.unwrap_or(scene.samples);
+    let crop = film.crop();
+    let threads = if options.threads == 0 { available_threads() } else { options.threads };
+    (film.level, film.threads) = (level, threads);
+    film.statistics = options.statistics.then(Statistics::default);
+    let resumed = film.is_begun();
+    if resumed && film.unfinished.is_none() && film.whole >= samples {
+        return Ok(film);
+    }
     let mut pass_options = trace::Pass {
-        seed: options.seed.unwrap_or(scene.seed),
+        seed: film.seed(),
         reuse: false,
         lanes: level.lanes(),
         guide: None,
         light_paths: None,
         task: trace::Task::Picture,
     };
-    let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
-    let threads = if options.threads == 0 { available_threads() } else { options.threads };
-    let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
-    let mut film = Film::new(scene.size, crop, pass_options.seed, scene.radiance_unit, clamp);
     let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
-    let done = AtomicU64::new(0);
-    let stopped = AtomicBool::new(false);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
     for worker in &workers {
         lock(worker).batch.watch.start(options.statistics);
     }
-    let sharing = match options.reuse {
-        None => scene.reuse,
-        Some(true) => Sharing::Always,
-        Some(false) => Sharing::Never,
-    };
-    let has_second = if sharing == Sharing::Indoors && samples_total > 0 {
-        second_vertices(scene, &kernels, pass_options, &workers)
-    } else {
-        0.0
-    };
-    let share_of_blocks = match sharing {
-        Sharing::Always => 1.0,
-        Sharing::Never => 0.0,
-        Sharing::Indoors => ((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0),
-    };
+    let share_of_blocks = share_of_blocks(scene, options, samples_total > 0, &kernels, pass_options, &workers);
     pass_options.reuse = share_of_blocks > 0.0;
     let wants_guide = options.caustics.unwrap_or(scene.caustics) && samples_total > 0;
     let plan = if wants_guide { Plan::new(scene, pass_options.seed) } else { None };
@@ -141,93 +194,102 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
         None => Glints::default(),
     };
     let grid = Grid::new(crop, pass_options.seed, pass_options.reuse);
-    for pass in passes(samples, 16 * SAMPLES) {
+    if resumed {
+        fits("reuse", film.reuse == pass_options.reuse)?;
+        fits("caustics", film.caustics == guides.is_some())?;
+        let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
+        fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= grid.len()))?;
+        // What was made before is made again, and counted no second time.
+        if let Some(guides) = &mut guides {
+            let last = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end) - 1;
+            guides.prepare(scene, &kernels, &(last..last + 1), &workers);
+        }
+        workers.iter().for_each(|worker| lock(worker).batch.counters = Counters::default());
+    }
+    (film.reuse, film.caustics) = (pass_options.reuse, guides.is_some());
+    let before = (film.counters, film.costs);
+    let done = AtomicU64::new(if resumed { film.camera_samples() } else { 0 });
+    let stopped = AtomicBool::new(false);
+    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES);
+    let mut keeper = None;
+    while let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end)) {
+        let started = Instant::now();
         if let Some(guides) = &mut guides {
             guides.prepare(scene, &kernels, &pass, &workers);
         }
-        let pass_options = trace::Pass {
-            guide: guides.as_ref().map(Guides::guide),
-            light_paths: light_paths.as_ref().map(|(light_paths, plan)| (light_paths, *plan)),
-            ..pass_options
+        let painter = Painter {
+            scene,
+            kernels: &kernels,
+            options: trace::Pass {
+                guide: guides.as_ref().map(Guides::guide),
+                light_paths: light_paths.as_ref().map(|(light_paths, plan)| (light_paths, *plan)),
+                ..pass_options
+            },
+            statistics: options.statistics,
+            limit: film.clamp.map(|limit| f64::from(limit) / scene.radiance_unit),
+            glints: &glints,
+            grid: &grid,
+            share_of_blocks,
+            observer,
+            samples_total,
+            done: &done,
+            stopped: &stopped,
         };
-        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to stay in the cache.
-        let at_once = (pass.end - pass.start).min(SAMPLES);
-        let per_batch = (SAMPLES / at_once) as usize;
-        let next = AtomicUsize::new(0);
-        film.light_samples += if light_paths.is_some() { pass.end - pass.start } else { 0 };
-        let cells = Cells::new(&mut film);
-        if let (Some((light_paths, plan)), Some(guide)) = (&light_paths, pass_options.guide) {
-            let limit = clamp.map(|limit| f64::from(limit) / scene.radiance_unit);
-            let on_film = OnFilm { cells: &cells, limit };
-            light_paths.trace(scene, &kernels, plan, guide, pass.clone(), on_film, &workers);
+        let left = painter.paint(&mut film, pass.clone(), keeper.take(), &workers);
+        gather(&mut film, before, options.statistics, &workers);
+        film.unfinished = left;
+        if film.unfinished.is_none() {
+            film.whole = pass.end;
         }
-        let work = |worker: &mut Worker| {
-            while !stopped.load(Ordering::Relaxed) {
-                let first = next.fetch_add(1, Ordering::Relaxed) * per_batch;
-                let mine = first..grid.len().min(first + per_batch);
-                if mine.is_empty() {
-                    break;
-                }
-                let mut sample = pass.start;
-                while sample < pass.end {
-                    let count = (pass.end - sample).min(at_once);
-                    let batch = &mut worker.batch;
-                    batch.items.clear();
-                    (batch.glints, batch.shares) = (0, 0);
-                    for place in mine.clone() {
-                        for sample in sample..sample + count {
-                            let Some(block) = grid.block(place, sample) else { continue };
-                            if glints.in_block(block) {
-                                batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
-                            }
-                            if shares(pass_options.seed, block, sample, share_of_blocks) {
-                                batch.shares |= ((1 << QUARTERS) - 1) << batch.items.len();
-                            }
-                            batch.items.extend((0..QUARTERS).map(|quarter| Item::new(block, quarter, sample)));
-                        }
-                    }
-                    if batch.items.is_empty() {
-                        sample += count;
-                        continue;
-                    }
-                    batch.watch.start(options.statistics);
-                    let start = Instant::now();
-                    trace::trace(scene, &kernels, pass_options, batch);
-                    if let Some(limit) = clamp {
-                        clamp_samples(f64::from(limit) / scene.radiance_unit, &cells, batch);
-                    }
-                    let added = add_samples(&cells, batch);
-                    batch.watch.lap(Stage::Film);
-                    batch.watch.costs.total += start.elapsed().as_secs_f64();
-                    sample += count;
-                    let samples_done = done.fetch_add(added, Ordering::Relaxed) + added;
-                    if observer.progress(Progress { samples_done, samples_total }).is_break() {
-                        stopped.store(true, Ordering::Relaxed);
-                        break;
-                    }
-                }
-            }
-        };
-        on_all(&workers, &work);
-        drop(cells);
         if stopped.load(Ordering::Relaxed) {
             break;
         }
         observer.pass(&film);
+        passes.took(started.elapsed(), options.longest_pass);
+        if film.whole < samples && observer.wants_state() {
+            let (end, state) = film.state();
+            keeper = Some(end);
+            observer.state(state);
+        }
     }
-    let mut statistics = Statistics::default();
-    for worker in &workers {
+    Ok(film)
+}
+
+/// Puts what the workers have counted on the film, beside what it had before.
+fn gather(film: &mut Film, before: (Counters, Costs), statistics: bool, workers: &[Mutex<Worker>]) {
+    (film.counters, film.costs) = before;
+    let mut sums = Statistics::default();
+    for worker in workers {
         let Batch { counters, watch, .. } = &lock(worker).batch;
         film.counters.add(counters);
-        statistics.add(&watch.statistics);
+        sums.add(&watch.statistics);
         film.costs.add(&watch.costs);
     }
-    film.statistics = options.statistics.then_some(statistics);
-    film.reuse = pass_options.reuse;
-    film.caustics = guides.is_some();
-    film.level = level;
-    film.threads = threads;
-    film
+    film.statistics = statistics.then_some(sums);
+}
+
+/// The share of the blocks whose pixels share.
+fn share_of_blocks(
+    scene: &Scene,
+    options: &RenderOptions,
+    has_samples: bool,
+    kernels: &Kernels,
+    pass: trace::Pass<'_>,
+    workers: &[Mutex<Worker>],
+) -> f32 {
+    let sharing = match options.reuse {
+        None => scene.reuse,
+        Some(true) => Sharing::Always,
+        Some(false) => Sharing::Never,
+    };
+    match sharing {
+        Sharing::Always => 1.0,
+        Sharing::Never => 0.0,
+        Sharing::Indoors => {
+            let has_second = if has_samples { second_vertices(scene, kernels, pass, workers) } else { 0.0 };
+            ((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0)
+        }
+    }
 }
 
 /// Whether the pixels of a block share at a sample index: so large a share of the blocks does, by chance.
@@ -365,24 +427,6 @@ fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Sample ranges of the passes: powers of two up to `longest` samples, then so many at a time, so that an early look costs little and
-/// later passes are long. The picture does not depend on them.
-fn passes(samples: u32, longest: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
-    let mut start = 0;
-    std::iter::from_fn(move || {
-        let length = if start == 0 { 1 } else { start.min(longest) };
-        let rest = (samples - start).min(length);
-        if rest == 0 {
-            return None;
-        }
-        // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
-        let whole = if rest > SAMPLES { rest - rest % SAMPLES } else { 1 << rest.ilog2() };
-        let pass = start..start + whole;
-        start = pass.end;
-        Some(pass)
-    })
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -390,19 +434,5 @@ pub(crate) mod tests {
     /// The first pixel of a quarter of a block, for the tests of the film.
     pub fn first_pixel(block: [i32; 2], quarter: u32) -> [i32; 2] {
         Item::new(block, quarter, 0).first_pixel()
-    }
-
-    #[test]
-    fn passes_cover_all_samples_once() {
-        for (samples, longest) in (1..300).chain([1000, 1023]).flat_map(|samples| [(samples, 64), (samples, 16)]) {
-            let mut next = 0;
-            for pass in passes(samples, longest) {
-                assert_eq!(pass.start, next);
-                let n = pass.end - pass.start;
-                assert!(n.is_multiple_of(SAMPLES) || SAMPLES.is_multiple_of(n));
-                next = pass.end;
-            }
-            assert_eq!(next, samples);
-        }
     }
 }

@@ -3,17 +3,25 @@
 //! The blocks that pixels share in lie across tiles, up to four of them. One is locked at a time, so threads cannot wait for each other in
 //! a circle; sums are exact, so who comes first does not matter.
 
+use super::state::Keeper;
 use super::{Crop, Film, TILE, Tile};
 use crate::sampling::sampler::z_order;
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
 /// A film that threads add to.
 pub(crate) struct Cells<'a> {
     crop: Crop,
     first_tile: [u32; 2],
     columns: u32,
-    tiles: Vec<Mutex<&'a mut Tile>>,
+    tiles: Vec<Mutex<Cell<'a>>>,
+    keeper: Option<Keeper>,
+}
+
+/// A tile, and whether it has been kept as it was, if that is asked for.
+struct Cell<'a> {
+    tile: &'a mut Tile,
+    kept: bool,
 }
 
 /// The pixels of the film that a block of 16x16 pixels and a tile have in common.
@@ -58,13 +66,50 @@ impl Overlap {
 }
 
 impl<'a> Cells<'a> {
-    /// Of a film.
-    pub fn new(film: &'a mut Film) -> Self {
+    /// Of a film, which the keeper is told as it is now.
+    pub fn new(film: &'a mut Film, keeper: Option<Keeper>) -> Self {
+        let kept = keeper.is_none();
         Cells {
             crop: film.crop,
             first_tile: film.first_tile,
             columns: film.tile_columns,
-            tiles: film.tiles.iter_mut().map(Mutex::new).collect(),
+            tiles: film.tiles.iter_mut().map(|tile| Mutex::new(Cell { tile, kept })).collect(),
+            keeper,
+        }
+    }
+
+    /// Whoever keeps the film as it was.
+    pub fn keeper(&self) -> Option<&Keeper> {
+        self.keeper.as_ref()
+    }
+
+    /// Keeps all tiles that nothing has been added to yet.
+    pub fn keep_all(&self) {
+        let Some(keeper) = &self.keeper else { return };
+        for place in 0..self.tiles.len() {
+            if keeper.is_closed() {
+                break;
+            }
+            drop(self.lock(place));
+            keeper.wait();
+        }
+    }
+
+    /// A tile that can be added to.
+    #[inline]
+    fn lock(&self, place: usize) -> MutexGuard<'_, Cell<'a>> {
+        let mut cell = self.tiles[place].lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if !cell.kept {
+            cell.kept = true;
+            self.keep(place, cell.tile);
+        }
+        cell
+    }
+
+    #[cold]
+    fn keep(&self, place: usize, tile: &Tile) {
+        if let Some(keeper) = &self.keeper {
+            keeper.keep(place, tile);
         }
     }
 
@@ -77,7 +122,7 @@ impl<'a> Cells<'a> {
         }
         let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
         let pixel = z_order(x % TILE, y % TILE) as usize;
-        self.tiles[place as usize].lock().unwrap_or_else(|poisoned| poisoned.into_inner()).splat(pixel, brings, limit);
+        self.lock(place as usize).tile.splat(pixel, brings, limit);
     }
 
     /// Does a work for each tile that shares pixels with the block of 16x16 pixels whose first pixel this is.
@@ -98,8 +143,7 @@ impl<'a> Cells<'a> {
             for column in tiles(&columns) {
                 let place = (row - self.first_tile[1]) * self.columns + column - self.first_tile[0];
                 let overlap = Overlap { corner, columns: of_tile(&columns, column), rows: of_tile(&rows, row) };
-                let mut tile = self.tiles[place as usize].lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-                work(&mut tile, &overlap);
+                work(self.lock(place as usize).tile, &overlap);
             }
         }
     }
@@ -117,7 +161,7 @@ mod tests {
         for crop in [Crop::whole(size), Crop { x: 7, y: 18, width: 11, height: 9 }] {
             let mut film = Film::new(size, crop, 0, 1.0, None);
             for corner in (-17..42).flat_map(|y| [-16, -15, -3, 0, 1, 7, 16, 29, 39].map(|x| [x, y])) {
-                let cells = Cells::new(&mut film);
+                let cells = Cells::new(&mut film, None);
                 let mut pixels = 0;
                 cells.each(corner, |tile, overlap| {
                     pixels += overlap.pixels();

@@ -69,9 +69,14 @@ impl Sums {
         [mean(0), mean(1), mean(2)]
     }
 
-    #[cfg(test)]
+    /// A sum, in least units.
     pub fn of(&self, channel: usize, pixel: usize) -> i128 {
         self.0[pixel][channel]
+    }
+
+    /// Makes it this one.
+    pub fn set(&mut self, channel: usize, pixel: usize, sum: i128) {
+        self.0[pixel][channel] = sum;
     }
 }
 
@@ -107,6 +112,16 @@ impl Squares {
             *sum = whole as u64;
             carry = whole >> 64;
         }
+    }
+
+    /// The words of a pixel's sum, the lowest first.
+    pub fn words(&self, pixel: usize) -> [u64; 3] {
+        self.0[pixel]
+    }
+
+    /// Makes them these.
+    pub fn set(&mut self, pixel: usize, words: [u64; 3]) {
+        self.0[pixel] = words;
     }
 
     /// The sum of a pixel.

@@ -1,19 +1,24 @@
-//! `tracer info`: what is in a scene, and what it takes.
+//! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint.
 
 use crate::args::InfoArgs;
+use crate::checkpoint::{self, is_film};
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile, load};
+use crate::loading::{asset_files, compile, is_dash, load};
 use crate::memory::{human, of_film};
 use crate::shell::{Shell, counted};
 use scene_format::desc::Object;
 use scene_format::{Defaults, SceneDesc, Syntax, hash_hex, to_text};
 use serde_json::json;
+use std::fs::File;
 use std::io::Write;
 use std::process::ExitCode;
 use tracer_core::scene::Statistics;
-use tracer_core::{Crop, Scene};
+use tracer_core::{Crop, FilmError, SavedFilm, Scene};
 
 pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
+    if !is_dash(&args.scene.scene) && is_film(&args.scene.scene) {
+        return of_checkpoint(args);
+    }
     let desc = load(&args.scene, shell)?;
     let text = if args.resolved {
         let syntax = args.scene.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene.scene));
@@ -28,6 +33,29 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
             desc,
         };
         if args.json { format!("{:#}\n", facts.as_json()) } else { facts.as_text() }
+    };
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// Of a checkpoint, which is read to its end: whoever asks wants to know whether it is whole.
+fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
+    let path = &args.scene.scene;
+    if args.resolved || !args.scene.set.is_empty() {
+        return Err(Failure::wrong(format!("{} is a checkpoint; --resolved and --set are for scenes", path.display())));
+    }
+    let file = File::open(path).map_err(FilmError::Io);
+    let size = |file: &File| file.metadata().map_or(0, |found| found.len());
+    let checked = file.and_then(|file| Ok((size(&file), SavedFilm::open(file)?.check()?)));
+    let (bytes, head) = checked.map_err(|error| {
+        let shown = path.display();
+        Failure::could_not(format!("{shown} cannot be used: {error}; the one before is {shown}.previous"))
+    })?;
+    let text = match args.json {
+        true => format!("{:#}\n", checkpoint::as_json(path, bytes, &head)),
+        false => checkpoint::as_text(path, bytes, &head),
     };
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())?;

@@ -15,7 +15,9 @@ mod whole_file;
 pub use encoding::{Bits, Encoding, UnknownEncoding};
 pub use error::WriteError;
 pub use provenance::{Provenance, Setting};
-pub use whole_file::{is_one_file, probe, remove_unfinished, save, spare};
+pub use whole_file::{
+    forget_unfinished, is_one_file, probe, real_place, remember_unfinished, remove_unfinished, save, spare,
+};
 
 use sha2::{Digest, Sha256};
 use std::io::Write;

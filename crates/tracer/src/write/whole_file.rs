@@ -22,6 +22,16 @@ pub fn remove_unfinished() {
     }
 }
 
+/// Has [`remove_unfinished`] delete this one, too.
+pub fn remember_unfinished(path: &Path) {
+    unfinished().push(path.to_owned());
+}
+
+/// It is finished, or gone.
+pub fn forget_unfinished(path: &Path) {
+    unfinished().retain(|other| other != path);
+}
+
 /// Says whether [`save`] could write there now, before hours are spent on the picture. It changes nothing.
 ///
 /// # Errors

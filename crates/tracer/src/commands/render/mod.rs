@@ -1,9 +1,12 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
+mod kept;
 mod outputs;
 mod repeat;
+mod rescue;
 
 use crate::args::RenderArgs;
+use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, rate};
@@ -14,7 +17,9 @@ use crate::report::{
 use crate::shell::Shell;
 use crate::write::{Place, Provenance, Setting, save, write};
 use crate::{interrupt, lanes, memory};
+use kept::{Kept, Places};
 use outputs::Output;
+use rescue::{Rescued, rescue};
 use scene_format::SceneDesc;
 use scene_format::desc::Render;
 use std::io::Write;
@@ -22,7 +27,7 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Crop, Film, RenderOptions, Scene, develop, render};
+use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, develop, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
@@ -30,8 +35,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let level = lanes::from_environment()?;
     use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
+    let places = Places::new(args, shell)?;
     // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
-    let desc = ManuallyDrop::new(described(args, shell)?);
+    let mut desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
     check_memory(crop, &desc.render)?;
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
@@ -41,19 +47,26 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;
+    let Kept { film: begun, checkpoints, .. } = &mut places.open(args, &mut desc, &scene, crop, shell)?;
     let compiled = clock.lap();
 
     interrupt::listen(*shell)?;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let watch = Watch::new(shell, pixels * u64::from(scene.samples));
+    let before = Before::of(begun.as_ref());
+    let done = pixels * u64::from(before.samples);
+    let watch = Watch::new(shell, pixels * u64::from(scene.samples)).going_on(done, checkpoints.as_ref());
     let options = RenderOptions {
         crop: Some(crop),
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
         statistics: args.stats,
+        longest_pass: checkpoints.as_ref().map(Checkpoints::longest_pass),
         ..RenderOptions::default()
     };
-    let film = render(&scene, &options, &watch);
+    let film = match begun.take() {
+        Some(film) => resume(&scene, &options, film, &watch).map_err(|misfit| Failure::wrong(misfit.to_string()))?,
+        None => render(&scene, &options, &watch),
+    };
     watch.finish();
     let rendered = clock.lap();
 
@@ -67,17 +80,22 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let developed = clock.lap();
 
     let provenance = provenance(args, &desc, &film);
-    let mut files = Vec::new();
-    for Output { place, encoding } in &outputs {
-        let written = write(&image, *encoding, place, &provenance)?;
-        files.push(FileReport {
-            path: outputs::name(place),
-            format: encoding.name(),
-            bytes: written.bytes,
-            sha256: written.sha256,
-        });
+    // First, because all else can be made of it. The pictures are written whatever becomes of it.
+    let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
+    if let Some(Err(error)) = &kept {
+        shell.error(error);
     }
-    let mut report = args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted));
+    let mut files = Vec::new();
+    let mut elsewhere = false;
+    for Output { place, encoding } in &outputs {
+        let rescued = rescue(place, shell, |place| write(&image, *encoding, place, &provenance))?;
+        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
+        elsewhere |= is_elsewhere;
+        files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
+    }
+    let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
+    let mut report =
+        args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     let written = clock.lap();
     let seconds = Seconds {
         read,
@@ -89,9 +107,30 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         total: clock.last.duration_since(started).as_secs_f64(),
     };
 
+    tell_of(&film, args, &desc, shell);
+    if let (Some(path), Some(report)) = (&args.report, &mut report) {
+        report.seconds = seconds;
+        write_report(path, report)?;
+    } else if shell.is_watched() {
+        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
+        shell.say(&format!("{names} in {:.2} s, {}", seconds.total, rate(samples)));
+    }
+    if interrupted {
+        let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
+        let asked = scene.samples;
+        let goes_on = kept.and_then(Result::ok).map_or(String::new(), |name| format!("; --resume {name} goes on"));
+        shell.say(&format!("interrupted: {names} holds {held} of {asked} samples per pixel{goes_on}"));
+        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
+    }
+    let failed = elsewhere || matches!(kept, Some(Err(_)));
+    Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
+}
+
+/// What there is to say of a film: where the time went, what was left out.
+fn tell_of(film: &Film, args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
     if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
         shell.say(&Stats::new(statistics).to_text());
-        shell.say(&Transport::new(&desc.render, &film).to_text());
+        shell.say(&Transport::new(&desc.render, film).to_text());
     } else if let Some(clamped) = film.clamped().filter(|_| shell.is_watched()) {
         shell.say(&ClampedReport::from(clamped).to_text());
     }
@@ -99,7 +138,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         shell.say(&format!(
             "warning: {} samples were not finite and are left out; repeat with: {}",
             film.counters.dropped,
-            repeat::command(args, &desc)
+            repeat::command(args, desc)
         ));
     }
     if film.counters.beyond > 0 {
@@ -108,20 +147,20 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
             film.counters.beyond
         ));
     }
-    if let (Some(path), Some(report)) = (&args.report, &mut report) {
-        report.seconds = seconds;
-        write_report(path, report)?;
-    } else if shell.is_watched() {
-        let samples = film.counters.camera_rays as f64 / seconds.render;
-        shell.say(&format!("{} in {:.2} s, {}", names(&outputs), seconds.total, rate(samples)));
+}
+
+/// What a checkpoint brought.
+#[derive(Clone, Copy, Default)]
+struct Before {
+    /// Samples that all pixels had.
+    samples: u32,
+    counters: Counters,
+}
+
+impl Before {
+    fn of(film: Option<&Film>) -> Self {
+        film.map_or(Before::default(), |film| Before { samples: *film.samples().start(), counters: film.counters })
     }
-    if interrupted {
-        let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
-        let asked = scene.samples;
-        shell.say(&format!("interrupted: {} holds {held} of {asked} samples per pixel", names(&outputs)));
-        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
-    }
-    Ok(ExitCode::from(exit::DONE))
 }
 
 /// Time in laps, without gaps.
@@ -189,10 +228,6 @@ fn check_memory(crop: Crop, render: &Render) -> Result<(), Failure> {
     }
 }
 
-fn names(outputs: &[Output]) -> String {
-    outputs.iter().map(|output| outputs::name(&output.place)).collect::<Vec<_>>().join(", ")
-}
-
 fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
     let (fewest, most) = film.samples().into_inner();
     let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
@@ -220,6 +255,7 @@ fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
 }
 
 /// The report, but for the seconds of the phases.
+#[allow(clippy::too_many_arguments)]
 fn report(
     args: &RenderArgs,
     desc: &SceneDesc,
@@ -228,16 +264,19 @@ fn report(
     render_seconds: f64,
     files: Vec<FileReport>,
     interrupted: bool,
+    before: &Before,
 ) -> Report {
     let statistics = scene.statistics();
     let counters = film.counters;
-    let rays = counters.camera_rays
-        + counters.scattered_rays
-        + counters.shadow_rays
-        + counters.segments
-        + counters.photon_rays
-        + counters.chain_rays;
-    let per_second = |count: u64| if render_seconds > 0.0 { count as f64 / render_seconds } else { 0.0 };
+    let all = |counters: &Counters| {
+        let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, .. } = counters;
+        camera_rays + scattered_rays + shadow_rays + segments + photon_rays + chain_rays
+    };
+    let rays = all(&counters);
+    // What came from a checkpoint took its time elsewhere.
+    let per_second = |count: u64, before: u64| {
+        if render_seconds > 0.0 { (count - before) as f64 / render_seconds } else { 0.0 }
+    };
     let (samples_min, samples_max) = film.samples().into_inner();
     let Crop { x, y, width, height } = film.crop();
     Report {
@@ -257,6 +296,7 @@ fn report(
             samples_asked: scene.samples,
             samples_min,
             samples_max,
+            samples_resumed: before.samples,
         },
         transport: Transport::new(&desc.render, film),
         rays: Rays {
@@ -267,11 +307,11 @@ fn report(
             photons: counters.photon_rays,
             chains: counters.chain_rays,
             total: rays,
-            per_second: per_second(rays),
+            per_second: per_second(rays, all(&before.counters)),
         },
         samples: Samples {
             total: counters.camera_rays,
-            per_second: per_second(counters.camera_rays),
+            per_second: per_second(counters.camera_rays, before.counters.camera_rays),
             dropped: counters.dropped,
             beyond: counters.beyond,
         },

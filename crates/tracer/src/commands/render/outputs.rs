@@ -41,6 +41,15 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         }
         outputs.push(Output { encoding: encoding(path, args, bits)?, place });
     }
+    for (option, kept) in kept(args) {
+        let place = Place::File(kept.to_owned());
+        let report = args.report.as_deref().map(super::place);
+        let pictures = outputs.iter().map(|output| ("-o", &output.place));
+        let mut others = pictures.chain(report.as_ref().map(|report| ("--report", report)));
+        if let Some((other, _)) = others.find(|(_, other)| is_same(other, &place)) {
+            return Err(Failure::wrong(format!("{other} and {option} both name {}; name two places", name(&place))));
+        }
+    }
     if args.format.is_some() && args.output.iter().all(|path| path.extension().is_some()) {
         return Err(Failure::wrong(
             "--format is for `-o -` and names without an extension; others say their kind by it",
@@ -50,6 +59,12 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
     }
     Ok(outputs)
+}
+
+/// The checkpoints that the command line names.
+pub(super) fn kept(args: &RenderArgs) -> impl Iterator<Item = (&'static str, &Path)> {
+    let named = [("--checkpoint", &args.checkpoint), ("--resume", &args.resume)];
+    named.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
 }
 
 /// Sees that nothing that is written would replace what the scene was made of: its own file, meshes, materials,
@@ -62,7 +77,8 @@ pub(super) fn spare_inputs(outputs: &[Output], args: &RenderArgs, files: &[PathB
     let inputs: Vec<(&str, &PathBuf)> =
         scene.into_iter().chain(files.iter().map(|f| ("a file of the scene", f))).collect();
     let report = args.report.as_deref().map(|report| ("--report", super::place(report)));
-    for (option, place) in outputs.iter().map(|output| ("-o", output.place.clone())).chain(report) {
+    let kept = kept(args).map(|(option, path)| (option, Place::File(path.to_owned())));
+    for (option, place) in outputs.iter().map(|output| ("-o", output.place.clone())).chain(report).chain(kept) {
         let Place::File(path) = &place else { continue };
         let Some((what, input)) = inputs.iter().find(|(_, input)| is_one_file(path, input)) else { continue };
         let also = if path == *input { String::new() } else { format!(" (it is {})", input.display()) };

@@ -1,0 +1,304 @@
+//! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
+
+use super::batch::{Item, QUARTERS};
+use super::glints::Glints;
+use super::grid::Grid;
+use super::kernels::Kernels;
+use super::light_paths::OnFilm;
+use super::statistics::Stage;
+use super::{Observer, Progress, SAMPLES, Worker, add_samples, clamp_samples, on_all, shares, trace};
+use crate::film::{Cells, Film, Keeper, Piece, Unfinished};
+use crate::scene::Scene;
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Sample ranges of the passes: powers of two up to the longest, then so many at a time, so that an early look costs
+/// little and later passes are long. None goes over a power of two, where guides change. The picture does not depend on
+/// them.
+pub struct Passes {
+    next: u32,
+    samples: u32,
+    longest: u32,
+    last: u32,
+}
+
+impl Passes {
+    /// From a sample index on.
+    pub fn new(next: u32, samples: u32, longest: u32) -> Self {
+        Passes { next, samples, longest, last: 1 }
+    }
+
+    /// The next one, up to `end` where a pass is to be gone on with.
+    pub fn next(&mut self, end: Option<u32>) -> Option<Range<u32>> {
+        let start = self.next;
+        let of_guide = start.checked_next_power_of_two().map_or(u32::MAX, |next| next.max(1) - start);
+        let of_guide = if of_guide == 0 { start } else { of_guide };
+        let rest = self.samples.saturating_sub(start).min(self.longest).min(of_guide);
+        // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
+        let whole = match rest {
+            0 => 0,
+            rest if rest > SAMPLES => rest - rest % SAMPLES,
+            rest => 1 << rest.ilog2(),
+        };
+        let end = end.unwrap_or(start + whole);
+        self.next = end;
+        self.last = end.saturating_sub(start).max(1);
+        (start < end).then_some(start..end)
+    }
+
+    /// The last one took so long; the next ones are to take no longer than this.
+    pub fn took(&mut self, time: Duration, longest: Option<Duration>) {
+        let Some(limit) = longest else { return };
+        let of_one = time.as_secs_f64() / f64::from(self.last);
+        self.longest = ((limit.as_secs_f64() / of_one.max(1e-9)) as u32).clamp(1, 16 * SAMPLES);
+    }
+}
+
+/// The batches of a pass, for whichever thread is free.
+struct Deal {
+    pieces: Vec<Piece>,
+    /// Number of each piece's first batch, and of all.
+    firsts: Vec<usize>,
+    per_batch: u32,
+    next: AtomicUsize,
+    returned: Mutex<Vec<Piece>>,
+}
+
+impl Deal {
+    /// So many places a batch.
+    fn new(pieces: Vec<Piece>, per_batch: u32) -> Self {
+        let mut firsts = vec![0];
+        for Piece { places, .. } in &pieces {
+            firsts.push(firsts[firsts.len() - 1] + places.len().div_ceil(per_batch as usize));
+        }
+        Deal { pieces, firsts, per_batch, next: AtomicUsize::new(0), returned: Mutex::default() }
+    }
+
+    /// The next batch.
+    fn take(&self) -> Option<Piece> {
+        let k = self.next.fetch_add(1, Ordering::Relaxed);
+        let piece = self.firsts.partition_point(|&first| first <= k) - 1;
+        let Piece { places, samples } = self.pieces.get(piece)?;
+        let start = places.start + (k - self.firsts[piece]) as u32 * self.per_batch;
+        let end = places.end.min(start.saturating_add(self.per_batch));
+        Some(Piece { places: start..end, samples: samples.clone() })
+    }
+
+    /// What of a batch was not done.
+    fn give_back(&self, piece: Piece) {
+        self.returned.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(piece);
+    }
+
+    /// What has not been taken or was given back.
+    fn left(self) -> Vec<Piece> {
+        let taken = self.next.into_inner();
+        let mut left = self.returned.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+        for (Piece { places, samples }, &first) in self.pieces.iter().zip(&self.firsts) {
+            let of_it = u32::try_from(taken.saturating_sub(first)).unwrap_or(u32::MAX);
+            let start = places.start.saturating_add(of_it.saturating_mul(self.per_batch));
+            if start < places.end {
+                left.push(Piece { places: start..places.end, samples: samples.clone() });
+            }
+        }
+        left
+    }
+}
+
+/// Adds a pass to a film.
+pub struct Painter<'a> {
+    pub scene: &'a Scene,
+    pub kernels: &'a Kernels,
+    pub options: trace::Pass<'a>,
+    /// Statistics are kept.
+    pub statistics: bool,
+    /// The most that samples count, in the film's unit.
+    pub limit: Option<f64>,
+    pub glints: &'a Glints,
+    pub grid: &'a Grid,
+    pub share_of_blocks: f32,
+    pub observer: &'a dyn Observer,
+    pub samples_total: u64,
+    pub done: &'a AtomicU64,
+    /// The observer has ended the rendering.
+    pub stopped: &'a AtomicBool,
+}
+
+impl Painter<'_> {
+    /// Adds the pass, or what is left of it; gives what is left then. The keeper is told the film as it was before.
+    pub fn paint(
+        &self,
+        film: &mut Film,
+        pass: Range<u32>,
+        keeper: Option<Keeper>,
+        workers: &[Mutex<Worker>],
+    ) -> Option<Unfinished> {
+        let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: pass.clone() }];
+        let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
+        // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to
+        // stay in the cache.
+        let at_once = (pass.end - pass.start).min(SAMPLES);
+        let deal = Deal::new(pieces, SAMPLES / at_once);
+        let mut light = film.light_samples;
+        let cells = Cells::new(film, keeper);
+        std::thread::scope(|scope| {
+            if cells.keeper().is_some() {
+                scope.spawn(|| cells.keep_all());
+            }
+            light = self.light_paths(light..pass.end, &cells, workers);
+            on_all(workers, &|worker: &mut Worker| {
+                while !self.stopped.load(Ordering::Relaxed)
+                    && let Some(piece) = deal.take()
+                {
+                    let samples = self.batch(&piece, at_once, &cells, worker);
+                    if !samples.is_empty() {
+                        deal.give_back(Piece { samples, ..piece });
+                    }
+                }
+            });
+            if let Some(keeper) = cells.keeper() {
+                keeper.hurry();
+            }
+        });
+        drop(cells);
+        film.light_samples = light;
+        let pieces = deal.left();
+        let is_whole = pieces.is_empty() && (light == pass.end || self.options.light_paths.is_none());
+        (!is_whole).then_some(Unfinished { end: pass.end, pieces })
+    }
+
+    /// Follows the light paths of these sample indices; where it has come to.
+    fn light_paths(&self, samples: Range<u32>, cells: &Cells<'_>, workers: &[Mutex<Worker>]) -> u32 {
+        let trace::Pass { guide: Some(guide), light_paths: Some((light_paths, plan)), .. } = self.options else {
+            return samples.start;
+        };
+        let on_film = OnFilm { cells, limit: self.limit };
+        let mut next = samples.start;
+        while next < samples.end && !self.stopped.load(Ordering::Relaxed) {
+            let now = next..samples.end.min(next.saturating_add(light_paths.at_once()));
+            next = now.end;
+            light_paths.trace(self.scene, self.kernels, plan, guide, now, on_film, workers);
+            if next < samples.end {
+                self.tell(0);
+            }
+        }
+        next
+    }
+
+    /// Adds a batch; gives the samples that it lacks because the rendering was ended.
+    fn batch(&self, piece: &Piece, at_once: u32, cells: &Cells<'_>, worker: &mut Worker) -> Range<u32> {
+        let Piece { places, samples } = piece;
+        let batch = &mut worker.batch;
+        let mut sample = samples.start;
+        while sample < samples.end {
+            let count = (samples.end - sample).min(at_once);
+            batch.items.clear();
+            (batch.glints, batch.shares) = (0, 0);
+            for place in places.clone() {
+                for sample in sample..sample + count {
+                    let Some(block) = self.grid.block(place as usize, sample) else { continue };
+                    if self.glints.in_block(block) {
+                        batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
+                    }
+                    if shares(self.options.seed, block, sample, self.share_of_blocks) {
+                        batch.shares |= ((1 << QUARTERS) - 1) << batch.items.len();
+                    }
+                    batch.items.extend((0..QUARTERS).map(|quarter| Item::new(block, quarter, sample)));
+                }
+            }
+            sample += count;
+            if batch.items.is_empty() {
+                continue;
+            }
+            batch.watch.start(self.statistics);
+            let start = Instant::now();
+            trace::trace(self.scene, self.kernels, self.options, batch);
+            if let Some(limit) = self.limit {
+                clamp_samples(limit, cells, batch);
+            }
+            let added = add_samples(cells, batch);
+            batch.watch.lap(Stage::Film);
+            batch.watch.costs.total += start.elapsed().as_secs_f64();
+            if !self.tell(added) {
+                break;
+            }
+        }
+        sample..samples.end
+    }
+
+    /// Tells the observer of so many samples more; whether it goes on.
+    fn tell(&self, added: u64) -> bool {
+        let samples_done = self.done.fetch_add(added, Ordering::Relaxed) + added;
+        let goes_on =
+            self.observer.progress(Progress { samples_done, samples_total: self.samples_total }).is_continue();
+        if !goes_on {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+        goes_on
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_cover_all_samples_once() {
+        let guide = |sample: u32| sample.checked_ilog2();
+        for (samples, longest) in (1..300).chain([1000, 1023]).flat_map(|samples| [64, 16, 5, 1].map(|n| (samples, n)))
+        {
+            for start in [0, 1, 2, 3, 5, 64, 77, samples] {
+                let mut passes = Passes::new(start, samples, longest);
+                let mut next = start.min(samples.max(start));
+                while let Some(pass) = passes.next(None) {
+                    assert_eq!(pass.start, next);
+                    let n = pass.end - pass.start;
+                    assert!(n <= longest && (n.is_multiple_of(SAMPLES) || SAMPLES.is_multiple_of(n)));
+                    assert_eq!(guide(pass.start), guide(pass.end - 1), "{pass:?}");
+                    next = pass.end;
+                }
+                assert_eq!(next, samples.max(start));
+            }
+        }
+        let mut passes = Passes::new(0, 1000, 64);
+        let lengths: Vec<u32> = std::iter::from_fn(|| passes.next(None)).map(|pass| pass.end - pass.start).collect();
+        assert_eq!(lengths[..9], [1, 1, 2, 4, 8, 16, 32, 64, 64]);
+        // As measured, and no shorter than a sample.
+        let mut passes = Passes::new(512, 1000, 64);
+        for (seconds, length) in [(64.0, 8), (80.0, 1), (0.01, 64)] {
+            passes.next(None);
+            passes.took(Duration::from_secs_f64(seconds), Some(Duration::from_secs(8)));
+            assert_eq!(passes.longest, length);
+        }
+    }
+
+    #[test]
+    fn what_is_dealt_and_what_is_left_is_all() {
+        let piece = |places: Range<u32>, samples: Range<u32>| Piece { places, samples };
+        let pieces = vec![piece(3..8, 4..6), piece(9..10, 5..6), piece(12..20, 4..6)];
+        let mut all: Vec<(u32, u32)> = Vec::new();
+        let add = |all: &mut Vec<(u32, u32)>, pieces: &[Piece]| {
+            for Piece { places, samples } in pieces {
+                all.extend(places.clone().flat_map(|place| samples.clone().map(move |sample| (place, sample))));
+            }
+            all.sort_unstable();
+        };
+        add(&mut all, &pieces);
+        for per_batch in [1, 2, 4] {
+            for taken in 0..20 {
+                let deal = Deal::new(pieces.clone(), per_batch);
+                let mut found = Vec::new();
+                for k in 0..taken {
+                    match deal.take() {
+                        Some(piece) if k % 3 == 1 => deal.give_back(piece),
+                        Some(piece) => add(&mut found, &[piece]),
+                        None => {}
+                    }
+                }
+                add(&mut found, &deal.left());
+                assert_eq!(found, all, "{per_batch} {taken}");
+            }
+        }
+    }
+}

@@ -1,0 +1,539 @@
+//! A film as a file: written from one or from a rendering at work ([`super::state`]), and read with nothing taken on
+//! trust.
+//!
+//! All numbers have their lowest byte first.
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | [`MAGIC`] |
+//! | 4 | [`FORMAT`] |
+//! | 4 | length of the head |
+//! | | the head: program, notes, picture, how far it is, counters ([`FilmHead`]) |
+//! | 8 | checksum (XXH3, 64 bits) of all before |
+//! | | the tiles, in any order: number (4), length (4), sums ([`super::pack`]) |
+//! | 8 | checksum of all before |
+
+use super::pack::{pack, pack_wide, unpack, unpack_wide};
+use super::{Crop, Film, Piece, Splats, Squares, Sums, TILE, Taken, Tile, Unfinished};
+use crate::engine::{Costs, Counters};
+use bytemuck::Zeroable;
+use bytemuck::allocation::try_zeroed_vec;
+use std::io::{self, Read, Write};
+use std::ops::RangeInclusive;
+use xxhash_rust::xxh3::Xxh3Default;
+
+/// No text begins so, and what changes the ends of lines breaks it.
+const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
+/// The version of the format.
+const FORMAT: u32 = 1;
+/// No head is longer, and no tile.
+const LONGEST_HEAD: u32 = 1 << 26;
+const LONGEST_TILE: u32 = 1 << 17;
+/// Pixels along a side at most.
+const MAX_SIDE: u32 = 1 << 16;
+
+/// The program that a film is of: its version, and a checksum of the engine's sources. Films of two programs do not
+/// mix.
+pub const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("TRACER_SOURCES"));
+
+/// What whoever saves a film writes beside it: a name and a value.
+pub type Note = (String, String);
+
+/// Why a saved film cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum FilmError {
+    /// It could not be read.
+    #[error("it cannot be read: {0}")]
+    Io(#[from] io::Error),
+    /// It is something else.
+    #[error("it is no film")]
+    Foreign,
+    /// It is of a later version of this library.
+    #[error("it has version {0} of the format; this program knows version {FORMAT}")]
+    Format(u32),
+    /// It is cut short, or its bytes are not those that were written.
+    #[error("it is damaged: {0}")]
+    Damaged(&'static str),
+    /// There is not so much memory.
+    #[error("it takes {0} bytes of memory, which are not to be had")]
+    Memory(u64),
+    /// Another version of the program made it: [`Film::load`] only.
+    #[error("version {0} of the program made it, and this is version {PROGRAM}")]
+    Program(String),
+}
+
+/// What a saved film tells about itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmHead {
+    /// Version of the program that has made it, and what its sources sum to.
+    pub program: String,
+    /// What was written beside it.
+    pub notes: Vec<Note>,
+    /// Size of the whole picture in pixels.
+    pub size: [u32; 2],
+    /// The part of it that the film holds.
+    pub crop: Crop,
+    /// Seed of all random choices.
+    pub seed: u32,
+    /// The most that the largest channel of a sample counts, in W/(sr m^2).
+    pub clamp: Option<f32>,
+    /// Samples that all pixels have, and those that some have where a pass was ended early.
+    pub samples: RangeInclusive<u32>,
+    /// Rays and dropped samples.
+    pub counters: Counters,
+    unit: f64,
+    light_samples: u32,
+    unfinished: Option<Unfinished>,
+    costs: Costs,
+    reuse: bool,
+    caustics: bool,
+}
+
+impl FilmHead {
+    /// Of a film, with what is to be told beside it.
+    pub(super) fn of(film: &Film) -> Self {
+        let most = film.unfinished.as_ref().filter(|rest| !rest.pieces.is_empty()).map_or(film.whole, |rest| rest.end);
+        FilmHead {
+            program: PROGRAM.to_owned(),
+            notes: Vec::new(),
+            size: film.size,
+            crop: film.crop,
+            seed: film.seed,
+            clamp: film.clamp,
+            samples: film.whole..=most,
+            counters: film.counters,
+            unit: film.unit,
+            light_samples: film.light_samples,
+            unfinished: film.unfinished.clone(),
+            costs: film.costs,
+            reuse: film.reuse,
+            caustics: film.caustics,
+        }
+    }
+
+    /// Magic, format, length and head, without the checksum.
+    fn to_bytes(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        let text = |text: &str, out: &mut Vec<u8>| {
+            out.extend((text.len() as u32).to_le_bytes());
+            out.extend(text.as_bytes());
+        };
+        text(&self.program, &mut out);
+        out.extend((self.notes.len() as u32).to_le_bytes());
+        for (name, value) in &self.notes {
+            text(name, &mut out);
+            text(value, &mut out);
+        }
+        let Crop { x, y, width, height } = self.crop;
+        let whole = *self.samples.start();
+        let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
+        numbers.push(self.clamp.map_or(0, f32::to_bits));
+        numbers.extend([u32::from(self.reuse), u32::from(self.caustics), whole, *self.samples.end()]);
+        numbers.push(self.light_samples);
+        let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
+        numbers.extend([end, pieces.len() as u32]);
+        numbers.extend(
+            pieces.iter().flat_map(|Piece { places, samples }| [places.start, places.end, samples.start, samples.end]),
+        );
+        out.extend(numbers.into_iter().flat_map(u32::to_le_bytes));
+        let counters = counters_as_array(self.counters);
+        let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
+        out.extend(counters.into_iter().chain(costs.map(f64::to_bits)).flat_map(u64::to_le_bytes));
+        let mut head = MAGIC.to_vec();
+        head.extend([FORMAT, out.len() as u32].into_iter().flat_map(u32::to_le_bytes));
+        head.extend(out);
+        head
+    }
+
+    fn from_bytes(mut from: &[u8]) -> Option<Self> {
+        let from = &mut from;
+        let program = text(from)?;
+        let count = number(from)?;
+        // A note is eight bytes at least, so that a count that lies ends soon.
+        let mut notes = Vec::new();
+        for _ in 0..count {
+            notes.push((text(from)?, text(from)?));
+        }
+        let mut next = || number(from);
+        let size = [next()?, next()?];
+        let crop = Crop { x: next()?, y: next()?, width: next()?, height: next()? };
+        let (seed, clamp) = (next()?, f32::from_bits(next()?));
+        let [reuse, caustics] = [next()? != 0, next()? != 0];
+        let samples = next()?..=next()?;
+        let (light_samples, end, count) = (next()?, next()?, next()?);
+        let mut pieces = Vec::new();
+        for _ in 0..count {
+            pieces.push(Piece { places: next()?..next()?, samples: next()?..next()? });
+        }
+        let mut counters = [0; 8];
+        for counter in &mut counters {
+            *counter = long(from)?;
+        }
+        let mut long = || long(from).map(f64::from_bits);
+        let unit = long()?;
+        let costs = Costs { total: long()?, reuse: long()?, caustics: long()?, clamp: long()? };
+        let head = FilmHead {
+            program,
+            notes,
+            size,
+            crop,
+            seed,
+            clamp: Some(clamp).filter(|&clamp| clamp != 0.0),
+            samples,
+            counters: counters_from_array(counters),
+            unit,
+            light_samples,
+            unfinished: (end > 0).then_some(Unfinished { end, pieces }),
+            costs,
+            reuse,
+            caustics,
+        };
+        (from.is_empty() && head.is_sound()).then_some(head)
+    }
+
+    /// Whether it can be what a film has written.
+    fn is_sound(&self) -> bool {
+        let whole = *self.samples.start();
+        let rest = self.unfinished.as_ref().is_none_or(|Unfinished { end, pieces }| {
+            let within = |piece: &Piece| {
+                let Piece { places, samples } = piece;
+                places.start < places.end
+                    && whole <= samples.start
+                    && samples.start < samples.end
+                    && samples.end <= *end
+            };
+            whole < *end && pieces.iter().all(within)
+        });
+        let end = self.unfinished.as_ref().map_or(whole, |rest| rest.end);
+        self.size.iter().all(|side| (1..=MAX_SIDE).contains(side))
+            && self.crop.within(self.size) == self.crop
+            && self.clamp.is_none_or(|limit| limit > 0.0 && limit.is_finite())
+            && (self.unit > 0.0 && self.unit.is_normal())
+            && rest
+            && self.samples.end() >= self.samples.start()
+            && *self.samples.end() <= end
+            && self.light_samples <= end
+            // What is added to them later does not overflow.
+            && counters_as_array(self.counters).iter().all(|&count| count < 1 << 60)
+    }
+
+    /// Bytes of memory that the film takes at most.
+    pub fn bytes(&self) -> u64 {
+        Film::bytes_of(self.crop, self.clamp.is_some(), true)
+    }
+}
+
+fn text(from: &mut &[u8]) -> Option<String> {
+    let length = number(from)? as usize;
+    String::from_utf8(from.split_off(..length)?.to_vec()).ok()
+}
+
+fn number(from: &mut &[u8]) -> Option<u32> {
+    from.split_off(..4)?.try_into().ok().map(u32::from_le_bytes)
+}
+
+fn long(from: &mut &[u8]) -> Option<u64> {
+    from.split_off(..8)?.try_into().ok().map(u64::from_le_bytes)
+}
+
+fn counters_as_array(counters: Counters) -> [u64; 8] {
+    let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond } =
+        counters;
+    [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond]
+}
+
+fn counters_from_array(counters: [u64; 8]) -> Counters {
+    let [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond] = counters;
+    Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond }
+}
+
+/// A tile as it stands in the file, its number and length included.
+pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
+    let mut out = Vec::with_capacity(8192);
+    out.extend((place as u32).to_le_bytes());
+    out.extend([0; 4]);
+    out.push(u8::from(tile.taken.is_some()) | u8::from(tile.splats.is_some()) << 1);
+    let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
+    sums(&tile.sums, &mut out);
+    pack_wide(|k| tile.squares.words(k), &mut out);
+    pack(|k| tile.samples[k].into(), &mut out);
+    if let Some(taken) = &tile.taken {
+        sums(&taken.sums, &mut out);
+        pack(|k| taken.samples[k].into(), &mut out);
+    }
+    if let Some(splats) = &tile.splats {
+        sums(&splats.sums, &mut out);
+        pack_wide(|k| splats.squares.words(k), &mut out);
+    }
+    let length = (out.len() - 8) as u32;
+    out[4..8].copy_from_slice(&length.to_le_bytes());
+    out
+}
+
+/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many.
+fn read_tile(mut from: &[u8], most: u32, tile: &mut Tile) -> Option<()> {
+    let from = &mut from;
+    let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
+    let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
+    let samples = |samples: &mut [u32], most: u32, from: &mut &[u8]| {
+        let mut fits = true;
+        unpack(from, |k, count| match u32::try_from(count) {
+            Ok(count) if count <= most => samples[k] = count,
+            _ => fits = false,
+        })?;
+        fits.then_some(())
+    };
+    let flags = *from.split_off_first()?;
+    sums(&mut tile.sums, from)?;
+    squares(&mut tile.squares, from)?;
+    samples(&mut tile.samples, most, from)?;
+    if flags & 1 != 0 {
+        let mut taken = Box::new(Taken::zeroed());
+        sums(&mut taken.sums, from)?;
+        // Light paths may be clamped, too.
+        samples(&mut taken.samples, u32::MAX / 2, from)?;
+        tile.taken = Some(taken);
+    }
+    if flags & 2 != 0 {
+        let mut splats = Box::new(Splats::zeroed());
+        sums(&mut splats.sums, from)?;
+        squares(&mut splats.squares, from)?;
+        tile.splats = Some(splats);
+    }
+    (flags < 4 && from.is_empty()).then_some(())
+}
+
+/// Writes a film from its parts, and sums what goes through.
+pub(super) struct FilmWriter<W: Write> {
+    to: io::BufWriter<W>,
+    sum: Xxh3Default,
+    bytes: u64,
+}
+
+impl<W: Write> FilmWriter<W> {
+    pub fn new(to: W, head: &FilmHead) -> io::Result<Self> {
+        let mut writer =
+            FilmWriter { to: io::BufWriter::with_capacity(1 << 20, to), sum: Xxh3Default::new(), bytes: 0 };
+        let head = head.to_bytes();
+        if head.len() as u64 > u64::from(LONGEST_HEAD) {
+            return Err(io::Error::other("the notes beside the film are too long"));
+        }
+        writer.put(&head)?;
+        writer.put_sum()?;
+        Ok(writer)
+    }
+
+    /// Goes on with a tile's record.
+    pub fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.sum.update(bytes);
+        self.bytes += bytes.len() as u64;
+        self.to.write_all(bytes)
+    }
+
+    fn put_sum(&mut self) -> io::Result<()> {
+        let sum = self.sum.digest();
+        self.put(&sum.to_le_bytes())
+    }
+
+    /// Ends it; how many bytes it has.
+    pub fn end(mut self) -> io::Result<u64> {
+        self.put_sum()?;
+        self.to.flush()?;
+        Ok(self.bytes)
+    }
+}
+
+/// A saved film, of which only the head has been read, so that it can be refused before any memory is spent on it.
+///
+/// # Examples
+///
+/// See [`Film::save`].
+pub struct SavedFilm<R: Read> {
+    from: io::BufReader<R>,
+    sum: Xxh3Default,
+    head: FilmHead,
+}
+
+impl<R: Read> SavedFilm<R> {
+    /// Reads the head.
+    ///
+    /// # Errors
+    /// When it cannot be read or is not the head of a film.
+    pub fn open(from: R) -> Result<Self, FilmError> {
+        let mut from = io::BufReader::with_capacity(1 << 20, from);
+        let mut start = Vec::new();
+        from.by_ref().take(16).read_to_end(&mut start)?;
+        if !start.starts_with(&MAGIC) {
+            return Err(if MAGIC.starts_with(&start) {
+                FilmError::Damaged("it is cut short")
+            } else {
+                FilmError::Foreign
+            });
+        }
+        let mut rest = &start[8..];
+        let (Some(format), Some(length)) = (number(&mut rest), number(&mut rest)) else {
+            return Err(FilmError::Damaged("it is cut short"));
+        };
+        if format != FORMAT {
+            return Err(FilmError::Format(format));
+        }
+        if length > LONGEST_HEAD {
+            return Err(FilmError::Damaged("its head is wrong"));
+        }
+        // Grows with what comes: a length that lies takes no memory.
+        let mut bytes = Vec::new();
+        from.by_ref().take(u64::from(length)).read_to_end(&mut bytes)?;
+        let mut sum = Xxh3Default::new();
+        sum.update(&start);
+        sum.update(&bytes);
+        if bytes.len() < length as usize {
+            return Err(FilmError::Damaged("it is cut short"));
+        }
+        check_sum(&mut from, &mut sum)?;
+        let head = FilmHead::from_bytes(&bytes).ok_or(FilmError::Damaged("its head is wrong"))?;
+        Ok(SavedFilm { from, sum, head })
+    }
+
+    /// What it tells about itself.
+    pub fn head(&self) -> &FilmHead {
+        &self.head
+    }
+
+    /// Reads on, and says whether all is as it was written, without making a film of it.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is not.
+    pub fn check(mut self) -> Result<FilmHead, FilmError> {
+        let (mut tile, most) = (Tile::zeroed(), *self.head.samples.end());
+        self.tiles(|_, bytes| read_tile(bytes, most, &mut tile))?;
+        Ok(self.head)
+    }
+
+    /// Reads the film, whichever program made it.
+    ///
+    /// # Errors
+    /// When it cannot be read, is not as it was written, or takes more memory than there is.
+    pub fn film(mut self) -> Result<Film, FilmError> {
+        let mut tiles: Vec<Tile> =
+            try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
+        let (clamped, most) = (self.head.clamp.is_some(), *self.head.samples.end());
+        self.tiles(|place, bytes| {
+            let tile = tiles.get_mut(place)?;
+            read_tile(bytes, most, tile)?;
+            (tile.taken.is_some() == clamped).then_some(())
+        })?;
+        let head = self.head;
+        // Without tiles: theirs are at hand.
+        let nothing = Crop { width: 0, height: 0, ..head.crop };
+        let mut film = Film::new(head.size, nothing, head.seed, head.unit, head.clamp);
+        let columns = (head.crop.x + head.crop.width).div_ceil(TILE) - head.crop.x / TILE;
+        (film.crop, film.tiles, film.tile_columns) = (head.crop, tiles, columns);
+        (film.whole, film.unfinished, film.light_samples) =
+            (*head.samples.start(), head.unfinished, head.light_samples);
+        (film.counters, film.costs) = (head.counters, head.costs);
+        (film.reuse, film.caustics) = (head.reuse, head.caustics);
+        Ok(film)
+    }
+
+    /// Reads the tiles, each once, and the checksum.
+    fn tiles(&mut self, mut keep: impl FnMut(usize, &[u8]) -> Option<()>) -> Result<(), FilmError> {
+        let count = tile_count(self.head.crop);
+        let mut seen = vec![false; count];
+        let mut bytes = Vec::new();
+        for _ in 0..count {
+            let mut start = [0; 8];
+            self.from.read_exact(&mut start).map_err(cut_short)?;
+            self.sum.update(&start);
+            let [place, length] = [0, 4].map(|k| number(&mut &start[k..]).unwrap_or(u32::MAX));
+            let first = seen.get_mut(place as usize).is_some_and(|seen| !std::mem::replace(seen, true));
+            if !first || length > LONGEST_TILE {
+                return Err(FilmError::Damaged("a tile is wrong"));
+            }
+            bytes.resize(length as usize, 0);
+            self.from.read_exact(&mut bytes).map_err(cut_short)?;
+            self.sum.update(&bytes);
+            keep(place as usize, &bytes).ok_or(FilmError::Damaged("a tile is wrong"))?;
+        }
+        check_sum(&mut self.from, &mut self.sum)?;
+        match self.from.read(&mut [0])? {
+            0 => Ok(()),
+            _ => Err(FilmError::Damaged("it goes on behind its end")),
+        }
+    }
+}
+
+/// Sees that the next eight bytes are what all before sum to.
+fn check_sum(from: &mut impl Read, sum: &mut Xxh3Default) -> Result<(), FilmError> {
+    let expected = sum.digest().to_le_bytes();
+    let mut found = [0; 8];
+    from.read_exact(&mut found).map_err(cut_short)?;
+    sum.update(&found);
+    if found == expected { Ok(()) } else { Err(FilmError::Damaged("its checksum is wrong")) }
+}
+
+fn cut_short(error: io::Error) -> FilmError {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => FilmError::Damaged("it is cut short"),
+        _ => FilmError::Io(error),
+    }
+}
+
+fn tile_count(crop: Crop) -> usize {
+    let tiles = |first: u32, length: u32| ((first + length).div_ceil(TILE) - first / TILE) as usize;
+    tiles(crop.x, crop.width) * tiles(crop.y, crop.height)
+}
+
+impl Film {
+    /// Writes the film, with notes that [`SavedFilm::head`] gives back; gives its bytes. It has some twenty bytes a pixel,
+    /// forty where light paths fall: a quarter and a third of the memory.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    ///
+    /// # Examples
+    ///
+    /// A rendering that goes on where an earlier one has ended:
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use tracer_core::{Film, RenderOptions, Unobserved, compile, render, resume};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let text = "Scene(background: 1, image: Image(width: 8, height: 8), objects: [Sphere(center: (0, 0, 0), radius:
+    /// 1)])"; let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
+    /// let scene = compile(&loaded.scene)?; let samples = |count| RenderOptions { samples: Some(count),
+    /// ..RenderOptions::default() };
+    ///
+    /// let mut file = Vec::new();
+    /// render(&scene, &samples(3), &Unobserved).save(&mut file, &[("scene".into(), "ball.ron".into())])?;
+    ///
+    /// let film = Film::load(&mut file.as_slice())?;
+    /// let film = resume(&scene, &samples(10), film, &Unobserved)?;
+    /// let at_once = render(&scene, &samples(10), &Unobserved);
+    /// assert_eq!(film.radiance(4, 4), at_once.radiance(4, 4));
+    /// assert_eq!(film.counters, at_once.counters);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn save(&self, to: &mut impl Write, notes: &[Note]) -> io::Result<u64> {
+        let head = FilmHead { notes: notes.to_vec(), ..FilmHead::of(self) };
+        let mut writer = FilmWriter::new(to, &head)?;
+        for (place, tile) in self.tiles.iter().enumerate() {
+            writer.put(&record(place, tile))?;
+        }
+        writer.end()
+    }
+
+    /// Reads a film that [`Film::save`] has written. [`SavedFilm`] does it in two steps, so that one can look before.
+    ///
+    /// # Errors
+    /// When it cannot be read, is damaged or no film, or another version of the program made it: then its samples do
+    /// not mix with ours.
+    pub fn load(from: &mut impl Read) -> Result<Self, FilmError> {
+        let saved = SavedFilm::open(from)?;
+        if saved.head.program != PROGRAM {
+            return Err(FilmError::Program(saved.head.program));
+        }
+        saved.film()
+    }
+}

@@ -1,0 +1,187 @@
+//! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
+
+use crate::failure::Failure;
+use scene_format::desc::{Acceleration, ToneMap};
+use scene_format::{SceneDesc, hash_hex};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io;
+use std::mem::{swap, take};
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+use tracer_core::{Crop, FilmHead, Note, PROGRAM};
+
+/// Kinds of notes, as their names begin: a value to be shown, a part of the scene by its hash, a file by its own.
+const SETTING: &str = "render.";
+const PART: &str = "part:";
+const FILE: &str = "file:";
+/// All that the film depends on: words that are in no part above, too.
+const WHOLE: &str = "whole";
+
+/// What is written beside the film. Samples may grow, and what makes the picture of the film may change: neither is in
+/// it. The scene is as it was afterwards.
+///
+/// # Errors
+/// When a file of the scene cannot be read any more.
+pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failure> {
+    let name = desc.sources.first().map_or("", |source| source.name.as_str());
+    let mut notes: Vec<Note> = vec![("scene".to_owned(), name.to_owned()), ("hash".to_owned(), hash_hex(desc))];
+    notes.push((WHOLE.to_owned(), hash_of_film(desc)));
+    let render = &desc.render;
+    let settings = [
+        ("integrator", format!("{:?}", render.integrator)),
+        ("reuse", format!("{:?}", render.reuse)),
+        ("caustics", format!("{:?}", render.caustics)),
+        ("max_bounces", render.max_bounces.value.to_string()),
+    ];
+    notes.extend(settings.map(|(name, value)| (format!("{SETTING}{name}"), value)));
+    let mut part = |name: &str, part: &SceneDesc| notes.push((format!("{PART}{name}"), hash_hex(part)));
+    let blank = SceneDesc::default;
+    part("camera", &SceneDesc { camera: desc.camera.clone(), ..blank() });
+    let mut effects = desc.effects.clone();
+    (effects.exposure, effects.tone_map) = (0.0.into(), ToneMap::None);
+    part("effects", &SceneDesc { effects, ..blank() });
+    part("background", &SceneDesc { background: desc.background, ..blank() });
+    // There may be millions of these: they are lent, not copied.
+    let mut lent = SceneDesc { lights: take(&mut desc.lights), ..blank() };
+    part("lights", &lent);
+    swap(&mut lent.lights, &mut desc.lights);
+    swap(&mut lent.materials, &mut desc.materials);
+    part("materials", &lent);
+    swap(&mut lent.materials, &mut desc.materials);
+    swap(&mut lent.objects, &mut desc.objects);
+    part("objects", &lent);
+    swap(&mut lent.objects, &mut desc.objects);
+    for file in files {
+        let shown = file.strip_prefix(&desc.base_dir).unwrap_or(file);
+        notes.push((format!("{FILE}{}", shown.display()), hash_of(file)?));
+    }
+    Ok(notes)
+}
+
+/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits.
+fn hash_of_film(desc: &mut SceneDesc) -> String {
+    let render = desc.render.clone();
+    let effects = desc.effects.clone();
+    desc.render.samples = 1.into();
+    desc.render.acceleration = Acceleration::Bvh;
+    (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
+    let hash = hash_hex(desc);
+    (desc.render, desc.effects) = (render, effects);
+    hash
+}
+
+/// SHA-256 of a file's contents.
+fn hash_of(path: &Path) -> Result<String, Failure> {
+    let mut hasher = Sha256::new();
+    File::open(path)
+        .and_then(|mut file| io::copy(&mut file, &mut HashWriter(&mut hasher)))
+        .map_err(|error| Failure::could_not(format!("cannot read {}: {error}", path.display())))?;
+    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+struct HashWriter<'a>(&'a mut Sha256);
+
+impl io::Write for HashWriter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// What a rendering asks a checkpoint for.
+pub struct Asked<'a> {
+    pub size: [u32; 2],
+    pub crop: Crop,
+    pub seed: u32,
+    pub clamp: Option<f32>,
+    pub notes: &'a [Note],
+}
+
+/// What is not the same there as here, for people.
+pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut compare = |what: &str, there: String, here: String| {
+        if there != here {
+            found.push(format!("{what} is {there} there and {here} here"));
+        }
+    };
+    compare("the program's version", head.program.clone(), PROGRAM.to_owned());
+    let size = |[width, height]: [u32; 2]| format!("{width}x{height}");
+    compare("the size", size(head.size), size(asked.size));
+    let crop = |Crop { x, y, width, height }: Crop| format!("{x},{y},{width},{height}");
+    if head.size == asked.size {
+        compare("the crop", crop(head.crop), crop(asked.crop));
+    }
+    compare("the seed", head.seed.to_string(), asked.seed.to_string());
+    let clamp = |limit: Option<f32>| limit.map_or("None".to_owned(), |limit| limit.to_string());
+    compare("render.clamp", clamp(head.clamp), clamp(asked.clamp));
+    let (there, here): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        (head.notes.iter().cloned().collect(), asked.notes.iter().cloned().collect());
+    let names = here.keys().chain(there.keys().filter(|name| !here.contains_key(*name)));
+    for name in names {
+        let (old, new) = (there.get(name), here.get(name));
+        if old == new {
+            continue;
+        }
+        let value = |value: Option<&String>| value.map_or("not told", String::as_str).to_owned();
+        if name.starts_with(SETTING) {
+            compare_notes(&mut found, name, &value(old), &value(new));
+        } else if let Some(part) = name.strip_prefix(PART) {
+            found.push(format!("`{part}` of the scene has changed"));
+        } else if let Some(file) = name.strip_prefix(FILE) {
+            found.push(match (old, new) {
+                (Some(_), Some(_)) => format!("the contents of {file} have changed"),
+                (None, _) => format!("{file} was not part of it"),
+                (_, None) => format!("{file} is no part of it any more"),
+            });
+        }
+    }
+    if found.is_empty() && there.get(WHOLE) != here.get(WHOLE) {
+        found.push("the scene has changed".to_owned());
+    }
+    found
+}
+
+fn compare_notes(found: &mut Vec<String>, what: &str, there: &str, here: &str) {
+    found.push(format!("{what} is {there} there and {here} here"));
+}
+
+/// The time now, in UTC: `2026-11-24T04:05:06Z`.
+pub fn now() -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
+    date(seconds)
+}
+
+/// Seconds since 1970 as a date (Hinnant, days_from_civil, the other way).
+fn date(seconds: u64) -> String {
+    let (days, of_day) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+    let year = era * 400 + year + next;
+    let (hour, minute, second) = (of_day / 3600, of_day / 60 % 60, of_day % 60);
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        assert_eq!(date(0), "1970-01-01T00:00:00Z");
+        assert_eq!(date(951_782_399), "2000-02-28T23:59:59Z");
+        assert_eq!(date(951_782_400), "2000-02-29T00:00:00Z");
+        assert_eq!(date(1_767_225_599), "2025-12-31T23:59:59Z");
+        assert_eq!(date(4_107_542_400), "2100-03-01T00:00:00Z");
+    }
+}

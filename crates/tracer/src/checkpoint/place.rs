@@ -1,0 +1,170 @@
+//! Where a checkpoint lies: its file, the one before, the one that is being written, and the lock.
+
+use super::Flushing;
+use crate::failure::Failure;
+use crate::write::{WriteError, forget_unfinished, probe, real_place, remember_unfinished};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A checkpoint's name, and those beside it: `.previous`, `.writing`, `.lock`.
+#[derive(Clone, Debug)]
+pub struct Place {
+    named: PathBuf,
+    /// Links followed, and whole: what is renamed must not be a link, and the process may change its folder.
+    real: PathBuf,
+}
+
+impl Place {
+    /// Of a name on the command line, where a file can be written now.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn new(path: &Path) -> Result<Self, Failure> {
+        probe(path)?;
+        let real = real_place(path).map_err(|source| WriteError::Io { path: path.to_owned(), source })?;
+        if path.exists() && !path.is_file() {
+            return Err(Failure::wrong(format!("{} is no file; a checkpoint needs one", path.display())));
+        }
+        Ok(Place { named: path.to_owned(), real })
+    }
+
+    /// As it was named.
+    pub fn name(&self) -> String {
+        self.named.display().to_string()
+    }
+
+    /// The file.
+    pub fn file(&self) -> &Path {
+        &self.real
+    }
+
+    /// Whether another name means the same file.
+    pub fn is(&self, other: &Place) -> bool {
+        self.real == other.real
+    }
+
+    /// The checkpoint before.
+    pub fn previous(&self) -> PathBuf {
+        self.with(".previous")
+    }
+
+    fn with(&self, suffix: &str) -> PathBuf {
+        let mut name = self.real.as_os_str().to_owned();
+        name.push(suffix);
+        name.into()
+    }
+
+    fn folder(&self) -> &Path {
+        self.real.parent().unwrap_or(Path::new("/"))
+    }
+
+    /// Makes its folder, should that be gone; whether it was.
+    ///
+    /// # Errors
+    /// When it cannot be made.
+    pub fn make_folder(&self) -> io::Result<bool> {
+        if self.folder().is_dir() {
+            return Ok(false);
+        }
+        fs::create_dir_all(self.folder()).map(|()| true)
+    }
+
+    /// Writes it whole or not at all; the one before stays under its other name if it is to be kept.
+    ///
+    /// # Errors
+    /// When it could not be written; then what was there is as it was.
+    pub fn write(&self, keep: bool, fill: impl FnOnce(&mut Flushing) -> io::Result<u64>) -> io::Result<u64> {
+        let writing = self.with(".writing");
+        remember_unfinished(&writing);
+        let written = self.write_as(&writing, keep, fill);
+        if written.is_err() {
+            // It may be what fills the disk.
+            let _ = fs::remove_file(&writing);
+        }
+        forget_unfinished(&writing);
+        written
+    }
+
+    fn write_as(
+        &self,
+        writing: &Path,
+        keep: bool,
+        fill: impl FnOnce(&mut Flushing) -> io::Result<u64>,
+    ) -> io::Result<u64> {
+        let mut file = Flushing::create(writing)?;
+        let bytes = fill(&mut file)?;
+        file.end()?;
+        if keep && self.real.exists() {
+            let previous = self.previous();
+            let _ = fs::remove_file(&previous);
+            // A second name, so that there is a checkpoint under the first at any moment; where there are no links, a
+            // moment without.
+            fs::hard_link(&self.real, &previous).or_else(|_| fs::rename(&self.real, &previous))?;
+        }
+        fs::rename(writing, &self.real)?;
+        // The name is on the disk only when the folder is; not all systems can do this.
+        let _ = File::open(self.folder()).and_then(|folder| folder.sync_all());
+        Ok(bytes)
+    }
+
+    /// Sees that no other process writes here.
+    ///
+    /// # Errors
+    /// When one does.
+    pub fn lock(&self) -> Result<Lock, Failure> {
+        let path = self.with(".lock");
+        let could_not = |error: io::Error| {
+            Failure::could_not(format!("cannot lock the checkpoint {}: {error}; name another place", self.name()))
+        };
+        loop {
+            let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(could_not)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    return Err(Failure::could_not(format!(
+                        "another process writes the checkpoint {}; wait for it, or name another file",
+                        self.name()
+                    )));
+                }
+                Err(TryLockError::Error(error)) => return Err(could_not(error)),
+            }
+            let lock = Lock { file, path: path.clone() };
+            // Whoever had it before may have deleted it since it was opened.
+            if lock.is_the_file() {
+                return Ok(lock);
+            }
+        }
+    }
+}
+
+/// A lock that ends with the process, however that ends.
+#[derive(Debug)]
+pub struct Lock {
+    file: File,
+    path: PathBuf,
+}
+
+impl Lock {
+    #[cfg(unix)]
+    fn is_the_file(&self) -> bool {
+        use std::os::unix::fs::MetadataExt;
+        let id = |found: io::Result<fs::Metadata>| found.ok().map(|found| (found.dev(), found.ino()));
+        id(self.file.metadata()).is_some_and(|mine| id(fs::metadata(&self.path)) == Some(mine))
+    }
+
+    #[cfg(not(unix))]
+    fn is_the_file(&self) -> bool {
+        // A file that is open cannot be deleted there.
+        let _ = &self.file;
+        true
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if self.is_the_file() {
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}

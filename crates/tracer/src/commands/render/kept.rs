@@ -1,0 +1,93 @@
+//! Checkpoints of a rendering: which are read and written, as the command line says.
+
+use crate::args::RenderArgs;
+use crate::checkpoint::{Checkpoints, EVERY, Found, Lock, Place, is_film, look_for, notes};
+use crate::failure::Failure;
+use crate::loading::is_dash;
+use crate::shell::{Shell, Verbosity};
+use scene_format::SceneDesc;
+use tracer_core::{Crop, Film, Scene};
+
+/// The places, locked before any work is done.
+pub(super) struct Places {
+    /// Where to look for a film, and what keeps others off it where it is not the place to write.
+    resume: Option<(Place, Option<Lock>)>,
+    /// Where to write.
+    write: Option<(Place, Lock)>,
+}
+
+/// A film to go on with, and who writes it.
+pub(super) struct Kept {
+    pub film: Option<Film>,
+    pub checkpoints: Option<Checkpoints>,
+    /// Of a file that is only read.
+    _lock: Option<Lock>,
+}
+
+impl Places {
+    /// As the command line names them: `--resume` writes where it reads, unless `--checkpoint` says another place.
+    ///
+    /// # Errors
+    /// What is no place for a checkpoint; another process is at work there.
+    pub(super) fn new(args: &RenderArgs, shell: &Shell) -> Result<Self, Failure> {
+        let paths = [&args.checkpoint, &args.resume];
+        if args.every.is_some() && paths.iter().all(|path| path.is_none()) {
+            return Err(Failure::wrong("--every is for checkpoints; name one by --checkpoint or --resume"));
+        }
+        if paths.into_iter().flatten().any(|path| is_dash(path)) {
+            return Err(Failure::wrong("a checkpoint is a file: it cannot be standard input or output"));
+        }
+        let resume = args.resume.as_deref().map(Place::new).transpose()?;
+        let write = args.checkpoint.as_deref().map(Place::new).transpose()?;
+        let is_resumed = |place: &Place| resume.as_ref().is_some_and(|resume| resume.is(place));
+        if let Some(place) = write.as_ref().filter(|place| !is_resumed(place) && place.file().exists()) {
+            if !is_film(place.file()) {
+                return Err(Failure::wrong(format!(
+                    "--checkpoint {} would replace what is no checkpoint; name another file",
+                    place.name()
+                )));
+            }
+            if shell.verbosity > Verbosity::Quiet {
+                let name = place.name();
+                shell
+                    .say(&format!("warning: {name} is there already and is replaced; --resume {name} goes on with it"));
+            }
+        }
+        let resume_lock = match (&resume, &write) {
+            (Some(resume), Some(write)) if !resume.is(write) => Some(resume.lock()?),
+            _ => None,
+        };
+        let write = write.or(resume.clone());
+        let write = write.map(|place| place.lock().map(|lock| (place, lock))).transpose()?;
+        Ok(Places { resume: resume.map(|place| (place, resume_lock)), write })
+    }
+
+    /// Reads what is there.
+    ///
+    /// # Errors
+    /// What is there is of another rendering, or cannot be read.
+    pub(super) fn open(
+        self,
+        args: &RenderArgs,
+        desc: &mut SceneDesc,
+        scene: &Scene,
+        crop: Crop,
+        shell: &Shell,
+    ) -> Result<Kept, Failure> {
+        let Some((place, lock)) = self.write else {
+            return Ok(Kept { film: None, checkpoints: None, _lock: None });
+        };
+        let notes = notes(desc, &scene.files)?;
+        let (found, _lock) = match self.resume {
+            Some((resume, lock)) => {
+                let mut found = look_for(&resume, scene, crop, &notes, shell)?;
+                found.is_spoilt &= resume.is(&place);
+                (found, lock)
+            }
+            None => (Found { film: None, is_spoilt: false }, None),
+        };
+        let every = args.every.unwrap_or(EVERY);
+        let checkpoints = Checkpoints::new(place, lock, every, notes, found.is_spoilt, *shell);
+        Ok(Kept { film: found.film, checkpoints: Some(checkpoints), _lock })
+    }
+}
