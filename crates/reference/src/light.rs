@@ -14,9 +14,10 @@ fn one_minus_cos(sphere: &Sphere, from: DVec3) -> f64 {
 
 /// A direction to one of the lights; each is as likely as the others.
 pub fn sample(scene: &Scene, from: DVec3, random: &mut Random) -> DVec3 {
+    let light = &scene.lights[random.below(scene.lights.len())];
     let (u, v) = (random.number(), random.number());
     let at = |flat: &FlatLight, u: f64, v: f64| flat.corner + u * flat.edges[0] + v * flat.edges[1];
-    let point = match &scene.lights[random.below(scene.lights.len())] {
+    let point = match light {
         Light::Sphere { sphere, .. } => {
             let sphere = &scene.spheres[*sphere as usize];
             let z = 1.0 - u * one_minus_cos(sphere, from);
