@@ -109,8 +109,8 @@ fn every_word_of_the_language_is_drawn() {
     for (name, definition) in definitions.as_object().unwrap() {
         words(definition, name, definitions, &mut all);
     }
-    // `None` for a field that may be left out is no kind of anything.
-    all.retain(|word| !not_drawn(word));
+    // `None` for a field that may be left out is no kind of anything; `Repeat` may stand in every list.
+    all.retain(|word| !not_drawn(word) && !word.ends_with(".Repeat"));
     let mut walk = Walk { definitions, used: BTreeSet::new() };
     let mut kinds_drawn: BTreeMap<&str, usize> = BTreeMap::new();
     for seed in 0..400 {

@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Emission, Instances, Light, Material, Object, Transform};
+use scene_format::desc::{Emission, Instances, Light, Material, Object, Placements, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -64,17 +64,27 @@ fn mirror_x(p: [f64; 3]) -> [f64; 3] {
 /// An object on the other side of the plane x = 0.
 fn mirrored(object: &Object) -> Object {
     let mut object = object.clone();
-    // Scenes with placements are not mirrored: those would have to be turned, not followed by one more step.
-    let transform = match &mut object {
+    let mirror = || Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) };
+    let (transform, placements) = match &mut object {
         Object::Sphere(sphere) => {
             sphere.center = mirror_x(sphere.center.value).into();
             return object;
         }
-        Object::Rectangle(rectangle) => &mut rectangle.transform,
-        Object::Box(cuboid) => &mut cuboid.transform,
-        Object::Mesh(mesh) => &mut mesh.transform,
+        Object::Rectangle(rectangle) => (&mut rectangle.transform, &mut rectangle.placements),
+        Object::Box(cuboid) => (&mut cuboid.transform, &mut cuboid.placements),
+        Object::Mesh(mesh) => (&mut mesh.transform, &mut mesh.placements),
     };
-    transform.push(Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) }.into());
+    transform.push(mirror().into());
+    // A copy P T becomes M P T = (M P M) (M T). What stands in a file is not drawn where scenes are mirrored.
+    if let Placements::List(list) = placements {
+        let copies = list.iter().map(|steps| {
+            let mut mirrored = vec![mirror().into()];
+            mirrored.extend_from_slice(steps);
+            mirrored.push(mirror().into());
+            mirrored
+        });
+        **list = copies.collect();
+    }
     object
 }
 
