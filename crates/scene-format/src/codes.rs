@@ -429,8 +429,9 @@ codes! {
     /// ```
     EXPRESSION_INDEX "E0605" "an item that a list does not have";
 
-    /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other.
-    TOO_MUCH "E0606" "repetitions that make too much";
+    /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other; or `vars` have more than
+    /// sixteen lists within each other, or more than two hundred wait for each other.
+    TOO_MUCH "E0606" "repetitions or vars that make too much";
 
     /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
     ///

@@ -237,17 +237,18 @@ impl Setter {
             }
             (Type::Optional(inner), _) => self.find(item.without_some(), *inner, steps, noun),
             (Type::Map(inner), What::Name(name)) => {
+                let (what, group) = if let Type::Value = inner { ("var", "vars") } else { ("material", "materials") };
                 let found = item.fields().find(|(key, _)| key.text() == *name);
                 if let Some((_, value)) = found {
-                    return self.find(value, *inner, rest, &format!("the material \"{name}\""));
+                    return self.find(value, *inner, rest, &format!("the {what} \"{name}\""));
                 }
                 let keys: Vec<String> = item.fields().map(|(key, _)| key.text().into_owned()).collect();
                 let words: Vec<&str> = keys.iter().map(String::as_str).collect();
-                let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no material \"{name}\""));
+                let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no {what} \"{name}\""));
                 fault.expected = match words.len() {
-                    0 => "nothing: `materials` is empty".to_owned(),
+                    0 => format!("nothing: `{group}` is empty"),
                     1..=8 => format!("one of {}", suggest::list(&words)),
-                    count => format!("one of the {count} names in `materials`"),
+                    count => format!("one of the {count} names in `{group}`"),
                 };
                 fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
                 Err(fault)

@@ -83,7 +83,8 @@ Scene(
 )
 ```
 
-- `count` up to a million, `vars` reckoned anew each time, `Repeat`s within each other up to eight deep.
+- `count` up to a million, `vars` reckoned anew each time, `Repeat`s within each other up to eight deep. Names within hide those around.
+- With a count of 0 its items are not read. `--set` reaches nothing within; it sets the `vars` that it goes by.
 - Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every machine.
 
 ## In an editor

@@ -92,7 +92,7 @@ functions! {
         }
     };
     "len" "len(list)" |a| match a {
-        [Value::List(items)] => Some(Value::Number(items.len() as f64)),
+        [Value::List(list)] => Some(Value::Number(list.items().len() as f64)),
         [v @ (Value::Pair(_) | Value::Triple(_))] => Some(Value::Number(v.numbers().len() as f64)),
         _ => None,
     };

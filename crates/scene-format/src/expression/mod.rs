@@ -8,7 +8,7 @@ mod parse;
 mod value;
 
 pub(crate) use parse::evaluate;
-pub(crate) use value::Value;
+pub(crate) use value::{List, MOST_LISTS, Value};
 
 use crate::codes::Code;
 use std::ops::Range;

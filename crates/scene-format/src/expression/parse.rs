@@ -161,9 +161,10 @@ impl Parser<'_, '_> {
                 _ => a != b,
             }));
         }
+        let lists = matches!((&a, &b), (Value::List(_), _) | (_, Value::List(_)));
         match sign {
-            "==" => Ok(Value::Bool(a == b)),
-            "!=" => Ok(Value::Bool(a != b)),
+            "==" if !lists => Ok(Value::Bool(a == b)),
+            "!=" if !lists => Ok(Value::Bool(a != b)),
             _ => self.result(at, &format!("`{sign}`"), None, &[&a, &b]),
         }
     }
@@ -256,7 +257,7 @@ impl Parser<'_, '_> {
     /// The item of a list or vector.
     fn item(&self, value: &Value, index: &Value, at: Range<usize>) -> Result<Value, Failure> {
         let count = match value {
-            Value::List(items) => items.len(),
+            Value::List(list) => list.items().len(),
             Value::Pair(_) | Value::Triple(_) => value.numbers().len(),
             _ => {
                 let message = format!("{} has no items", value.noun());
@@ -268,7 +269,7 @@ impl Parser<'_, '_> {
             _ => None,
         };
         let found = found.and_then(|k| match value {
-            Value::List(items) => items.get(k).cloned(),
+            Value::List(list) => list.items().get(k).cloned(),
             _ => value.numbers().get(k).copied().map(Value::Number),
         });
         found.ok_or_else(|| {

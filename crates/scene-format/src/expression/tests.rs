@@ -5,7 +5,8 @@ fn value(text: &str) -> Value {
     let mut names = |name: &str| match name {
         "r" => Named::Value(Value::Number(3.0)),
         "p" => Named::Value(Value::Triple([1.0, 2.0, 3.0])),
-        "list" => Named::Value(Value::List(vec![Value::Number(7.0), Value::Triple([4.0, 5.0, 6.0])])),
+        "list" => List::new(vec![Value::Number(7.0), Value::Triple([4.0, 5.0, 6.0])])
+            .map_or(Named::Failed, |list| Named::Value(Value::List(list))),
         _ => Named::Unknown(vec!["r".to_owned()]),
     };
     evaluate(text, &mut names).unwrap_or_else(|fault| panic!("{text}: {fault:?}"))

@@ -1,5 +1,7 @@
 //! Values of expressions.
 
+use std::sync::Arc;
+
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
@@ -7,7 +9,38 @@ pub(crate) enum Value {
     Bool(bool),
     Pair([f64; 2]),
     Triple([f64; 3]),
-    List(Vec<Value>),
+    List(List),
+}
+
+/// A list. Copies share its items, so that lists of lists take no more memory than they are written with.
+#[derive(Clone, Debug)]
+pub(crate) struct List {
+    items: Arc<[Value]>,
+    /// Lists within it, one in the other.
+    depth: u32,
+}
+
+/// Lists within each other, at most.
+pub(crate) const MOST_LISTS: u32 = 16;
+
+impl List {
+    /// `None`: too many within each other.
+    pub fn new(items: Vec<Value>) -> Option<List> {
+        let depth = items.iter().map(|item| if let Value::List(list) = item { list.depth + 1 } else { 0 }).max();
+        let depth = depth.unwrap_or(0);
+        (depth < MOST_LISTS).then(|| List { items: items.into(), depth })
+    }
+
+    pub fn items(&self) -> &[Value] {
+        &self.items
+    }
+}
+
+/// Lists are the same if they are one list: to go through shared ones would have no end.
+impl PartialEq for List {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.items, &other.items)
+    }
 }
 
 impl Value {
@@ -63,7 +96,8 @@ impl Value {
     /// Whether all of its numbers are finite.
     pub fn is_finite(&self) -> bool {
         match self {
-            Value::List(items) => items.iter().all(Value::is_finite),
+            // Its items were looked at when it was made.
+            Value::List(_) => true,
             _ => self.numbers().iter().all(|x| x.is_finite()),
         }
     }

@@ -138,7 +138,7 @@ impl Reader<'_> {
             return Some(name);
         }
         let message = format!("`{}` cannot stand in an expression", super::shortened(&name));
-        let expected = "a name of letters, digits and `_` that is no function";
+        let expected = "a name of letters, digits and `_` without a meaning of its own";
         self.report(Diagnostic::error(codes::BAD_VAR_NAME, item.span(), message).expected(expected));
         None
     }

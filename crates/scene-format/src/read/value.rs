@@ -180,6 +180,9 @@ impl Words for u32 {
             let mut fault =
                 Diagnostic::error(codes::NOT_WHOLE, item.span(), format!("{} must be a whole number", plain(at.noun)))
                     .expected(expected_for(at, item));
+            if item.kind() == Kind::Text {
+                fault.hint = format!("the expression is {value}");
+            }
             if value.fract() == 0.0 && at.rule.range.contains(value) {
                 fault.hint = format!("write {value}");
                 fault.edit = Some(Edit { span: item.span(), replacement: format!("{value}") });

@@ -3,7 +3,7 @@
 use super::{Reader, Step, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expression::{self, Named, Value};
+use crate::expression::{self, List, MOST_LISTS, Named, Value};
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::suggest;
@@ -11,6 +11,9 @@ use crate::tree::{Item, Kind};
 use crate::words::Words;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// Vars that are reckoned for each other, at most.
+const MOST_OPEN: usize = 200;
 
 /// The field `vars`: its values stay with the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -45,6 +48,10 @@ pub(super) struct Table {
     by_name: BTreeMap<Arc<str>, usize>,
     /// Where those of each repetition begin.
     frames: Vec<usize>,
+    /// So many are being reckoned, each for the one before.
+    open: usize,
+    /// That they were too many was told.
+    waits_too_long: bool,
     /// Some could not be read: names may be missing.
     damaged: bool,
 }
@@ -133,7 +140,7 @@ impl Reader<'_> {
                 self.path.push(Step::Key(name.clone().into_owned()));
                 self.report(
                     Diagnostic::error(codes::BAD_VAR_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
-                        .expected("a name of letters, digits and `_` that is no function"),
+                        .expected("a name of letters, digits and `_` without a meaning of its own"),
                 );
                 self.path.pop();
                 continue;
@@ -168,8 +175,20 @@ impl Reader<'_> {
     /// The value of a name, reckoned when it is first asked for. `near`: any item of the tree.
     fn var(&mut self, k: usize, near: Item<'_, '_>) -> State {
         if let State::NotYet = self.vars.list[k].state {
+            if self.vars.open >= MOST_OPEN {
+                if !std::mem::replace(&mut self.vars.waits_too_long, true) {
+                    let span = self.vars.list[k].span;
+                    let message = format!("more than {MOST_OPEN} vars wait for each other");
+                    let fault = Diagnostic::error(codes::TOO_MUCH, span, message).expected("fewer");
+                    self.report(fault.hint("write those first that others need"));
+                }
+                self.vars.list[k].state = State::Failed;
+                return State::Failed;
+            }
+            self.vars.open += 1;
             self.vars.list[k].state = State::Open;
             let value = near.other(self.vars.list[k].slot).and_then(|item| self.value(item));
+            self.vars.open -= 1;
             // A circle has been told where it closes.
             if let State::Open = self.vars.list[k].state {
                 self.vars.list[k].state = value.map_or(State::Failed, State::Done);
@@ -211,7 +230,15 @@ impl Reader<'_> {
                     return None;
                 }
                 let vector = numbers.filter(|_| is_vector).and_then(|numbers| Value::of(&numbers));
-                Some(vector.unwrap_or(Value::List(items)))
+                if vector.is_some() {
+                    return vector;
+                }
+                let list = List::new(items);
+                if list.is_none() {
+                    let message = format!("lists stand more than {MOST_LISTS} deep");
+                    self.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
+                }
+                list.map(Value::List)
             }
             _ => self.wrong_kind(item, "the value of a var", expected(), None),
         }
