@@ -433,7 +433,8 @@ codes! {
     /// sixteen lists within each other, or more than two hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
 
-    /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
+    /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to
+    /// `lights`, an object with an `Emissive` material, or a `background`.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])

@@ -69,8 +69,8 @@ fn material(random: &mut Random) -> Material {
         0 => Material::Diffuse { albedo: albedo(random) },
         4 => {
             let color = share(random).map(|channel| channel * 1e3);
-            let emission = if random.below(2) == 0 { Emission::Radiance(color) } else { Emission::Power(color) };
-            Material::Emissive(Box::new(Emissive { emission: emission.into(), two_sided: random.below(2) == 0 }))
+            let amount = if random.below(2) == 0 { Amount::Radiance(color) } else { Amount::Power(color) };
+            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided: random.below(2) == 0 }))
         }
         1 => Material::Mirror { reflectance: share(random).into() },
         2 => Material::Transparent {

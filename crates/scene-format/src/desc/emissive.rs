@@ -1,6 +1,6 @@
 //! Surfaces that shine.
 
-use super::{Color, Emission};
+use super::Color;
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -8,11 +8,20 @@ use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Words, scene_struct};
 
+/// How much light a surface gives, per channel.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Amount {
+    /// Radiance in W/(sr m^2).
+    Radiance(Color),
+    /// Power of each copy in W: L = P / (pi A).
+    Power(Color),
+}
+
 /// A surface that shines and reflects nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emissive {
     /// How much light.
-    pub emission: Spanned<Emission>,
+    pub amount: Spanned<Amount>,
     /// Whether it shines to both sides, not only outwards.
     pub two_sided: bool,
 }
@@ -35,20 +44,20 @@ impl Words for Emissive {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let words = EmissiveWords::read(reader, item, at)?;
-        let emission = match (words.radiance, words.power) {
-            (Some(color), _) => Spanned { value: Emission::Radiance(color.value), span: color.span },
-            (_, Some(color)) => Spanned { value: Emission::Power(color.value), span: color.span },
+        let amount = match (words.radiance, words.power) {
+            (Some(color), _) => Spanned { value: Amount::Radiance(color.value), span: color.span },
+            (_, Some(color)) => Spanned { value: Amount::Power(color.value), span: color.span },
             // None was written, or what was written could not be read: reported.
             _ => return None,
         };
-        Some(Emissive { emission, two_sided: words.two_sided })
+        Some(Emissive { amount, two_sided: words.two_sided })
     }
 
     fn form(&self, all: bool) -> Form {
         let mut words = EmissiveWords { radiance: None, power: None, two_sided: self.two_sided };
-        match self.emission.value {
-            Emission::Power(color) => words.power = Some(color.into()),
-            Emission::Radiance(color) | Emission::Intensity(color) => words.radiance = Some(color.into()),
+        match self.amount.value {
+            Amount::Power(color) => words.power = Some(color.into()),
+            Amount::Radiance(color) => words.radiance = Some(color.into()),
         }
         let mut form = words.form(all);
         // Of the amounts the one that is not written has no default to show: only one may be there.

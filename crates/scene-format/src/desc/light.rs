@@ -27,14 +27,14 @@ pub struct SphereLight {
     pub emission: Spanned<Emission>,
 }
 
-/// How much light something gives, per channel.
+/// How much light a luminous sphere gives, per channel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Emission {
-    /// Radiant intensity in W/sr, of spheres: L = I / (pi r^2).
+    /// Radiant intensity in W/sr: L = I / (pi r^2).
     Intensity(Color),
     /// Radiance in W/(sr m^2).
     Radiance(Color),
-    /// Power in W: L = P / (pi A), A the area; of spheres 4 pi r^2.
+    /// Power in W: L = P / (4 pi^2 r^2).
     Power(Color),
 }
 

@@ -19,7 +19,7 @@ mod view;
 
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
-pub use emissive::Emissive;
+pub use emissive::{Amount, Emissive};
 pub use light::{Emission, Light, SphereLight};
 pub use material::{Material, MaterialRef, NamedMaterial};
 pub use object::Object;

@@ -37,11 +37,7 @@ impl Reader<'_> {
         names: [&str; N],
     ) -> Option<[f64; N]> {
         if let Some(value) = self.expression(item) {
-            let value = value?;
-            return match value.numbers().try_into() {
-                Ok(numbers) => self.all_in_range(numbers, item, at, names),
-                Err(_) => self.wrong_value(&value, item, at),
-            };
+            return self.numbers_of(&value?, item, at, names);
         }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
@@ -91,14 +87,15 @@ impl Reader<'_> {
         self.report(fault);
     }
 
-    /// Numbers of an expression, each in the field's range.
-    fn all_in_range<const N: usize>(
+    /// So many numbers that an expression has come to, each in the field's range.
+    fn numbers_of<const N: usize>(
         &mut self,
-        numbers: [f64; N],
+        value: &Value,
         item: Item<'_, '_>,
         at: &'static FieldDef,
         names: [&str; N],
     ) -> Option<[f64; N]> {
+        let Ok(numbers) = <[f64; N]>::try_from(value.numbers()) else { return self.wrong_value(value, item, at) };
         for (number, name) in numbers.into_iter().zip(names) {
             self.check(number, item, at, name)?;
         }
@@ -113,11 +110,9 @@ impl Reader<'_> {
         names: [&str; N],
     ) -> Option<[f64; N]> {
         if let Some(value) = self.expression(item) {
-            let value = value?;
-            return match (&value, value.numbers().try_into()) {
-                (Value::Number(number), _) => self.all_in_range([*number; N], item, at, [""; N]),
-                (_, Ok(numbers)) => self.all_in_range(numbers, item, at, names),
-                (_, Err(_)) => self.wrong_value(&value, item, at),
+            return match value? {
+                Value::Number(number) => Some([self.check(number, item, at, "")?; N]),
+                value => self.numbers_of(&value, item, at, names),
             };
         }
         if let Kind::List | Kind::Tuple = item.kind() {

@@ -13,7 +13,7 @@ use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{Emission, Emissive, Instances, MaterialRef, Placements, Shading};
+use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Placements, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
@@ -214,9 +214,9 @@ pub fn radiances(loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Vec<V
     let of_object = |(object, emissive): (usize, &Option<Emissive>)| {
         let (Some(emissive), Some(file)) = (emissive, loaded.file_of_object[object]) else { return Vec::new() };
         let data = &loaded.files[file];
-        let radiance = |map: &DAffine3| match emissive.emission.value {
-            Emission::Radiance(radiance) | Emission::Intensity(radiance) => radiance,
-            Emission::Power(power) => {
+        let radiance = |map: &DAffine3| match emissive.amount.value {
+            Amount::Radiance(radiance) => radiance,
+            Amount::Power(power) => {
                 let sides = if emissive.two_sided { 2.0 } else { 1.0 };
                 let area = std::f64::consts::PI * sides * area(data, map);
                 power.map(|p| if area > 0.0 { p / area } else { 0.0 })

@@ -3,7 +3,7 @@
 use scene_format::Diagnostic;
 use scene_format::SceneDesc;
 use scene_format::codes;
-use scene_format::desc::{self, Emission, Emissive, Object, Sphere, SphereLight};
+use scene_format::desc::{self, Amount, Emission, Emissive, Object, Sphere, SphereLight};
 use scene_format::diagnostic::{Span, Spanned};
 
 /// L = I / (pi r^2) = P / (4 pi^2 r^2).
@@ -21,9 +21,9 @@ pub(super) fn of_sphere(sphere: &Sphere, emissive: &Emissive) -> [f64; 3] {
     let pi = std::f64::consts::PI;
     let sides = if emissive.two_sided { 2.0 } else { 1.0 };
     let area = 4.0 * pi * sphere.radius.value * sphere.radius.value * sides;
-    match emissive.emission.value {
-        Emission::Radiance(l) | Emission::Intensity(l) => l,
-        Emission::Power(p) => p.map(|x| x / (pi * area)),
+    match emissive.amount.value {
+        Amount::Radiance(l) => l,
+        Amount::Power(p) => p.map(|x| x / (pi * area)),
     }
 }
 
@@ -41,7 +41,7 @@ pub(super) fn of_objects(desc: &SceneDesc, spheres: &[Option<Emissive>], meshes:
     let of_object = |object: &Spanned<Object>| match &object.value {
         Object::Sphere(sphere) => {
             let emissive = spheres.next()?.as_ref()?;
-            Some(Shining { radiances: [of_sphere(sphere, emissive); 2], span: emissive.emission.span })
+            Some(Shining { radiances: [of_sphere(sphere, emissive); 2], span: emissive.amount.span })
         }
         _ => {
             let copies = meshes.next()?;

@@ -144,12 +144,14 @@ impl Emitter {
 
 impl LightTable {
     /// Numbers of a flat light: corner, edges, unit normal, radiance, area, how far off its plane rays end, and bits:
-    /// [`LightTable::TRIANGLE`], [`LightTable::TWO_SIDED`].
+    /// [`LightTable::TRIANGLE`], [`LightTable::TWO_SIDED`], [`LightTable::PLANE`].
     pub const FLAT: usize = 18;
     /// Bit of a triangle.
     pub const TRIANGLE: u32 = 1;
     /// Bit of a light with two sides.
     pub const TWO_SIDED: u32 = 2;
+    /// Bit of a light that is no sphere.
+    pub const PLANE: u32 = 4;
     /// Numbers of a node.
     pub const STRIDE: u32 = 12;
     /// Where a node holds what it is: see [`LightTable::tree`].
@@ -224,7 +226,7 @@ impl LightTable {
         let corners = [flat.corner, flat.corner + a, flat.corner + b, flat.corner + a + b];
         let magnitude = corners.iter().map(|c| c.abs().element_sum()).fold(0.0, f64::max);
         let offset = magnitude * 7.0 * f64::from(f32::EPSILON);
-        (offset as f32, triangle | if flat.two_sided { Self::TWO_SIDED } else { 0 })
+        (offset as f32, Self::PLANE | triangle | if flat.two_sided { Self::TWO_SIDED } else { 0 })
     }
 }
 

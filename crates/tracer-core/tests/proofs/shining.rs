@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Emission, Emissive, Light, Material, MaterialRef, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
+    Amount, Emissive, Light, Material, MaterialRef, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
     SphereLight, Transform, Vec3,
 };
 
@@ -14,11 +14,11 @@ use scene_format::desc::{
 const GUIDED: usize = 5;
 
 fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
-    Material::Emissive(Box::new(Emissive { emission: Emission::Radiance(radiance).into(), two_sided }))
+    Material::Emissive(Box::new(Emissive { amount: Amount::Radiance(radiance).into(), two_sided }))
 }
 
 fn powered(power: [f64; 3], two_sided: bool) -> Material {
-    Material::Emissive(Box::new(Emissive { emission: Emission::Power(power).into(), two_sided }))
+    Material::Emissive(Box::new(Emissive { amount: Amount::Power(power).into(), two_sided }))
 }
 
 fn inline(material: Material) -> MaterialRef {
@@ -162,7 +162,7 @@ fn a_sphere_that_shines_is_a_sphere_light() {
 fn light_under_a_square_lamp() {
     for (a, h) in [(0.5, 1.0), (2.0, 1.0), (0.05, 1.0), (0.5, 0.05)] {
         let lamp = rectangle([0.0, h, 0.0], [0.0, -1.0, 0.0], [2.0 * a; 2], shining([1.0; 3], false));
-        let ground = rectangle([0.0; 3], [0.0, 1.0, 0.0], [100.0; 2], diffuse([0.5; 3]));
+        let ground = rectangle([0.0; 3], [0.0, 1.0, 0.0], [4.0; 2], diffuse([0.5; 3]));
         // From within the gap, down at a spot that is small beside both.
         let mut desc = scene(8, Vec::new(), vec![ground, lamp]).bounces(0);
         desc = desc.camera([0.4 * a, 0.5 * h, 0.0], [0.0; 3], 0.01);
@@ -171,7 +171,9 @@ fn light_under_a_square_lamp() {
         let s = (a * a + h * h).sqrt();
         let expected = 0.5 / std::f64::consts::PI * 4.0 * a / s * (a / s).atan();
         let error = (0..64).map(|k| picture.variance(k % 8, k / 8)).sum::<f64>().sqrt() / 64.0;
-        assert!((mean - expected).abs() < 4.0 * error + 2e-4 * expected, "{a} {h}: {mean} +- {error}, not {expected}");
+        // Four cases: 4.5 standard errors are left by chance once in 40,000 runs. Rays start off the ground by what single precision
+        // does not tell of a square 4 wide, 1e-6 of it, and light falls with the square of the distance at most.
+        assert!((mean - expected).abs() < 4.5 * error + 1e-5 * expected, "{a} {h}: {mean} +- {error}, not {expected}");
     }
 }
 
@@ -189,11 +191,6 @@ fn a_square_of_a_file_shines_like_the_word() {
     };
     let of_file = mesh(&file, shining([3.0; 3], false), Shading::Flat, steps());
     let samples = Samples { engine: 512, reference: 512 };
-    assert_same_picture("a square's file", &view(vec![floor(), of_file.clone()]), samples);
-    let mean = |object: Object| {
-        let picture = film(&compiled(&view(vec![floor(), object])), 256, 3);
-        (0..1024).map(|k| picture.radiance(k % 32, k / 32)[1]).sum::<f64>() / 1024.0
-    };
-    let (a, b) = (mean(word), mean(of_file));
-    assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
+    assert_same_picture("a square's file", &view(vec![floor(), of_file]), samples);
+    assert_same_picture("a square's word", &view(vec![floor(), word]), samples);
 }

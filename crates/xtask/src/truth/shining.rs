@@ -4,7 +4,7 @@ use super::draw::{magnitude, once_in};
 use super::meshes::{Point, Shape};
 use super::world::{World, inline};
 use scene_format::desc::{
-    Emission, Emissive, Light, Material, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+    Amount, Emission, Emissive, Light, Material, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -60,14 +60,14 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         };
         let (center, radius) = (lamp.center.value, lamp.radius.value);
         let two_sided = once_in(random, 2);
-        let amount = magnitude(random, 0.5, 2.0);
-        let emission = if once_in(random, 3) {
+        let strength = magnitude(random, 0.5, 2.0);
+        let amount = if once_in(random, 3) {
             let area = 4.0 * std::f64::consts::PI * radius * radius;
-            Emission::Power(color.map(|c| c * amount * std::f64::consts::PI * area))
+            Amount::Power(color.map(|c| c * strength * std::f64::consts::PI * area))
         } else {
-            Emission::Radiance(color.map(|c| c * amount))
+            Amount::Radiance(color.map(|c| c * strength))
         };
-        let material = Material::Emissive(Box::new(Emissive { emission: emission.into(), two_sided }));
+        let material = Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided }));
         match random.below(5) {
             0 | 1 => rectangle(world, center, radius, material, random),
             2 => cuboid(world, center, radius, material, random),

@@ -24,7 +24,7 @@ pub mod aim {
 pub struct PairTable {
     /// Middle of the light, of flat ones a corner.
     pub light_center: [Vec<f32>; 3],
-    /// Its radius; 0: it is flat.
+    /// Its radius; not read of flat ones.
     pub light_radius: Vec<f32>,
     /// Its primitive; [`NONE`] of flat ones, from which rays start off their plane.
     pub light_primitive: Vec<u32>,
@@ -258,7 +258,7 @@ impl PairTable {
             Light::Parallelogram(flat) => (offset, flags) = LightTable::offset_and_flags(flat, 0),
             Light::Triangle(flat) => (offset, flags) = LightTable::offset_and_flags(flat, LightTable::TRIANGLE),
         }
-        self.light_radius.push(if light.flat().is_some() { 0.0 } else { radius as f32 });
+        self.light_radius.push(radius as f32);
         self.light_primitive.push(primitive);
         self.offset.push(offset);
         self.flags.push(flags);

@@ -33,7 +33,7 @@ use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::hash3;
 use crate::sampling::warp;
-use crate::scene::{Camera, NONE, Scene};
+use crate::scene::{Camera, LightTable, NONE, Scene};
 
 /// The camera, as light paths see it.
 pub struct Film<F: Lanes> {
@@ -237,7 +237,8 @@ pub fn density_ratio<F: Lanes>(
     let radius = F::gather(&pairs.light_radius, pair);
     let mut outward = s.p.sub(center).scale(one / radius);
     if !pairs.edge[0].is_empty() {
-        outward = V3::select(radius.le(zero), s.ng, outward);
+        let plane = F::U::gather(&pairs.flags, pair) & F::U::splat(LightTable::PLANE);
+        outward = V3::select(plane.eq(nothing), outward, s.ng);
     }
     let cos = outward.dot(direction).abs();
     let cone = cone_to(plan, pair, s.p);

@@ -65,7 +65,7 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
         let mut normal = V3::select(inside, outward.neg(), outward);
         let flags = F::U::gather(&pairs.flags, pair);
         let two_sided = !(flags & F::U::splat(LightTable::TWO_SIDED)).eq(F::U::splat(0));
-        let flat = if pairs.edge[0].is_empty() { F::M::from_bits(0) } else { radius.le(zero) };
+        let flat = !(flags & F::U::splat(LightTable::PLANE)).eq(F::U::splat(0));
         if flat.any() {
             let fold = !(flags & F::U::splat(LightTable::TRIANGLE)).eq(F::U::splat(0)) & one.lt(u + v);
             let (u, v) = (F::select(fold, one - u, u), F::select(fold, one - v, v));
