@@ -9,7 +9,8 @@ mod file;
 mod pack;
 mod state;
 
-pub(crate) use cells::{Cells, Overlap};
+use crate::sampling::blocks::TILE;
+pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
@@ -22,7 +23,7 @@ use exact::{LARGEST, Squares, Sums, fixed};
 use std::ops::Range;
 
 /// Pixels along a tile's side; see `engine::batch`.
-const TILE: u32 = 16;
+
 const PIXELS: usize = 256;
 
 /// A rectangle of pixels, from the upper left corner.
@@ -108,17 +109,13 @@ impl Tile {
         self.taken = Some(Box::new(Taken::zeroed()));
     }
 
-    /// Scales those samples of an item whose largest channel is above the limit down to it, and keeps what that takes; samples and pixels
+    /// Scales those samples of a block whose largest channel is above the limit down to it, and keeps what that takes; samples and pixels
     /// are those of [`Tile::add`], which comes after. Whole numbers are subtracted, so that what is taken and what is left sum to
     /// what there was, exactly. Samples that will be dropped stay as they are.
-    pub(crate) fn clamp(
-        &mut self,
-        limit: f64,
-        mut samples: [&mut [f32]; 3],
-        pixels: impl Iterator<Item = (usize, usize)>,
-    ) {
+    pub(crate) fn clamp(&mut self, limit: f64, mut samples: [&mut [f32]; 3], pixels: &[[u8; 2]]) {
         let Some(taken) = &mut self.taken else { return };
-        for (k, pixel) in pixels {
+        for &[k, pixel] in pixels {
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
             let sample = samples.each_ref().map(|channel| channel[k]);
             let largest = sample[0].max(sample[1]).max(sample[2]);
             if f64::from(largest) <= limit || !counts(sample) {
@@ -136,16 +133,12 @@ impl Tile {
         }
     }
 
-    /// Adds samples of an item, those numbered by the first of each of `pixels` to the pixels numbered by the second; gives how many
+    /// Adds samples of a block, those numbered by the first of each of `pixels` to the pixels numbered by the second; gives how many
     /// samples were left out. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
-    pub(crate) fn add(
-        &mut self,
-        [red, green, blue]: [&[f32]; 3],
-        pixels: impl Iterator<Item = (usize, usize)>,
-    ) -> LeftOut {
+    pub(crate) fn add(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[[u8; 2]]) -> LeftOut {
         let mut left_out = LeftOut::default();
-        // Not a loop: nested iterators are quicker from within.
-        pixels.for_each(|(k, pixel)| {
+        for &[k, pixel] in pixels {
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
             let (r, g, b) = (red[k], green[k], blue[k]);
             let sample = [r, g, b];
             self.samples[pixel] += 1;
@@ -153,11 +146,11 @@ impl Tile {
                 let finite = sample.iter().all(|x| x.is_finite());
                 left_out.beyond += u64::from(finite);
                 left_out.dropped += u64::from(!finite);
-                return;
+                continue;
             }
             self.sums.add(pixel, [fixed(r), fixed(g), fixed(b)]);
             self.squares.add(pixel, luminance(sample.map(f64::from)));
-        });
+        }
         left_out
     }
 

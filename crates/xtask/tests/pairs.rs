@@ -6,7 +6,7 @@
 use xtask::truth::pairs::{all, level};
 
 /// Pictures of each side. What a pair notices with these is printed with it.
-const PICTURES: usize = 10;
+const PICTURES: usize = 12;
 
 /// Judges the pairs whose names begin so, side by side.
 fn hold(beginning: &str) {

@@ -1,7 +1,7 @@
 //! The state of one batch: structures of arrays, allocated once per thread, small enough to stay in the L2 cache.
 //!
-//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 16x16 pixels at one sample index: every other pixel of every other
-//! row, 64 of them. Where the blocks lie, [`super::grid`] says. Slot s is pixel s % 64 (in Z-order) of item s / 64; slots whose pixel lies
+//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 256 pixels at one sample index: every other one of every other
+//! row, 64 of them. Where they lie, [`crate::sampling::blocks`] says. Slot s is pixel s % 64 (in Z-order) of item s / 64; slots whose pixel lies
 //! outside of the picture have no path. A slot's radiance is summed in the order of its path's vertices, whatever the schedule.
 
 use super::glints::WEIGHT;
@@ -9,19 +9,13 @@ use super::stages::shade::BRANCHING;
 use super::statistics::Watch;
 use crate::lanes::{Bits, Lanes};
 use crate::math::V3;
-use crate::sampling::sampler::z_order;
+use crate::sampling::blocks::{ITEM_PIXELS, Item, Pixels};
 use crate::scene::NONE;
 
-/// Pixels along the side of a block, and of a tile of sampler and film.
-pub const TILE: u32 = 16;
-/// Items that make a block at one sample index.
-pub const QUARTERS: u32 = 4;
-/// Pixels in an item.
-pub const BLOCK_PIXELS: usize = 64;
 /// Items in a batch. 1024 paths: fewer leave the vectors of deep bounces empty, more leave the L2 cache.
 pub const ITEMS: usize = 16;
 /// Paths in a batch.
-pub const PATHS: usize = ITEMS * BLOCK_PIXELS;
+pub const PATHS: usize = ITEMS * ITEM_PIXELS;
 /// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed wherever they may
 /// (`stages::aim`), and behind every array for one vector more: a compressing store writes whole registers. A path's own ray has one
 /// more at each of its first vertices, at glass or at a rough surface, and so have those from glass, and aimed ones after a mirror: seven.
@@ -47,53 +41,6 @@ fn words() -> Column<u32> {
 }
 fn columns() -> Columns {
     [floats(), floats(), floats()]
-}
-
-/// One item. Its pixels lie two apart: what they share makes their errors alike, and pixels that touch would show it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Item {
-    /// First column of its block; below zero where the block begins outside of the picture.
-    pub x: i32,
-    /// First row of its block.
-    pub y: i32,
-    /// Which quarter of the block.
-    pub quarter: u32,
-    /// Sample index; while glint chains are traced, their index ([`super::glints`]).
-    pub sample: u32,
-}
-
-impl Item {
-    /// A quarter of the block that begins at this pixel.
-    pub fn new([x, y]: [i32; 2], quarter: u32, sample: u32) -> Self {
-        Item { x, y, quarter, sample }
-    }
-
-    /// Its first pixel; pixel k lies twice the Z-order position of k from there.
-    #[inline(always)]
-    pub fn first_pixel(&self) -> [i32; 2] {
-        [self.x + (self.quarter & 1) as i32, self.y + (self.quarter >> 1) as i32]
-    }
-
-    /// Z-order number of its first pixel. Coordinates below zero wrap, and come right where a pixel's offset is added (`stages::points`).
-    pub fn z(&self) -> u32 {
-        let [x, y] = self.first_pixel().map(|x| x as u32 & 0xffff);
-        z_order(x, y)
-    }
-
-    /// The tiles of the sampler that its block touches, by the lowest bits of their columns (times two) and rows; `None` left of and above
-    /// the picture. They are numbered in Z-order.
-    pub fn tiles(&self) -> [Option<u32>; 4] {
-        let mut tiles = [None; 4];
-        let last = TILE as i32 - 1;
-        for row in [self.y, self.y + last].map(|y| y.div_euclid(TILE as i32)) {
-            for column in [self.x, self.x + last].map(|x| x.div_euclid(TILE as i32)) {
-                if column >= 0 && row >= 0 {
-                    tiles[((column & 1) << 1 | row & 1) as usize] = Some(z_order(column as u32, row as u32));
-                }
-            }
-        }
-        tiles
-    }
 }
 
 /// What the word [`Paths::slot`] holds beside the slot.
@@ -366,7 +313,7 @@ pub struct Suffixes {
 pub struct Group {
     /// First member.
     pub first: u32,
-    /// Number of members, at most [`BLOCK_PIXELS`].
+    /// Number of members, at most [`ITEM_PIXELS`].
     pub len: u32,
 }
 
@@ -421,8 +368,8 @@ impl Counters {
 pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
-    /// Z-order number of each item's first pixel.
-    pub item_z: [u32; ITEMS],
+    /// The pixels of the slots.
+    pub pixels: Pixels,
     /// Items with glint chains ([`super::glints`]), a bit each.
     pub glints: u32,
     /// Items whose pixels share, a bit each, where any do.
@@ -472,7 +419,7 @@ impl Batch {
     pub fn new() -> Self {
         Batch {
             items: Vec::with_capacity(ITEMS),
-            item_z: [0; ITEMS],
+            pixels: Pixels::new(PATHS),
             glints: 0,
             shares: u32::MAX,
             item_shares: [1; ITEMS],
@@ -525,12 +472,12 @@ impl Batch {
 
     /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is [`WEIGHT`].
     pub fn start(&mut self) {
-        for (k, item) in self.items.iter().enumerate() {
-            self.item_z[k] = item.z();
+        for k in 0..self.items.len() {
             self.item_shares[k] = self.shares >> k & 1;
             self.glint_weight[k] = if self.glints >> k & 1 == 1 { WEIGHT } else { 1.0 };
         }
-        let slots = self.items.len() * BLOCK_PIXELS;
+        self.pixels.find(&self.items);
+        let slots = self.items.len() * ITEM_PIXELS;
         for channel in &mut self.radiance {
             channel[..slots].fill(0.0);
             channel[PATHS..PATHS + slots].fill(0.0);

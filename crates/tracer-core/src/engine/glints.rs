@@ -6,12 +6,13 @@
 //! mean over its own and theirs. Where, a pilot tells, whose random choices are its own, so that weights do not depend on what they weigh:
 //! unbiased. It depends on scene, seed and place: the same for any crop and any number of samples.
 
-use super::batch::{BLOCK_PIXELS, Batch, Counters, ITEMS, Item, TILE, path};
+use super::batch::{Batch, Counters, ITEMS, path};
 use super::kernels::Kernels;
 use super::statistics::Stage;
 use super::trace::{Pass, Task, closest};
 use super::{Worker, each};
 use crate::film::Crop;
+use crate::sampling::blocks::{Block, ITEM_PIXELS, Item, TILE};
 use crate::sampling::sampler::hash3;
 use crate::scene::{Material, Scene};
 use std::sync::Mutex;
@@ -31,12 +32,10 @@ pub struct Glints {
 }
 
 impl Glints {
-    /// Whether the pixels of the block that begins here have chains: where any of the tiles that it touches has. All pixels of a block are
-    /// traced alike, and the grid of blocks moves, whereas tiles do not: no border shows.
-    pub fn in_block(&self, [x, y]: [i32; 2]) -> bool {
-        let side = TILE as i32;
-        let tiles = |first: i32| first.div_euclid(side)..=(first + side - 1).div_euclid(side);
-        tiles(y).any(|row| tiles(x).any(|column| self.of_tile(column, row)))
+    /// Whether the pixels of a block have chains: where any of the tiles that it touches has. All pixels of a block are traced alike, and
+    /// blocks are cut anew for each sample index, whereas tiles are not: no border shows.
+    pub fn in_block(&self, block: &Block) -> bool {
+        block.tiles(1).any(|row| block.tiles(0).any(|column| self.of_tile(column, row)))
     }
 
     fn of_tile(&self, column: i32, row: i32) -> bool {
@@ -67,13 +66,14 @@ pub fn pilot(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, crop: Crop, worke
         let start = Instant::now();
         batch.items.clear();
         let tiles = (k * ITEMS..count.min((k + 1) * ITEMS)).map(|tile| tile as u32);
-        let corner = |tile: u32| [first[0] + tile % columns, first[1] + tile / columns].map(|x| (x * TILE) as i32);
-        batch.items.extend(tiles.map(|tile| Item::new(corner(tile), 0, 0)));
+        let block =
+            |tile: u32| Block::straight([first[0] + tile % columns, first[1] + tile / columns].map(|x| x as i32));
+        batch.items.extend(tiles.map(|tile| Item { block: block(tile), quarter: 0, sample: 0 }));
         batch.glints = 0;
         batch.start();
         follow(scene, kernels, pass, u32::MAX, 1, batch);
         let goes_on = &batch.paths.slot[..batch.paths.len];
-        let items = goes_on.iter().fold(0, |items, &slot| items | 1u32 << ((slot & path::SLOT) / BLOCK_PIXELS as u32));
+        let items = goes_on.iter().fold(0, |items, &slot| items | 1u32 << ((slot & path::SLOT) / ITEM_PIXELS as u32));
         batch.watch.costs.photons_since(start);
         items
     });

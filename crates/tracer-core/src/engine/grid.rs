@@ -1,14 +1,14 @@
-//! Where the blocks lie whose pixels share what they find.
+//! Which blocks there are.
 //!
-//! Pixels of an item share, so their errors are alike, and where a block of 16x16 pixels ends, so does what they have in common: were it
-//! always at the same place, the border would be seen. So the grid of blocks moves by less than a block from sample index to sample index.
-//! It does so by points of the sampler: the first 16 of them lie in all columns and all rows, the first 256 at all places. Blocks at the
-//! picture's border hold fewer pixels.
+//! Pixels of a block share, so their errors are alike, and where a block ends, so does what they have in common: were it always at the
+//! same place, the border would be seen. Blocks are cut anew for each sample index ([`crate::sampling::blocks`]), and all cuts together move by points
+//! of the sampler: the first 16 of them lie in all columns and all rows, the first 256 at all places. Blocks at the picture's border hold
+//! fewer pixels.
 
-use super::batch::TILE;
 use crate::film::Crop;
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
-use crate::sampling::sampler::{Pair, Purpose};
+use crate::sampling::blocks::{Block, Cut, TILE};
+use crate::sampling::sampler::{Pair, Purpose, hash3};
 
 /// The blocks that touch a crop. Each is rendered whole, as far as it lies in the picture, so that the crop's pixels share with the same
 /// others as in the whole picture.
@@ -19,13 +19,14 @@ pub struct Grid {
     columns: u32,
     rows: u32,
     shifts: Option<Pair>,
+    seed: u32,
 }
 
 impl Grid {
-    /// Over a crop. Where pixels share nothing the grid need not move, and cuts as few blocks as can be.
-    pub fn new(crop: Crop, seed: u32, moves: bool) -> Self {
+    /// Over a crop. Where pixels share nothing blocks are tiles.
+    pub fn new(crop: Crop, seed: u32, ragged: bool) -> Self {
         let first = [crop.x, crop.y].map(|x| (x / TILE) as i32);
-        let most = if moves { TILE - 1 } else { 0 };
+        let most = if ragged { TILE - 1 } else { 0 };
         let count = |first: i32, end: u32| (end + most).div_ceil(TILE) - first as u32;
         let is_empty = crop.width == 0 || crop.height == 0;
         Grid {
@@ -33,7 +34,8 @@ impl Grid {
             first,
             columns: if is_empty { 0 } else { count(first[0], crop.x + crop.width) },
             rows: if is_empty { 0 } else { count(first[1], crop.y + crop.height) },
-            shifts: moves.then(|| Pair::new(seed, Purpose::Grid)),
+            shifts: ragged.then(|| Pair::new(seed, Purpose::Grid)),
+            seed,
         }
     }
 
@@ -42,54 +44,64 @@ impl Grid {
         self.columns as usize * self.rows as usize
     }
 
-    /// How far the blocks begin left of and above tiles, in pixels.
-    fn shift(&self, sample: u32) -> [i32; 2] {
-        let Some(pair) = &self.shifts else { return [0; 2] };
+    /// How the picture is cut at a sample index.
+    pub fn cut(&self, sample: u32) -> Cut {
+        let Some(pair) = &self.shifts else { return Cut::Straight };
         let part = pair.sample_part(0, sample);
         let [x, y] = [part.x, part.y].map(ArrayU::<1>::splat);
         let (u, v) = pair.points::<ArrayF<1>>(ArrayU::splat(0), x, y);
-        [u, v].map(|u| {
+        let shift = [u, v].map(|u| {
             let mut shift = [0.0];
             u.store(&mut shift);
-            (shift[0] * TILE as f32) as i32
-        })
+            (shift[0] * TILE as f32) as u8
+        });
+        Cut::Ragged { salt: hash3(self.seed, sample, 0x7a66_ed01) as u32, shift }
     }
 
-    /// The first pixel of a place's block at a sample index, where the block touches the crop.
-    pub fn block(&self, place: usize, sample: u32) -> Option<[i32; 2]> {
+    /// A place's block, where it may touch the crop.
+    pub fn block(&self, place: usize, cut: Cut) -> Option<Block> {
         let at = [place as u32 % self.columns.max(1), place as u32 / self.columns.max(1)];
-        let shift = self.shift(sample);
-        let corner = [0, 1].map(|axis| (self.first[axis] + at[axis] as i32) * TILE as i32 - shift[axis]);
-        let touches = |begin: i32, first: u32, count: u32| {
-            i64::from(begin) < i64::from(first + count) && i64::from(begin) + i64::from(TILE) > i64::from(first)
-        };
+        let block = Block { tile: [0, 1].map(|axis| self.first[axis] + at[axis] as i32), cut };
         let Crop { x, y, width, height } = self.crop;
-        (touches(corner[0], x, width) && touches(corner[1], y, height)).then_some(corner)
+        let touches = |axis: usize, first: u32, count: u32| {
+            let tiles = block.tiles(axis);
+            let side = i64::from(TILE);
+            let (begin, end) = (i64::from(*tiles.start()) * side, i64::from(*tiles.end() + 1) * side);
+            begin < i64::from(first + count) && end > i64::from(first)
+        };
+        (touches(0, x, width) && touches(1, y, height)).then_some(block)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sampling::blocks::{BLOCK_PIXELS, ITEM_PIXELS, Item, Pixels, QUARTERS};
     use std::collections::BTreeSet;
+
+    /// Where the pixels of a block lie.
+    fn pixels(block: Block) -> Vec<[i32; 2]> {
+        let items: Vec<Item> = (0..QUARTERS).map(|quarter| Item { block, quarter, sample: 0 }).collect();
+        let mut pixels = Pixels::new(BLOCK_PIXELS);
+        pixels.find(&items);
+        pixels.x.iter().zip(&pixels.y).map(|(&x, &y)| [x as i32, y as i32]).collect()
+    }
 
     /// At every sample index each pixel of a crop lies in one block.
     #[test]
     fn blocks_cover_a_crop_once() {
         let crops = [[0, 0, 1, 1], [0, 0, 17, 9], [5, 31, 40, 3], [16, 16, 32, 16], [15, 17, 1, 30], [3, 3, 0, 5]];
         for [x, y, width, height] in crops {
-            for (sample, moves) in (0..64).map(|sample| (sample, true)).chain([(7, false)]) {
-                let grid = Grid::new(Crop { x, y, width, height }, 3, moves);
+            for (sample, ragged) in (0..64).map(|sample| (sample, true)).chain([(7, false)]) {
+                let grid = Grid::new(Crop { x, y, width, height }, 3, ragged);
+                let cut = grid.cut(sample);
                 let mut seen = vec![0; (width * height) as usize];
-                for [left, top] in (0..grid.len()).filter_map(|place| grid.block(place, sample)) {
-                    let mut touched = false;
-                    for (px, py) in (0..256).map(|k| (left + k % 16 - x as i32, top + k / 16 - y as i32)) {
+                for block in (0..grid.len()).filter_map(|place| grid.block(place, cut)) {
+                    for [px, py] in pixels(block).into_iter().map(|[px, py]| [px - x as i32, py - y as i32]) {
                         if (0..width as i32).contains(&px) && (0..height as i32).contains(&py) {
                             seen[(py * width as i32 + px) as usize] += 1;
-                            touched = true;
                         }
                     }
-                    assert!(touched);
                 }
                 assert!(seen.iter().all(|&n| n == 1), "{x} {y} {width} {height}, sample {sample}: {seen:?}");
             }
@@ -102,21 +114,43 @@ mod tests {
         let whole = Grid::new(Crop::whole([200, 100]), 5, true);
         let part = Grid::new(Crop { x: 37, y: 21, width: 50, height: 33 }, 5, true);
         for sample in 0..50 {
-            let blocks = |grid: &Grid| (0..grid.len()).filter_map(|k| grid.block(k, sample)).collect::<BTreeSet<_>>();
+            let blocks = |grid: &Grid| {
+                assert_eq!(grid.cut(sample), whole.cut(sample));
+                (0..grid.len()).filter_map(|k| Some(grid.block(k, grid.cut(sample))?.tile)).collect::<BTreeSet<_>>()
+            };
             assert!(!blocks(&part).is_empty() && blocks(&part).is_subset(&blocks(&whole)));
         }
     }
 
-    /// 16 samples shift the grid to every column and every row, 256 to every place, whatever the seed.
+    /// 16 samples shift all cuts to every column and every row, 256 to every place, whatever the seed.
     #[test]
     fn shifts_are_even() {
         for seed in 0..20 {
             let grid = Grid::new(Crop::whole([64, 64]), seed, true);
-            let shifts = |samples: std::ops::Range<u32>| samples.map(|sample| grid.shift(sample)).collect::<Vec<_>>();
+            let shift = |sample: u32| match grid.cut(sample) {
+                Cut::Ragged { shift, .. } => shift,
+                Cut::Straight => panic!("blocks are ragged"),
+            };
             for axis in [0, 1] {
-                assert_eq!(shifts(0..16).iter().map(|shift| shift[axis]).collect::<BTreeSet<_>>().len(), 16);
+                assert_eq!((0..16).map(|sample| shift(sample)[axis]).collect::<BTreeSet<_>>().len(), 16);
             }
-            assert_eq!(shifts(0..256).into_iter().collect::<BTreeSet<_>>().len(), 256);
+            assert_eq!((0..256).map(shift).collect::<BTreeSet<_>>().len(), 256);
+        }
+    }
+
+    /// Pixels of an item lie two apart, whatever the cuts, within two by two tiles.
+    #[test]
+    fn pixels_of_an_item_do_not_touch() {
+        let grid = Grid::new(Crop::whole([64, 64]), 1, true);
+        for sample in 0..32 {
+            let block = grid.block(6, grid.cut(sample)).expect("within the picture");
+            for (k, of_item) in pixels(block).chunks(ITEM_PIXELS).enumerate() {
+                for [x, y] in of_item {
+                    assert_eq!([(x - of_item[0][0]) % 2, (y - of_item[0][1]) % 2], [0; 2], "{sample} {k}");
+                    let tile = [x, y].map(|x| x.div_euclid(TILE as i32));
+                    assert!(block.tiles(0).contains(&tile[0]) && block.tiles(1).contains(&tile[1]));
+                }
+            }
         }
     }
 }

@@ -19,11 +19,12 @@ mod trace;
 pub use batch::Counters;
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Cells, Crop, Film, FilmState, Overlap};
+use crate::film::{Cells, Crop, Film, FilmState};
 use crate::level::Level;
+use crate::sampling::blocks::{BLOCK_PIXELS, Block, ITEM_PIXELS, Item, QUARTERS, TILE};
 use crate::sampling::sampler::hash3;
 use crate::scene::{Scene, Sharing};
-use batch::{Batch, ITEMS, Item, QUARTERS, TILE};
+use batch::{Batch, ITEMS};
 use glints::Glints;
 use grid::Grid;
 use guide::Guides;
@@ -292,10 +293,10 @@ fn share_of_blocks(
     }
 }
 
-/// Whether the pixels of a block share at a sample index: so large a share of the blocks does, by chance.
-fn shares(seed: u32, block: [i32; 2], sample: u32, share: f32) -> bool {
+/// Whether the pixels of the block of a tile share at a sample index: so large a share of the blocks does, by chance.
+fn shares(seed: u32, tile: [i32; 2], sample: u32, share: f32) -> bool {
     let salt = hash3(seed, sample, 0x05ba_5e55) as u32;
-    ((hash3(salt, block[0] as u32, block[1] as u32) >> 40) as f32) < share * (1u32 << 24) as f32
+    ((hash3(salt, tile[0] as u32, tile[1] as u32) >> 40) as f32) < share * (1u32 << 24) as f32
 }
 
 /// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
@@ -316,7 +317,8 @@ fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, work
             let (first, end) = (all * k / count, all * (k + 1) / count);
             let quarter = first + hash3(pass.seed, 0x001d_17ed, k as u32) % (end - first);
             let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
-            batch.items.push(Item::new([tile % across, tile / across].map(|tile| (tile * TILE) as i32), quarter, 0));
+            let block = Block::straight([tile % across, tile / across].map(|tile| tile as i32));
+            batch.items.push(Item { block, quarter, sample: 0 });
         }
         batch.glints = 0;
         batch.shares = u32::MAX;
@@ -330,27 +332,25 @@ fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, work
         batch.watch.lap(Stage::Share);
         batch.suffixes.len
     });
-    found[0] as f32 / (count as usize * batch::BLOCK_PIXELS) as f32
+    found[0] as f32 / (count as usize * ITEM_PIXELS) as f32
 }
 
-/// The slots of an item's pixels.
-fn slots_of(item: usize) -> Range<usize> {
-    item * batch::BLOCK_PIXELS..(item + 1) * batch::BLOCK_PIXELS
+/// The slots of the block whose first item this is.
+fn slots_of_block(first: usize) -> Range<usize> {
+    first * ITEM_PIXELS..first * ITEM_PIXELS + BLOCK_PIXELS
 }
 
 /// Adds the samples of a batch to the film; how many they are.
 fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
     let mut added = 0;
     for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
-            for quarter in 0..QUARTERS {
-                let slots = slots_of(first + quarter as usize);
-                let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
-                let left_out = tile.add(samples, overlap.of_quarter(quarter));
-                batch.counters.dropped += left_out.dropped;
-                batch.counters.beyond += left_out.beyond;
-            }
-            added += overlap.pixels();
+        let slots = slots_of_block(first);
+        cells.each(&batch.pixels, slots.start, |tile, common| {
+            let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+            let left_out = tile.add(samples, common);
+            batch.counters.dropped += left_out.dropped;
+            batch.counters.beyond += left_out.beyond;
+            added += common.len() as u64;
         });
     }
     added
@@ -361,12 +361,10 @@ fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
 fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
     let start = Instant::now();
     for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-        cells.each([batch.items[first].x, batch.items[first].y], |tile, overlap: &Overlap| {
-            for quarter in 0..QUARTERS {
-                let slots = slots_of(first + quarter as usize);
-                let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
-                tile.clamp(limit, samples, overlap.of_quarter(quarter));
-            }
+        let slots = slots_of_block(first);
+        cells.each(&batch.pixels, slots.start, |tile, common| {
+            let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
+            tile.clamp(limit, samples, common);
         });
     }
     batch.watch.costs.clamp += start.elapsed().as_secs_f64();
@@ -425,14 +423,4 @@ fn lock(worker: &Mutex<Worker>) -> std::sync::MutexGuard<'_, Worker> {
 
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
-}
-
-#[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-
-    /// The first pixel of a quarter of a block, for the tests of the film.
-    pub fn first_pixel(block: [i32; 2], quarter: u32) -> [i32; 2] {
-        Item::new(block, quarter, 0).first_pixel()
-    }
 }

@@ -1,6 +1,5 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
-use super::batch::{Item, QUARTERS};
 use super::glints::Glints;
 use super::grid::Grid;
 use super::kernels::Kernels;
@@ -8,6 +7,7 @@ use super::light_paths::OnFilm;
 use super::statistics::Stage;
 use super::{Observer, Progress, SAMPLES, Worker, add_samples, clamp_samples, on_all, shares, trace};
 use crate::film::{Cells, Film, Keeper, Piece, Unfinished};
+use crate::sampling::blocks::{Item, QUARTERS};
 use crate::scene::Scene;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -197,14 +197,14 @@ impl Painter<'_> {
             (batch.glints, batch.shares) = (0, 0);
             for place in places.clone() {
                 for sample in sample..sample + count {
-                    let Some(block) = self.grid.block(place as usize, sample) else { continue };
-                    if self.glints.in_block(block) {
+                    let Some(block) = self.grid.block(place as usize, self.grid.cut(sample)) else { continue };
+                    if self.glints.in_block(&block) {
                         batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
                     }
-                    if shares(self.options.seed, block, sample, self.share_of_blocks) {
+                    if shares(self.options.seed, block.tile, sample, self.share_of_blocks) {
                         batch.shares |= ((1 << QUARTERS) - 1) << batch.items.len();
                     }
-                    batch.items.extend((0..QUARTERS).map(|quarter| Item::new(block, quarter, sample)));
+                    batch.items.extend((0..QUARTERS).map(|quarter| Item { block, quarter, sample }));
                 }
             }
             sample += count;

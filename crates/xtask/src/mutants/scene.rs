@@ -186,9 +186,23 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "grid-that-moves-half-as-far",
         file: "crates/tracer-core/src/engine/grid.rs",
-        find: "(shift[0] * TILE as f32) as i32",
-        replace: "(shift[0] * 8.0) as i32",
+        find: "(shift[0] * TILE as f32) as u8",
+        replace: "(shift[0] * 8.0) as u8",
         caught_by: units(&["grid"]),
+    },
+    Mutant {
+        name: "blocks-whose-pixels-touch",
+        file: "crates/tracer-core/src/sampling/blocks.rs",
+        find: "+ 2 * steps as i32",
+        replace: "+ steps as i32",
+        caught_by: units(&["blocks", "grid"]),
+    },
+    Mutant {
+        name: "blocks-cut-in-half-of-the-places",
+        file: "crates/tracer-core/src/sampling/blocks.rs",
+        find: ">> 61",
+        replace: ">> 62",
+        caught_by: units(&["blocks"]),
     },
     Mutant {
         name: "film-drops-negative-samples",

@@ -169,7 +169,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let casters = guide.casters.len().min(MOST_CASTERS);
     for i in (0..aimers.len).step_by(F::N) {
         let slot = F::U::load(&aimers.slot[i..]);
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
+        let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let (choice, _) = choices.points(&pixel);
         let mut aimed = F::first(aimers.len - i);
         let p = V3::<F>::load(&aimers.start, i);

@@ -1,27 +1,13 @@
 //! Camera rays: a point in the pixel by its filter, a point on the lens.
 
 use super::points::{PairPoints, PixelOf};
-use crate::engine::batch::{BLOCK_PIXELS, Batch};
+use crate::engine::batch::Batch;
 use crate::lanes::{ArrayF, Bits, Lanes, Mask};
 use crate::math::{V3, exp, ln, sincos_turns};
+use crate::sampling::blocks::ITEM_PIXELS;
 use crate::sampling::sampler::Purpose;
 use crate::sampling::warp;
 use crate::scene::{Camera, Filter, NONE, Scene};
-
-/// x and y of 64 pixels in Z-order.
-static PIXEL_X: [f32; BLOCK_PIXELS] = z_order_coordinates(0);
-static PIXEL_Y: [f32; BLOCK_PIXELS] = z_order_coordinates(1);
-
-const fn z_order_coordinates(which: u32) -> [f32; BLOCK_PIXELS] {
-    let mut table = [0.0; BLOCK_PIXELS];
-    let mut z = 0;
-    while z < BLOCK_PIXELS {
-        let b = (z as u32) >> which;
-        table[z] = ((b & 1) | (b >> 1 & 2) | (b >> 2 & 4)) as f32;
-        z += 1;
-    }
-    table
-}
 
 /// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`: of their pixels in the picture.
 #[inline(always)]
@@ -36,22 +22,21 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
     let (right, up) = (V3::<F>::splat(right), V3::<F>::splat(up));
     // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
     let middle = scene.size.map(|side| side as f32 / 2.0);
+    let [left, top] = middle.map(|middle| c(middle - 0.5));
     let (scale_x, scale_y) = (c(1.0 / middle[0]), c(-1.0 / middle[1]));
     let paths = &mut batch.paths;
     paths.len = 0;
-    for (k, item) in batch.items.iter().enumerate() {
+    for k in 0..batch.items.len() {
         if items >> k & 1 == 0 {
             continue;
         }
-        let first = item.first_pixel();
-        let left = c(first[0] as f32 + 0.5 - middle[0]);
-        let top = c(first[1] as f32 + 0.5 - middle[1]);
-        for j in (0..BLOCK_PIXELS).step_by(F::N) {
+        for j in (0..ITEM_PIXELS).step_by(F::N) {
             let i = paths.len;
-            let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * BLOCK_PIXELS) as u32);
-            let (x, y) = (F::load(&PIXEL_X[j..]).fma(c(2.0), left), F::load(&PIXEL_Y[j..]).fma(c(2.0), top));
+            let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * ITEM_PIXELS) as u32);
+            let of = k * ITEM_PIXELS + j;
+            let (x, y) = (F::load(&batch.pixels.x[of..]) - left, F::load(&batch.pixels.y[of..]) - top);
             let inside = x.abs().lt(c(middle[0])) & y.abs().lt(c(middle[1]));
-            let pixel = PixelOf::<F>::new(slot, &batch.item_z);
+            let pixel = PixelOf::<F>::new(slot, &batch.pixels);
             let (u, v) = pixel_points.points(&pixel);
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
             let (x, y) = ((x + dx) * scale_x, (y + dy) * scale_y);
@@ -130,10 +115,10 @@ fn blackman_harris_density<F: Lanes>(x: F) -> F {
     (sum * c(0.5 / A[0])).max(c(1e-6))
 }
 
-static SLOTS: [u32; BLOCK_PIXELS] = {
-    let mut table = [0; BLOCK_PIXELS];
+static SLOTS: [u32; ITEM_PIXELS] = {
+    let mut table = [0; ITEM_PIXELS];
     let mut k = 0;
-    while k < BLOCK_PIXELS {
+    while k < ITEM_PIXELS {
         table[k] = k as u32;
         k += 1;
     }

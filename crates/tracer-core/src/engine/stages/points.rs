@@ -1,7 +1,8 @@
 //! Points of the sampler for the pixels of a batch.
 
-use crate::engine::batch::{ITEMS, Item, path};
+use crate::engine::batch::{ITEMS, path};
 use crate::lanes::{Bits, Lanes};
+use crate::sampling::blocks::{Item, Pixels};
 use crate::sampling::sampler::{Pair, Purpose};
 
 /// The pixels of a vector of slots, as the sampler wants them.
@@ -15,15 +16,11 @@ pub struct PixelOf<F: Lanes> {
 impl<F: Lanes> PixelOf<F> {
     /// `slot` may hold state beside the slot.
     #[inline(always)]
-    pub fn new(slot: F::U, item_z: &[u32; ITEMS]) -> Self {
+    pub fn new(slot: F::U, pixels: &Pixels) -> Self {
         let word = F::U::splat;
-        let item = (slot & word(path::SLOT)).shr::<6>();
-        let first = F::U::gather(item_z, item);
-        // Pixel k lies twice the Z-order position of k from the first. x and y are added each for itself, the bits of the other filled with
-        // ones, so that what is carried goes past them.
-        let offset = (slot & word(63)).shl::<2>();
-        let (of_x, of_y) = (word(0x5555_5555), word(0xaaaa_aaaa));
-        let z = ((first | of_y) + (offset & of_x)) & of_x | ((first | of_x) + (offset & of_y)) & of_y;
+        let slot = slot & word(path::SLOT);
+        let z = F::U::gather(&pixels.z, slot);
+        let item = slot.shr::<6>();
         // The lowest bits of column and row of the sampler's tile.
         let odd_column = !(z & word(1 << 8)).eq(word(0));
         let odd_row = !(z & word(1 << 9)).eq(word(0));

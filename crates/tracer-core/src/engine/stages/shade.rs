@@ -176,7 +176,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let lit_here = rough & valid;
         // Diffuse surfaces go on at the last vertex only to see a background.
         let goes_on = if last && !open { !bsdf.diffuse } else { valid };
-        let pixel = PixelOf::<F>::new(slot, &batch.item_z);
+        let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
         let (mut of_choice, mut of_roulette) = ((zero, zero), (zero, zero));

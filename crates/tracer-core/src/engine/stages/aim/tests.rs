@@ -1,7 +1,7 @@
 use super::*;
-use crate::engine::batch::{BLOCK_PIXELS, Item};
 use crate::engine::guide::cells::{Cells, Photon};
 use crate::lanes::ArrayF;
+use crate::sampling::blocks::{Block, ITEM_PIXELS, Item};
 
 type One = ArrayF<1>;
 
@@ -76,11 +76,11 @@ fn directions_have_the_density_that_is_reckoned_with() {
         let mut batch = Batch::new();
         let (mut area, mut squares, mut members) = (0.0, 0.0, 0.0);
         for sample in 0..512 {
-            batch.items = vec![Item::new([16, 32], 1, sample)];
-            batch.item_z[0] = batch.items[0].z();
+            batch.items = vec![Item { block: Block::straight([1, 2]), quarter: 1, sample }];
+            batch.pixels.find(&batch.items);
             batch.paths.len = 0;
-            batch.aimers.len = BLOCK_PIXELS;
-            for k in 0..BLOCK_PIXELS {
+            batch.aimers.len = ITEM_PIXELS;
+            for k in 0..ITEM_PIXELS {
                 (0..3).for_each(|axis| batch.aimers.normal[axis][k] = UP[axis]);
                 (0..3).for_each(|axis| batch.aimers.weight[axis][k] = 1.0);
                 batch.aimers.survival[k] = 1.0;
@@ -88,7 +88,7 @@ fn directions_have_the_density_that_is_reckoned_with() {
                 batch.aimers.slot[k] = k as u32;
             }
             aim::<One>(&guide, 5, 0, &mut batch);
-            members += BLOCK_PIXELS as f64;
+            members += ITEM_PIXELS as f64;
             for i in 0..batch.paths.len {
                 let w = batch.paths.direction.each_ref().map(|column| column[i]);
                 let a = density_of(&guide, w);
