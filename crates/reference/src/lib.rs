@@ -11,6 +11,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod environment;
 mod light;
 mod random;
 mod scatter;
@@ -86,7 +87,7 @@ impl Tracer<'_> {
     /// Radiance that arrives along the ray, which has been scattered `scatterings` times.
     fn radiance(&self, ray: Ray, scatterings: u32, random: &mut Random) -> DVec3 {
         let Some(hit) = self.world.closest(&ray) else {
-            return DVec3::from(self.scene.background.map(f64::from)) * self.scene.radiance_unit;
+            return self.background(ray.direction, scatterings) * self.scene.radiance_unit;
         };
         if let Some(light) = self.world.light_of(&hit) {
             let light = &self.scene.lights[light];
@@ -119,6 +120,15 @@ impl Tracer<'_> {
                 let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy };
                 self.rough(&s, wo, &lobes, scatterings, random)
             }
+        }
+    }
+
+    /// What comes from where nothing is.
+    fn background(&self, direction: DVec3, scatterings: u32) -> DVec3 {
+        match self.scene.environment() {
+            Some(sky) if scatterings == 0 && !sky.camera_visible => DVec3::ZERO,
+            Some(sky) => environment::radiance(sky, direction),
+            None => DVec3::from(self.scene.background.map(f64::from)),
         }
     }
 

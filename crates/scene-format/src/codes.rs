@@ -396,6 +396,8 @@ codes! {
     /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision once
     /// the scene is brought to its middle. Bring sizes and distances closer together.
     UNTRACEABLE "E0541" "a scene beyond the range of numbers";
+    /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
+    BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
 
     /// An expression, a text that begins with `=`, is not written as expressions are: numbers, names from `vars`, `+ - * / % ^`,
     /// comparisons, functions, brackets.
@@ -476,6 +478,12 @@ codes! {
     MESH_ODDITIES "W0510" "oddities in a mesh";
     /// A material file (MTL) says things that this renderer cannot do.
     MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
+    /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same; pictures of other
+    /// layouts (a cube's sides, a mirror ball) look wrong so.
+    ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
     /// A texture has transparent pixels. Its colours are used, its transparency is not.
     TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
+    /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as the largest number of a
+    /// half, 65504.
+    ENVIRONMENT_PIXELS "W0552" "pixels of an environment that no light can have";
 }

@@ -4,7 +4,7 @@ use crate::desc::{
     Acceleration, Caustics, Indirect, Instances, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading,
     TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{DepthOfField, MappingWords, Pattern, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -36,8 +36,11 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 /// A checkerboard of 2 x 2 texels, 8 bits of grey, as PNG.
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
+/// A sky of 16 x 8 pixels with a sun, as HDR.
+const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
+
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 18] = [
+pub(crate) const CHOICES: [&EnumDef; 19] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -47,6 +50,7 @@ pub(crate) const CHOICES: [&EnumDef; 18] = [
     &Caustics::DEF,
     &Indirect::DEF,
     &Light::DEF,
+    &BackgroundWords::DEF,
     &Material::DEF,
     &Pattern::DEF,
     &TextureFilter::DEF,
@@ -59,7 +63,7 @@ pub(crate) const CHOICES: [&EnumDef; 18] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 49] = [
+const SNIPPETS: [(&str, &str, &str); 50] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -81,6 +85,7 @@ const SNIPPETS: [(&str, &str, &str); 49] = [
     ("Indirect", "Paths", "indirect: Paths"),
     ("Indirect", "Map", "indirect: Map"),
     ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
+    ("BackgroundWords", "Environment", "Environment(file: \"sky.hdr\", scale: 2, rotation: 40)"),
     ("Material", "Diffuse", "Diffuse(albedo: (0.8, 0.3, 0.1))"),
     ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
     ("Material", "Transparent", "Transparent(ior: 1.5)"),
@@ -137,16 +142,21 @@ pub fn examples() -> Vec<Example> {
     SNIPPETS.iter().map(|&(choice, kind, words)| example(choice, kind, words)).collect()
 }
 
-fn example(choice: &str, kind: &str, words: &str) -> Example {
+fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     let (mut effects, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
     let mut light = "SphereLight(center: (3, 4, 5), radius: 1, radiance: 20)".to_owned();
     let mut object = "Sphere(center: (0, 0, 0), radius: 1)".to_owned();
+    let mut background = "0.1";
     let mut files: &'static [ExampleFile] = &[];
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
         "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
+        "BackgroundWords" => {
+            background = words;
+            files = &[SKY];
+        }
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "Pattern" | "TextureFilter" | "TextureWrap" | "MappingWords" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
@@ -172,7 +182,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
     }
     let ron = format!(
         "Scene(\n    camera: Camera(position: (0, 1, 5)),\n    image: Image(width: 64, height: 64),\n    render: \
-         Render({render}),\n{effects}    background: 0.1,\n    lights: [{light}],\n    objects: [\n        {object},\n        \
+         Render({render}),\n{effects}    background: {background},\n    lights: [{light}],\n    objects: [\n        {object},\n        \
          Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
     );
     let choice = choice.trim_end_matches("Words");

@@ -15,6 +15,8 @@ pub enum FileKind {
     Placements,
     /// A picture.
     Texture,
+    /// A picture of all directions.
+    Environment,
 }
 
 /// A file that a scene names, and where it first does.

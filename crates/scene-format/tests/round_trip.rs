@@ -191,7 +191,16 @@ fn scene(random: &mut Random) -> SceneDesc {
             exposure: number(random, -5.0, 5.0).into(),
             tone_map: *random.pick(&[ToneMap::None, ToneMap::Filmic, ToneMap::AgX]),
         },
-        background: share(random),
+        background: match random.below(3) {
+            0 => Background::Environment(Box::new(Environment {
+                file: std::sync::Arc::<std::path::Path>::from(PathBuf::from(text(random))).into(),
+                scale: share(random),
+                rotation: number(random, -400.0, 400.0),
+                up: [1.0, number(random, -1.0, 1.0), 0.0].into(),
+                camera_visible: random.below(2) == 0,
+            })),
+            _ => share(random).into(),
+        },
         lights: (0..random.below(3)).map(|_| light(random).into()).collect(),
         materials: names
             .iter()

@@ -6,6 +6,7 @@
 //! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones that the
 //! reader goes by and that the reference and the JSON Schema show.
 
+mod background;
 mod effects;
 mod emissive;
 mod light;
@@ -17,6 +18,8 @@ mod textures;
 mod transform;
 mod view;
 
+pub(crate) use background::BackgroundWords;
+pub use background::{Background, Environment};
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
 pub use emissive::{Amount, Emissive};
@@ -60,7 +63,7 @@ pub struct SceneDesc {
     /// Film and lens effects.
     pub effects: Effects,
     /// Radiance of everything that no object covers.
-    pub background: Color,
+    pub background: Background,
     /// Lights.
     pub lights: Vec<Spanned<Light>>,
     /// Named materials in order of writing.
@@ -89,7 +92,7 @@ scene_struct! {
         /// Film and lens effects.
         effects: Effects = Effects::default();
         /// Radiance of everything that no object covers.
-        background: Color = [0.0; 3] => Rule::light("in W/(sr m^2)");
+        background: Background = Background::default() => Rule::light("in W/(sr m^2)");
         /// Lights. A scene needs one, or a background.
         lights: Vec<Spanned<Light>> = Vec::new();
         /// Materials by name, for objects to use.
@@ -107,7 +110,7 @@ impl Default for SceneDesc {
             image: Image::default(),
             render: Render::default(),
             effects: Effects::default(),
-            background: [0.0; 3],
+            background: Background::default(),
             lights: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),

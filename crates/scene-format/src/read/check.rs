@@ -66,7 +66,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.unused_vars();
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
-        let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background == [0.0; 3];
+        let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
         let shines = |object: &Spanned<Object>| match object.value.material() {
             MaterialRef::Inline(material) => matches!(material.value, Material::Emissive(_)),
             MaterialRef::Named { .. } | MaterialRef::Default => false,

@@ -112,7 +112,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
             Some("a sun is a large sphere light far away")
         }
         "environment" | "sky" | "constant" | "envmap" | "infinite" | "ambientlight" if has("SphereLight") => {
-            Some("light from all around is the scene's `background`")
+            Some("light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`")
         }
         "quadlight" | "rectanglelight" | "rectlight" | "arealight" | "area" | "disklight" if has("SphereLight") => {
             Some("a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`")

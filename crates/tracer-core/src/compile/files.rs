@@ -26,6 +26,11 @@ fn faults_of(file: &NamedFile, path: &Path) -> Diagnostics {
     let of_texture = |path: &Path| texture::load(path).err().map(|error| error.to_diagnostic(file.span));
     match file.kind {
         FileKind::Texture => of_texture(path).into_iter().collect(),
+        FileKind::Environment => texture::load_environment(path)
+            .err()
+            .map(|error| error.to_environment_diagnostic(file.span))
+            .into_iter()
+            .collect(),
         FileKind::Placements => {
             load_placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
         }

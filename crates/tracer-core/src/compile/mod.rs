@@ -1,6 +1,7 @@
 //! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built. The second hand.
 
 mod energy;
+mod environment;
 mod files;
 mod materials;
 mod meshes;
@@ -79,6 +80,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let files: BTreeSet<PathBuf> =
         named.chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let (materials, images, uses) = builder.finish(&mut diagnostics);
+    let background = environment::load(desc, &mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
@@ -94,8 +96,11 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
     let shining = radiances::of_objects(desc, &sphere_lights, &mesh_radiances);
-    let radiance_unit = radiances::unit(desc, &shining);
-    diagnostics.extend(radiances::too_dark(desc, &shining, radiance_unit));
+    let behind = background.brightest();
+    let radiance_unit = radiances::unit(desc, &shining, behind);
+    diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
+    let is_dark = behind == [0.0; 3];
+    let (background, environment) = background.build(radiance_unit);
     if desc.render.indirect == desc::Indirect::Map {
         let message = "there is no map of indirect light any more: it comes by paths";
         diagnostics
@@ -116,7 +121,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
-    let light_table = LightTable::new(&lights, &spheres);
+    let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
     let tables_seconds = start.elapsed().as_secs_f64();
 
@@ -144,14 +149,14 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
         reuse: match desc.render.reuse {
-            Reuse::Blocks if full && desc.background == [0.0; 3] => Sharing::Always,
+            Reuse::Blocks if full && is_dark => Sharing::Always,
             Reuse::Blocks if full => Sharing::Indoors,
             _ => Sharing::Never,
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         radiance_unit,
-        background: desc.background.map(|x| (x / radiance_unit) as f32),
+        background,
         spheres,
         materials,
         lights,

@@ -55,14 +55,14 @@ pub(super) fn of_objects(desc: &SceneDesc, spheres: &[Option<Emissive>], meshes:
 }
 
 /// The largest power of two that is not above the brightest channel of all lights and the background: to divide by it changes no digit.
-/// One where there is no light.
-pub(super) fn unit(desc: &SceneDesc, shining: &[Shining]) -> f64 {
+/// One where there is no light. `background`: the most that comes from there.
+pub(super) fn unit(desc: &SceneDesc, shining: &[Shining], background: [f64; 3]) -> f64 {
     let lamps = desc.lights.iter().map(|light| {
         let desc::Light::SphereLight(light) = &light.value;
         of_light(light)
     });
     let objects = shining.iter().flat_map(|object| object.radiances);
-    let all = lamps.chain(objects).chain([desc.background]).flatten();
+    let all = lamps.chain(objects).chain([background]).flatten();
     let brightest = all.filter(|x| x.is_finite()).fold(0.0, f64::max);
     // Sign and mantissa cleared. What f64 itself can hardly hold stays as it is.
     let power = f64::from_bits(brightest.to_bits() & 0x7ff0_0000_0000_0000);
@@ -70,7 +70,7 @@ pub(super) fn unit(desc: &SceneDesc, shining: &[Shining]) -> f64 {
 }
 
 /// A warning for each light, and the background, that is so dark beside the brightest that single precision does not hold it.
-pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], unit: f64) -> Vec<Diagnostic> {
+pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], background: [f64; 3], unit: f64) -> Vec<Diagnostic> {
     let is_lost = |radiance: [f64; 3]| radiance.iter().any(|&x| x > 0.0 && x / unit < f64::from(f32::MIN_POSITIVE));
     let warning = |span, what: &str| {
         Diagnostic::warning(
@@ -86,6 +86,6 @@ pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], unit: f64) -> Vec<
     });
     let objects = shining.iter().filter(|object| object.radiances.iter().any(|&radiance| is_lost(radiance)));
     let objects = objects.map(|object| warning(object.span, "what this object shines"));
-    let background = is_lost(desc.background).then(|| warning(Span::NONE, "the background"));
+    let background = is_lost(background).then(|| warning(Span::NONE, "the background"));
     lamps.chain(objects).chain(background).collect()
 }

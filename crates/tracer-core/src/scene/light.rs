@@ -1,6 +1,6 @@
 //! Lights, and the tree by which one of them is chosen.
 
-use super::Sphere;
+use super::{Environment, Sphere};
 use super::table::Table;
 use glam::DVec3;
 
@@ -117,6 +117,8 @@ pub(crate) struct LightTable {
     pub trail: Vec<u32>,
     /// Steps from the root to the deepest light.
     pub depth: u32,
+    /// Light from all directions.
+    pub environment: Option<Environment>,
 }
 
 /// A light as the tree sees it.
@@ -164,7 +166,7 @@ impl LightTable {
     pub const LEAF: u32 = 1 << 31;
 
     /// Of lights among which the spheres come first.
-    pub fn new(lights: &[Light], spheres: &[Sphere]) -> Self {
+    pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Environment>) -> Self {
         let emitters: Vec<Emitter> = lights.iter().map(|light| Emitter::new(light, spheres)).collect();
         let rows = lights.iter().filter_map(|light| {
             let Light::Sphere { sphere, radiance, two_sided } = *light else { return None };
@@ -197,7 +199,19 @@ impl LightTable {
             depth: builder.depth,
             trail: pad(builder.trail),
             tree: builder.tree,
+            environment,
         }
+    }
+
+    /// Whether there is none to ask.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0 && self.environment.is_none()
+    }
+
+    /// Whether one is to be chosen.
+    #[inline(always)]
+    pub fn several(&self) -> bool {
+        self.len > 1 || (self.len == 1 && self.environment.is_some())
     }
 
     /// Whether there are lights other than spheres.

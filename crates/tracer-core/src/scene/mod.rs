@@ -6,6 +6,7 @@
 //! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
 
 mod camera;
+mod environment;
 mod frame;
 mod light;
 mod material;
@@ -16,6 +17,8 @@ mod table;
 mod texture;
 
 pub use camera::{Camera, Filter};
+pub(crate) use environment::Density;
+pub use environment::Environment;
 pub use frame::Frame;
 pub(crate) use light::LightTable;
 pub use light::{FlatLight, Light};
@@ -71,7 +74,8 @@ pub struct Scene {
     /// 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All of a [`crate::Film`] that is read is
     /// in W/(sr m^2) again.
     pub radiance_unit: f64,
-    /// Radiance of everything that no object covers, in `radiance_unit`.
+    /// Radiance of everything that no object covers, in `radiance_unit`, where it is the same in all directions; black where it is
+    /// [`Scene::environment`].
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
@@ -107,6 +111,16 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The picture of all directions behind everything, if there is one.
+    pub fn environment(&self) -> Option<&Environment> {
+        self.tables.lights.environment.as_ref()
+    }
+
+    /// Whether light comes from where no object is.
+    pub fn is_open(&self) -> bool {
+        self.background.iter().any(|&x| x > 0.0) || self.environment().is_some()
+    }
+
     /// A texture, by the index in [`Albedo::Texture`].
     pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
         self.tables.textures.view(index)

@@ -14,11 +14,13 @@ pub enum TextureError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file is neither PNG nor JPEG.
-    #[error("{} is no PNG or JPEG picture", path.display())]
+    /// The file is of no format that is read here.
+    #[error("{} is no {} picture", path.display(), names(formats))]
     Format {
         /// The file.
         path: PathBuf,
+        /// Those that are.
+        formats: &'static [ImageFormat],
         /// What it is instead, if that is known.
         found: Option<ImageFormat>,
     },
@@ -52,18 +54,39 @@ pub enum TextureError {
     },
 }
 
+/// "PNG or JPEG".
+fn names(formats: &[ImageFormat]) -> String {
+    let name = |format: &ImageFormat| match format {
+        ImageFormat::OpenExr => "EXR".to_owned(),
+        other => format!("{other:?}").to_uppercase(),
+    };
+    let (last, others) = formats.split_last().map_or((String::new(), Vec::new()), |(last, others)| {
+        (name(last), others.iter().map(name).collect())
+    });
+    if others.is_empty() { last } else { format!("{} or {last}", others.join(", ")) }
+}
+
 impl TextureError {
+    /// The same for the picture of an environment: `E0552` where a texture has `E0520`.
+    pub fn to_environment_diagnostic(&self, span: Span) -> Diagnostic {
+        let diagnostic = self.to_diagnostic(span);
+        if diagnostic.code != codes::BROKEN_TEXTURE {
+            return diagnostic;
+        }
+        Diagnostic { code: codes::BROKEN_ENVIRONMENT, ..diagnostic }
+    }
+
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, or `E0520` (the picture is wrong).
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             TextureError::File(error) => error.to_diagnostic(span),
-            TextureError::Format { found, .. } => {
+            TextureError::Format { found, formats, .. } => {
                 let what = match found.and_then(|format| format.extensions_str().first()) {
                     Some(name) => format!("{self}, but looks like `{name}`"),
                     None => self.to_string(),
                 };
                 Diagnostic::error(codes::BROKEN_TEXTURE, span, what)
-                    .expected("a PNG or JPEG file")
+                    .expected(format!("a {} file", names(formats)))
                     .hint("convert the picture to PNG")
             }
             TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
@@ -72,7 +95,7 @@ impl TextureError {
                     _ => self.to_string(),
                 };
                 Diagnostic::error(codes::BROKEN_TEXTURE, span, message)
-                    .expected("a whole PNG or JPEG file")
+                    .expected("a whole picture")
                     .hint("open it in an image program and save it again")
             }
             TextureError::Size { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())

@@ -15,10 +15,12 @@
     )
 )]
 
+mod environment;
 mod error;
 mod extent;
 mod srgb;
 
+pub use environment::{Panorama, load_environment};
 pub use error::TextureError;
 pub use srgb::SRGB_TO_LINEAR;
 
@@ -95,11 +97,26 @@ pub fn load(path: &Path) -> Result<Texture, TextureError> {
 /// # Errors
 /// As [`load`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
-    let format = match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
-        other => return Err(TextureError::Format { path: path.to_owned(), found: other.ok() }),
+    let format = format_of(bytes, path, &[ImageFormat::Png, ImageFormat::Jpeg])?;
+    Ok(from_picture(checked(bytes, path, format)?, path))
+}
+
+/// The format of a file, which must be one of these.
+fn format_of(bytes: &[u8], path: &Path, formats: &'static [ImageFormat]) -> Result<ImageFormat, TextureError> {
+    match image::guess_format(bytes) {
+        Ok(format) if formats.contains(&format) => Ok(format),
+        other => Err(TextureError::Format { path: path.to_owned(), found: other.ok(), formats }),
+    }
+}
+
+/// Decodes a picture of a known format, if it is whole and its size is in proportion to its file.
+fn checked(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<DynamicImage, TextureError> {
+    let fault = match format {
+        ImageFormat::Png => extent::fault_of_png(bytes),
+        ImageFormat::Jpeg => extent::fault_of_jpeg(bytes),
+        // Their decoders tell a file that is cut off.
+        _ => None,
     };
-    let fault = if format == ImageFormat::Png { extent::fault_of_png(bytes) } else { extent::fault_of_jpeg(bytes) };
     if let Some(reason) = fault {
         return Err(TextureError::Incomplete { path: path.to_owned(), reason });
     }
@@ -107,8 +124,9 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
     let most_pixels = FREE_PIXELS + PIXELS_PER_BYTE * bytes.len() as u64;
-    // A decoder holds the picture, of up to 8 bytes a pixel, and rows of it.
-    limits.max_alloc = Some(10 * most_pixels);
+    // A decoder holds the picture, of up to 8 bytes a pixel, or 16 where they are floats, and rows of it.
+    let floats = matches!(format, ImageFormat::Hdr | ImageFormat::OpenExr);
+    limits.max_alloc = Some(if floats { 20 } else { 10 } * most_pixels);
     reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
@@ -119,7 +137,7 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);
-    Ok(from_picture(picture, path))
+    Ok(picture)
 }
 
 #[expect(

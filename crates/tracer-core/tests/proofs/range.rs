@@ -14,7 +14,7 @@ fn brightened(mut desc: SceneDesc, factor: f64) -> SceneDesc {
         let (Emission::Radiance(x) | Emission::Intensity(x) | Emission::Power(x)) = &mut light.emission.value;
         *x = x.map(|x| x * factor);
     }
-    desc.background = desc.background.map(|x| x * factor);
+    desc.background = desc.background.scaled(factor);
     desc
 }
 

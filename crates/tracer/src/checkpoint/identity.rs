@@ -42,7 +42,7 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failu
     let mut effects = desc.effects.clone();
     (effects.exposure, effects.tone_map) = (0.0.into(), ToneMap::None);
     part("effects", &SceneDesc { effects, ..blank() });
-    part("background", &SceneDesc { background: desc.background, ..blank() });
+    part("background", &SceneDesc { background: desc.background.clone(), ..blank() });
     // There may be millions of these: they are lent, not copied.
     let mut lent = SceneDesc { lights: take(&mut desc.lights), ..blank() };
     part("lights", &lent);

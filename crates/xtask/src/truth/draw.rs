@@ -5,7 +5,7 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Checkerboard, Color, Emission, Instances, Light, Mapping, Material, MaterialRef, Mesh, NamedMaterial,
+    Background, Environment, Albedo, Checkerboard, Color, Emission, Instances, Light, Mapping, Material, MaterialRef, Mesh, NamedMaterial,
     Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
 };
 use scene_format::diagnostic::Spanned;
@@ -47,6 +47,29 @@ fn texture(world: &mut World, random: &mut Random) -> Albedo {
     let filter = one_of(random, &[TextureFilter::Bilinear, TextureFilter::Nearest]);
     let wrap = one_of(random, &[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]);
     Albedo::Texture(Texture { file, filter, wrap, mapping: mapping(random) })
+}
+
+/// Light from where no object is: a colour, or a coarse picture of it with a bright patch.
+pub fn background(world: &mut World, random: &mut Random) -> Background {
+    let sky = color(random);
+    if once_in(random, 2) {
+        return sky.into();
+    }
+    let (sun_u, sun_v, size) = (random.number(), random.between(0.3, 0.9), random.between(0.03, 0.2));
+    let times = magnitude(random, 1.0, 12.0);
+    let paint = |u: f64, v: f64| {
+        let in_sun = (u - sun_u).abs() < size && (v - sun_v).abs() < size;
+        let brightness = if in_sun { 1.0 } else { (0.4 + 0.6 * v) / times };
+        // The picture's numbers are sRGB.
+        DVec3::from_array(sky.map(|c| (brightness * c).powf(1.0 / 2.2)))
+    };
+    let Ok(bytes) = Picture::from_fn(16, 8, paint).png() else { return sky.into() };
+    let file = world.file("sky", "png", bytes).into();
+    let up = if once_in(random, 2) { [0.0, 1.0, 0.0] } else { [0; 3].map(|_| random.between(0.1, 1.0)) };
+    let rotation = if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) };
+    let scale = if once_in(random, 2) { [times; 3] } else { color(random).map(|c| times * c) };
+    let camera_visible = !once_in(random, 3);
+    Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible }))
 }
 
 /// Where a texture lies, as often as not as it is.

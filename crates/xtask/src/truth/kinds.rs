@@ -282,7 +282,7 @@ fn small_window(world: &mut World, random: &mut Random) {
     let wall = draw::wall(random);
     room.partition(world, room.half, WALL, Some([[z - a, y - b], [z + a, y + b]]), wall);
     receivers(world, room, -0.7, 0.7, random);
-    world.desc.background = draw::color(random).map(|c| 5.0 * c);
+    world.desc.background = draw::background(world, random).scaled(5.0);
     if once_in(random, 2) {
         world.mesh("pane", &Shape::block([room.half, y - b, z - a], [room.half + 0.02, y + b, z + a]), glass(1.5));
     }
@@ -344,7 +344,7 @@ fn open_air(world: &mut World, random: &mut Random) {
         world.lamp(place, 0.5, [random.between(50.0, 150.0); 3]);
     }
     if !sunny || once_in(random, 2) {
-        world.desc.background = draw::color(random);
+        world.desc.background = draw::background(world, random);
     }
     world.camera(
         [random.between(-3.0, 3.0), random.between(1.0, 3.0), 5.0],
@@ -385,7 +385,7 @@ fn chaos(world: &mut World, random: &mut Random) {
         draw::lamp(world, place, 0.6, random);
     }
     if once_in(random, 3) {
-        world.desc.background = draw::color(random);
+        world.desc.background = draw::background(world, random);
     }
     room.camera(world, -0.9, 0.9, random);
 }

@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Emission, Instances, Light, Material, Object, Placements, Transform};
+use scene_format::desc::{Background, Emission, Instances, Light, Material, Object, Placements, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -136,14 +136,14 @@ fn with_one_lamp(world: &World, k: usize) -> World {
         }
     }
     if k > 0 {
-        other.desc.background = [0.0; 3];
+        other.desc.background = Background::default();
     }
     other
 }
 
 fn with_light_times(world: &World, factor: f64) -> World {
     let mut other = world.clone();
-    other.desc.background = other.desc.background.map(|c| factor * c);
+    other.desc.background = other.desc.background.scaled(factor);
     for light in &mut other.desc.lights {
         let Light::SphereLight(lamp) = &mut light.value;
         let times = |color: [f64; 3]| color.map(|c| factor * c);

@@ -4,7 +4,7 @@ use super::draw::{material_of, set_material};
 use super::examine::{Finding, still};
 use super::kinds::Case;
 use super::world::{World, matt};
-use scene_format::desc::{Effects, Instances, Material, MaterialRef, Mesh, Object, Placements};
+use scene_format::desc::{Background, Effects, Instances, Material, MaterialRef, Mesh, Object, Placements};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -53,7 +53,7 @@ fn simpler(world: &World, step: usize) -> Option<Option<World>> {
         0 => {
             desc.effects = Effects { antialiasing: desc.effects.antialiasing.clone(), ..Effects::default() };
         }
-        1 => desc.background = [0.0; 3],
+        1 => desc.background = Background::default(),
         _ if step < 2 + objects => {
             let k = 2 + objects - 1 - step;
             if k < desc.objects.len() {

@@ -128,7 +128,12 @@ impl World {
 /// The grey radiance of the brightest thing that gives light.
 pub fn brightest(scene: &tracer_core::Scene) -> f64 {
     let lights = scene.lights.iter().map(|light| grey(light.radiance()));
-    lights.fold(grey(scene.background.map(f64::from)), f64::max) * scene.radiance_unit
+    let texels = scene.environment().into_iter().flat_map(|sky| {
+        let texel = |k: u32| sky.texel(k % sky.width, k / sky.width);
+        (0..sky.width * sky.height).filter_map(texel)
+    });
+    let all = lights.chain(texels.map(|texel| grey(texel.map(f64::from))));
+    all.fold(grey(scene.background.map(f64::from)), f64::max) * scene.radiance_unit
 }
 
 /// What is compared: the mean of the channels, so that a fault in any of them shows.

@@ -42,8 +42,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let directions = PairPoints::<F>::new(seed, Purpose::Direction(vertex), items);
     let roulettes = PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items);
     let background = V3::<F>::splat(scene.background);
-    let open = scene.background.iter().any(|&x| x > 0.0);
-    let several = tables.lights.len > 1;
+    let open = scene.is_open();
+    let several = tables.lights.several();
     let guide = pass.guide;
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
@@ -80,6 +80,15 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             shown = F::select(mirrors_and_glass, eta2 * F::gather(&batch.glint_weight, item), eta2);
         }
         let mut seen = throughput.scale(shown).mul(background);
+        if let Some(environment) = &tables.lights.environment
+            && (vertex > 0 || environment.camera_visible)
+            && left.any()
+        {
+            let pdf = F::load(&paths.pdf[i..]);
+            let (sampled, radiance) = lights::beyond(&tables.lights, environment, direction);
+            let weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
+            seen = throughput.mul(radiance).scale(shown * weight);
+        }
         if !hit.any() {
             add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, left);
             continue;
@@ -187,7 +196,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         // Light sampled from here.
-        if lit_here.any() && tables.lights.len > 0 {
+        if lit_here.any() && !tables.lights.is_empty() {
             let (u, v) = of_choice;
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = on_light;

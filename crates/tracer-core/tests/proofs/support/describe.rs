@@ -34,7 +34,7 @@ impl Describe for SceneDesc {
         SceneDesc { render: Render { max_bounces: n.into(), ..self.render.clone() }, ..self }
     }
     fn background(self, radiance: Color) -> Self {
-        SceneDesc { background: radiance, ..self }
+        SceneDesc { background: radiance.into(), ..self }
     }
     fn camera(mut self, position: Vec3, look_at: Vec3, fov: f64) -> Self {
         self.camera.position = position.into();

@@ -16,7 +16,7 @@ pub struct Mesh {
 }
 
 /// Where the proofs write their files. One name per content: proofs run at the same time, and may write the same file.
-fn write(name: &str, bytes: &[u8]) -> PathBuf {
+pub fn write(name: &str, bytes: &[u8]) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("proofs");
     std::fs::create_dir_all(&folder).expect("a folder for meshes");
     let path = folder.join(name);

@@ -138,7 +138,7 @@ mod tests {
             let is_triangle = k % 2 == 0;
             let light = if is_triangle { Light::Triangle(flat) } else { Light::Parallelogram(flat) };
             let other = Light::Triangle(FlatLight { corner: corner + DVec3::splat(3.0), two_sided: true, ..flat });
-            let table = LightTable::new(&[light, other], &[]);
+            let table = LightTable::new(&[light, other], &[], None);
             let away = random.between(0.3, 2.0) * size;
             let p = corner + (edges[0] + edges[1]) * 0.3 + v(&mut random, away);
             let (mut sum, mut squares, mut taken) = (0.0, 0.0, 0.0);

@@ -2,15 +2,16 @@
 //!
 //! Radiance is in the engine's unit, per solid angle and projected area. Densities are in solid angle at the receiver. A light shines alike in all
 //! directions, from its front: outwards, or the side of its normal; from its back, too, where it has two sides. A sample of a light that does
-//! not shine to the receiver has radiance zero.
+//! not shine to the receiver has radiance zero. A picture of all directions ([`environment`]) is a light without a number, infinitely far away.
 
+mod environment;
 mod flat;
 mod selection;
 mod sphere;
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
-use crate::scene::LightTable;
+use crate::scene::{Environment, LightTable};
 pub use selection::{Choice, choose};
 
 /// A direction to a light.
@@ -50,25 +51,56 @@ pub struct LightHit<F: Lanes> {
 /// A direction from `p` to the chosen light.
 #[inline(always)]
 pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
-    let k = choice.light;
-    let mut sample = sphere::sample(lights, k, p, u, v);
-    if lights.has_flat() {
-        let is_flat = !k.lt(F::U::splat(lights.spheres));
-        if is_flat.any() {
-            let s = flat::sample(lights, flat_row(lights, k), p, u, v);
-            sample = LightSample {
-                wi: V3::select(is_flat, s.wi, sample.wi),
-                distance: F::select(is_flat, s.distance, sample.distance),
-                inverse_pdf: F::select(is_flat, s.inverse_pdf, sample.inverse_pdf),
-                radiance: V3::select(is_flat, s.radiance, sample.radiance),
-                primitive: F::U::select(is_flat, s.primitive, sample.primitive),
-            };
+    let mut sample = match &lights.environment {
+        None => numbered(lights, choice.light, p, u, v),
+        Some(environment) if lights.len == 0 => environment::sample(environment, u, v),
+        Some(environment) => {
+            let near = numbered(lights, choice.light, p, u, v);
+            if choice.environment.any() {
+                near.or(choice.environment, environment::sample(environment, u, v))
+            } else {
+                near
+            }
         }
-    }
-    if lights.len > 1 {
+    };
+    if lights.several() {
         sample.inverse_pdf = sample.inverse_pdf / choice.probability;
     }
     sample
+}
+
+/// A direction from `p` to light `k`.
+#[inline(always)]
+fn numbered<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F) -> LightSample<F> {
+    let sample = sphere::sample(lights, k, p, u, v);
+    if lights.has_flat() {
+        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        if is_flat.any() {
+            return sample.or(is_flat, flat::sample(lights, flat_row(lights, k), p, u, v));
+        }
+    }
+    sample
+}
+
+impl<F: Lanes> LightSample<F> {
+    /// Another one in the lanes of the mask.
+    #[inline(always)]
+    fn or(self, mask: F::M, other: Self) -> Self {
+        LightSample {
+            wi: V3::select(mask, other.wi, self.wi),
+            distance: F::select(mask, other.distance, self.distance),
+            inverse_pdf: F::select(mask, other.inverse_pdf, self.inverse_pdf),
+            radiance: V3::select(mask, other.radiance, self.radiance),
+            primitive: F::U::select(mask, other.primitive, self.primitive),
+        }
+    }
+}
+
+/// The density with which [`choose`] and [`sample`] take a direction that leaves the scene, and what comes from there.
+#[inline(always)]
+pub fn beyond<F: Lanes>(lights: &LightTable, environment: &Environment, direction: V3<F>) -> (F, V3<F>) {
+    let (pdf, radiance) = environment::pdf_and_radiance(environment, direction);
+    (if lights.len == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) }, radiance)
 }
 
 /// The row of a flat light; anything for spheres.
@@ -86,7 +118,8 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightH
         let is_flat = !k.lt(F::U::splat(lights.spheres));
         inverse = F::select(is_flat, flat::inverse_pdf(lights, flat_row(lights, k), hit), inverse);
     }
-    selection::probability(lights, k, at) / inverse
+    let near = selection::probability(lights, k, at) / inverse;
+    if lights.environment.is_some() { near * F::splat(1.0 - selection::ENVIRONMENT) } else { near }
 }
 
 /// Radiance of light `k` to where it was met from.

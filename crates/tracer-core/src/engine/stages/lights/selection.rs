@@ -1,7 +1,7 @@
 //! Which light to ask: down the tree of lights.
 
 use super::Receiver;
-use crate::lanes::{Bits, Lanes};
+use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::LightTable;
 
@@ -11,7 +11,12 @@ pub struct Choice<F: Lanes> {
     pub light: F::U,
     /// Its probability.
     pub probability: F,
+    /// It is the picture of all directions, which has no number.
+    pub environment: F::M,
 }
+
+/// How likely the picture of all directions is chosen where there are other lights, too.
+pub const ENVIRONMENT: f32 = 0.5;
 
 /// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over squared distance
 /// times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree
@@ -19,7 +24,18 @@ pub struct Choice<F: Lanes> {
 /// middle than bounds ([`Node::importance`]).
 #[inline(always)]
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
-    let (mut u, mut content, mut probability) = (u, root::<F>(lights), F::splat(1.0));
+    let one = F::splat(1.0);
+    let mut environment = F::M::from_bits(0);
+    let (mut u, mut chance_of_all) = (u, one);
+    if lights.environment.is_some() {
+        if lights.len == 0 {
+            return Choice { light: F::U::splat(0), probability: one, environment: F::first(F::N) };
+        }
+        environment = u.lt(F::splat(ENVIRONMENT));
+        chance_of_all = F::select(environment, F::splat(ENVIRONMENT), F::splat(1.0 - ENVIRONMENT));
+        u = ((u - F::splat(ENVIRONMENT)) * F::splat(1.0 / (1.0 - ENVIRONMENT))).max(F::splat(0.0));
+    }
+    let (mut content, mut probability) = (root::<F>(lights), one);
     for level in 0..lights.depth {
         let step = if level == 0 { Step::below_root(lights, at) } else { Step::new(lights, content, at) };
         // Each step takes a bit of a number of 24.
@@ -33,7 +49,10 @@ pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Cho
         probability = F::select(step.inner, probability * chance, probability);
         content = step.child(second, content);
     }
-    Choice { light: content & F::U::splat(!LightTable::LEAF), probability }
+    if lights.environment.is_some() {
+        probability = F::select(environment, chance_of_all, probability * chance_of_all);
+    }
+    Choice { light: content & F::U::splat(!LightTable::LEAF), probability, environment }
 }
 
 /// From this step on the second random number is used.

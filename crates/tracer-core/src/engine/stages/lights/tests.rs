@@ -10,6 +10,12 @@ use tracer_reference::Random;
 use tracer_reference::statistics::{chi_square, sidak};
 
 type S = ArrayF<1>;
+type M = <S as Lanes>::M;
+
+/// A light with a number was chosen.
+fn near() -> M {
+    M::from_bits(0)
+}
 
 fn scalar(x: S) -> f64 {
     let mut out = [0.0];
@@ -45,7 +51,7 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
         .enumerate()
         .map(|(k, &(.., radiance))| Light::Sphere { sphere: k as u32, radiance: [radiance, 0.5, 0.0], two_sided: true })
         .collect();
-    LightTable::new(&lights, &spheres)
+    LightTable::new(&lights, &spheres, None)
 }
 
 /// Distances of a point from the centre of a light of radius 1: far, near, just outside, on it, just within, at its centre.
@@ -96,7 +102,7 @@ fn samples_meet_the_light() {
             let p = (center + distance * random.direction()).as_vec3();
             let v = V3::<S>::splat(p.to_array());
             let k = <S as Lanes>::U::splat(0);
-            let choice = Choice { light: k, probability: S::splat(1.0) };
+            let choice = Choice { light: k, probability: S::splat(1.0), environment: near() };
             let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random));
             // Each of them is rounded three times at most.
             let product = scalar(sample.inverse_pdf) * scalar(pdf(&lights, k, facing_up(v), &met()));
@@ -134,7 +140,7 @@ fn directions_are_uniform_in_the_cone() {
         let (x, y) = axis.any_orthonormal_pair();
         let mut cells = vec![0u64; 128];
         for _ in 0..50_000 {
-            let only = Choice { light: <S as Lanes>::U::splat(0), probability: S::splat(1.0) };
+            let only = Choice { light: <S as Lanes>::U::splat(0), probability: S::splat(1.0), environment: near() };
             let wi =
                 point(sample(&lights, &only, V3::splat(p.to_array()), number(&mut random), number(&mut random)).wi);
             // 1 - cos from the chord, which keeps its digits.
@@ -197,7 +203,7 @@ fn densities_hold_the_choice_of_the_light() {
             // Some twenty roundings of 2^-24.
             let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
             assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at, &met()))), "light {k} from {p:?}");
-            let choice = Choice { light, probability: chance };
+            let choice = Choice { light, probability: chance, environment: near() };
             let sample = sample(&table, &choice, v, number(&mut random), number(&mut random));
             assert!(is_right(1.0 / scalar(sample.inverse_pdf)), "light {k} from {p:?}, sampled");
         }

@@ -1,0 +1,104 @@
+//! What is seen where no object is: the background, which is light, too.
+
+use super::{Color, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::{Item, Kind};
+use crate::words::{Words, scene_enum, scene_struct};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Radiance of everything that no object covers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Background {
+    /// The same in all directions, in W/(sr m^2).
+    Color(Color),
+    /// From a picture of all directions.
+    Environment(Box<Environment>),
+}
+
+impl Background {
+    /// Whether it is no light at all.
+    pub fn is_black(&self) -> bool {
+        *self == Background::default()
+    }
+
+    /// So many times as bright.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scaled = |color: Color| color.map(|x| factor * x);
+        match self {
+            Background::Color(color) => Background::Color(scaled(*color)),
+            Background::Environment(environment) => {
+                let scale = scaled(environment.scale);
+                Background::Environment(Box::new(Environment { scale, ..(**environment).clone() }))
+            }
+        }
+    }
+
+    /// The picture of all directions, where there is one.
+    pub fn environment(&self) -> Option<&Environment> {
+        match self {
+            Background::Color(_) => None,
+            Background::Environment(environment) => Some(environment),
+        }
+    }
+}
+
+impl Default for Background {
+    fn default() -> Self {
+        Background::Color([0.0; 3])
+    }
+}
+
+impl From<Color> for Background {
+    fn from(color: Color) -> Self {
+        Background::Color(color)
+    }
+}
+
+scene_struct! {
+    /// Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera looks by default, to -z, what
+    /// is right of there to +x, and its top row at `up`.
+    pub struct Environment as "Environment", "an environment" {
+        /// HDR, EXR, PNG or JPEG, relative to the scene file; twice as wide as it is high.
+        file: Spanned<Arc<Path>> => Rule::file(FileKind::Environment);
+        /// Radiance where the picture has 1: one number, or three of red, green and blue.
+        scale: Color = [1.0; 3] => Rule::light("in W/(sr m^2)");
+        /// Turns it about `up`, counter-clockwise seen from there.
+        rotation: f64 = 0.0 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
+        /// Direction of the top row.
+        up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
+        camera_visible: bool = true;
+    }
+}
+
+scene_enum! {
+    /// Light from where no object is.
+    pub(crate) enum BackgroundWords, "background" {
+        /// From a picture of all directions.
+        Environment(Box<Environment>);
+    }
+}
+
+impl Words for Background {
+    const TYPE: Type = Type::OneOf(&[Type::Color, BackgroundWords::TYPE]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
+            let BackgroundWords::Environment(environment) = BackgroundWords::read(reader, item, at)?;
+            return Some(Background::Environment(environment));
+        }
+        Color::read(reader, item, at).map(Background::Color)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        match self {
+            Background::Color(color) => color.form(all),
+            Background::Environment(environment) => BackgroundWords::Environment(environment.clone()).form(all),
+        }
+    }
+}
