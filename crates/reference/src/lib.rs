@@ -11,6 +11,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod first_hit;
 mod light;
 mod random;
 mod scatter;
@@ -19,6 +20,7 @@ mod surface;
 mod texture;
 mod world;
 
+pub use first_hit::{FirstHit, first_hits};
 use glam::DVec3;
 pub use random::Random;
 use tracer_core::Scene;

@@ -1,8 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading,
-    TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
+    Shading, TextureFilter, TextureWrap, ToneMap,
 };
 use crate::desc::{DepthOfField, MappingWords, Pattern, TransformWords};
 use crate::schema::EnumDef;
@@ -37,10 +37,11 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 18] = [
+pub(crate) const CHOICES: [&EnumDef; 19] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
+    &Layer::DEF,
     &Acceleration::DEF,
     &Integrator::DEF,
     &Reuse::DEF,
@@ -59,7 +60,7 @@ pub(crate) const CHOICES: [&EnumDef; 18] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 49] = [
+const SNIPPETS: [(&str, &str, &str); 52] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -69,6 +70,9 @@ const SNIPPETS: [(&str, &str, &str); 49] = [
     ("ToneMap", "None", "tone_map: None"),
     ("ToneMap", "Filmic", "tone_map: Filmic"),
     ("ToneMap", "AgX", "tone_map: AgX"),
+    ("Layer", "Albedo", "layers: [Albedo]"),
+    ("Layer", "Normal", "layers: [Normal]"),
+    ("Layer", "Depth", "layers: [Depth]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
@@ -138,13 +142,14 @@ pub fn examples() -> Vec<Example> {
 }
 
 fn example(choice: &str, kind: &str, words: &str) -> Example {
-    let (mut effects, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
+    let (mut more, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
     let mut light = "SphereLight(center: (3, 4, 5), radius: 1, radiance: 20)".to_owned();
     let mut object = "Sphere(center: (0, 0, 0), radius: 1)".to_owned();
     let mut files: &'static [ExampleFile] = &[];
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
-        "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
+        "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
+        "Layer" => more = format!("    output: Output({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
@@ -172,7 +177,7 @@ fn example(choice: &str, kind: &str, words: &str) -> Example {
     }
     let ron = format!(
         "Scene(\n    camera: Camera(position: (0, 1, 5)),\n    image: Image(width: 64, height: 64),\n    render: \
-         Render({render}),\n{effects}    background: 0.1,\n    lights: [{light}],\n    objects: [\n        {object},\n        \
+         Render({render}),\n{more}    background: 0.1,\n    lights: [{light}],\n    objects: [\n        {object},\n        \
          Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
     );
     let choice = choice.trim_end_matches("Words");

@@ -11,6 +11,7 @@ mod emissive;
 mod light;
 mod material;
 mod object;
+mod output;
 mod per_axis;
 mod shapes;
 mod textures;
@@ -23,6 +24,7 @@ pub use emissive::Emissive;
 pub use light::{Emission, Light, SphereLight};
 pub use material::{Material, MaterialRef, NamedMaterial};
 pub use object::Object;
+pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{Instances, Mesh, PlacementList, Placements, RectBox, Rectangle, Shading, Sphere};
 pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
@@ -59,6 +61,8 @@ pub struct SceneDesc {
     pub render: Render,
     /// Film and lens effects.
     pub effects: Effects,
+    /// What is written beside the picture.
+    pub output: Output,
     /// Radiance of everything that no object covers.
     pub background: Color,
     /// Lights.
@@ -88,6 +92,8 @@ scene_struct! {
         render: Render = Render::default();
         /// Film and lens effects.
         effects: Effects = Effects::default();
+        /// What is written beside the picture.
+        output: Output = Output::default();
         /// Radiance of everything that no object covers.
         background: Color = [0.0; 3] => Rule::light("in W/(sr m^2)");
         /// Lights. A scene needs one, or a background.
@@ -107,6 +113,7 @@ impl Default for SceneDesc {
             image: Image::default(),
             render: Render::default(),
             effects: Effects::default(),
+            output: Output::default(),
             background: [0.0; 3],
             lights: Vec::new(),
             materials: Vec::new(),

@@ -150,6 +150,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
+        layers: desc.output.layers.iter().copied().collect(),
         radiance_unit,
         background: desc.background.map(|x| (x / radiance_unit) as f32),
         spheres,

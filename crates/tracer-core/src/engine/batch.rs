@@ -382,6 +382,24 @@ pub struct Groups {
     pub gathered: Columns,
 }
 
+/// What camera rays hit first, for the layers that are asked for ([`crate::layers`]), slot by slot.
+#[derive(Default)]
+pub struct LayerSamples {
+    /// A column for each channel of each layer, one layer after the other; zero where nothing is hit. None where none is asked for.
+    pub columns: Vec<Box<[f32; PATHS]>>,
+    /// Per item: the slots whose ray hit something, a bit each.
+    pub hits: [u64; ITEMS],
+}
+
+impl LayerSamples {
+    /// Makes ready for so many channels.
+    pub fn start(&mut self, channels: usize) {
+        self.hits = [0; ITEMS];
+        self.columns.resize_with(channels, || Box::new([0.0; PATHS]));
+        self.columns.iter_mut().for_each(|column| column.fill(0.0));
+    }
+}
+
 /// What a batch counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -445,6 +463,8 @@ pub struct Batch {
     pub segments: Shadows,
     /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path found.
     pub radiance: Columns,
+    /// What camera rays hit first.
+    pub layers: LayerSamples,
     /// Photons on their way from the lights.
     pub photons: Photons,
     /// What light paths bring to the film.
@@ -480,6 +500,7 @@ impl Batch {
             paths: Paths::new(),
             next: Paths::new(),
             branches: Paths::new(),
+            layers: LayerSamples::default(),
             photons: Photons {
                 pair: words(),
                 index: words(),

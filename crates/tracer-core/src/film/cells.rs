@@ -50,7 +50,7 @@ impl Overlap {
 
     /// Those of a quarter of the block, every other pixel of every other row: place among the quarter's, and in the tile; both in Z-order.
     #[inline(always)]
-    pub fn of_quarter(&self, quarter: u32) -> impl Iterator<Item = (usize, usize)> + use<> {
+    pub fn of_quarter(&self, quarter: u32) -> impl Iterator<Item = (usize, usize)> + Clone + use<> {
         let of = |pixels: &Range<u32>, corner: i32, odd: u32| {
             let skipped = (pixels.start as i32 - corner) as u32 & 1 ^ odd;
             (pixels.start + skipped..pixels.end).step_by(2).map(move |x| {

@@ -13,6 +13,7 @@ mod compiling;
 mod convergence;
 mod figures;
 mod glints;
+mod layers;
 mod matrix;
 mod random_scenes;
 mod range;
