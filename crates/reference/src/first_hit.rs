@@ -21,6 +21,10 @@ pub struct FirstHit {
     pub albedo: DVec3,
     /// What it shines to the viewer, in W/(sr m^2).
     pub emission: DVec3,
+    /// Its object's place among `objects`, behind them the lamps.
+    pub object: u32,
+    /// Its material's place, or `NONE`.
+    pub material: u32,
 }
 
 /// The first hits of the rays from the eye through the pixels' centres, row by row; `None` where nothing is hit.
@@ -56,5 +60,7 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
         uv: s.uv,
         albedo,
         emission,
+        object: world.object_of(&hit),
+        material: s.material,
     })
 }

@@ -60,7 +60,7 @@ pub(crate) const CHOICES: [&EnumDef; 19] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 52] = [
+const SNIPPETS: [(&str, &str, &str); 58] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -73,6 +73,12 @@ const SNIPPETS: [(&str, &str, &str); 52] = [
     ("Layer", "Albedo", "layers: [Albedo]"),
     ("Layer", "Normal", "layers: [Normal]"),
     ("Layer", "Depth", "layers: [Depth]"),
+    ("Layer", "Position", "layers: [Position]"),
+    ("Layer", "Uv", "layers: [Uv]"),
+    ("Layer", "Emission", "layers: [Emission]"),
+    ("Layer", "ObjectId", "layers: [ObjectId]"),
+    ("Layer", "MaterialId", "layers: [MaterialId]"),
+    ("Layer", "Variance", "layers: [Variance]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),

@@ -18,7 +18,7 @@ pub use state::FilmState;
 pub(crate) use state::Keeper;
 
 use crate::engine::{Costs, Counters, Statistics};
-use crate::layers::LayerSet;
+use crate::layers::{Kept, LayerSet};
 use crate::level::Level;
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
@@ -186,9 +186,9 @@ impl Tile {
     }
 
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool, light_paths: bool, layer_channels: usize) -> usize {
+    fn bytes(clamped: bool, light_paths: bool, kept: Kept) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
-        let layers = TileLayers::bytes(layer_channels);
+        let layers = TileLayers::bytes(kept);
         size_of::<Tile>() + of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>()) + layers
     }
 }
@@ -335,8 +335,8 @@ impl Film {
 
     /// Bytes of memory that the sums take.
     pub fn bytes(&self) -> usize {
-        let channels = self.layers().channels();
-        let of_layers = |tile: &Tile| if tile.layers.is_some() { channels } else { 0 };
+        let kept = self.layers().kept();
+        let of_layers = |tile: &Tile| if tile.layers.is_some() { kept } else { Kept::default() };
         self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile))).sum()
     }
 
@@ -344,7 +344,7 @@ impl Film {
     /// or nowhere, with these layers.
     pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
-        let of_tile = Tile::bytes(clamped, light_paths, layers.channels());
+        let of_tile = Tile::bytes(clamped, light_paths, layers.kept());
         tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * of_tile as u64
     }
 

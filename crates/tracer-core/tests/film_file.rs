@@ -41,7 +41,7 @@ fn cases() -> Vec<(Scene, Option<Crop>)> {
         (scene(&lens), None),
         (scene(&["render.integrator=Path"]), Some(Crop { x: 0, y: 5, width: 17, height: 1 })),
         (scene(&["background=(0.1, 0.2, 0.3)", "effects.antialiasing=None"]), None),
-        (scene(&["output.layers=[Albedo, Normal, Depth]", "render.clamp=0.5"]), None),
+        (scene(&["output.layers=[Depth, Normal, ObjectId, Variance]", "render.clamp=0.5"]), None),
     ]
 }
 
@@ -187,7 +187,7 @@ fn the_head_tells_what_there_is() {
 /// in little memory.
 #[test]
 fn mutants_are_refused() {
-    for layers in ["[]", "[Depth, Normal]"] {
+    for layers in ["[]", "[Depth, MaterialId]"] {
         mutants_of(&scene(&[
             "image.width=20",
             "image.height=20",

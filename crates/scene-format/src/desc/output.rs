@@ -11,8 +11,8 @@ scene_struct! {
 }
 
 scene_words! {
-    /// A layer of the picture: what camera rays hit first, averaged over a pixel's samples as the picture is. Not developed: exposure
-    /// and tone map are the picture's.
+    /// A layer of the picture: of what camera rays hit first, averaged over a pixel's samples as the picture is unless it says otherwise. Not
+    /// developed: exposure and tone map are the picture's.
     pub enum Layer, "layer" {
         /// The surface's colour as it is without light, from textures too: the albedo, of mirrors the reflectance, of glass the
         /// transmittance. Black where nothing is hit and where lamps are.
@@ -23,6 +23,22 @@ scene_words! {
         /// The distance from the eye along the view axis, as `focus_distance` is measured: the mean over the samples that hit something,
         /// infinite where none does.
         Depth,
+        /// The point that is hit, in the scene's axes and unit: the mean over the samples that hit something, zero where none does.
+        Position,
+        /// Texture coordinates before a texture's mapping, u to the right, v upwards: the mean over the samples that hit something. Zero
+        /// where none does and on meshes without any.
+        Uv,
+        /// What the surface itself sends to the viewer, in W/(sr m^2): lamps. Zero elsewhere, also where the background is seen.
+        Emission,
+        /// The object at the sample nearest to the pixel's centre: 1 for the first of `objects` and so on, what a `Repeat` makes one by
+        /// one; then the lamps of `lights`. 0: nothing is hit.
+        ObjectId,
+        /// The material at the sample nearest to the pixel's centre: 1 for the first of `materials` and so on, then those without a
+        /// name there. 0: nothing is hit, or a lamp of `lights`.
+        MaterialId,
+        /// Estimated variance of the pixel's mean luminance, in the square of W/(sr m^2), were its samples independent: how noisy it
+        /// still is. Zero below two samples.
+        Variance,
     }
 }
 

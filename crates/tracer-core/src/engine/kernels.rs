@@ -22,7 +22,7 @@ pub struct Kernels {
     level: Level,
     camera: unsafe fn(&Scene, u32, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
-    first_hits: unsafe fn(&Scene, LayerSet, &mut Batch),
+    first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
@@ -49,8 +49,8 @@ macro_rules! kernels {
                 spheres::spheres_closest::<$of_spheres>(&scene.tables.spheres, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn first_hits_entry(scene: &Scene, layers: LayerSet, batch: &mut Batch) {
-                first_hits::first_hits::<$lanes>(scene, layers, batch)
+            fn first_hits_entry(scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
+                first_hits::first_hits::<$lanes>(scene, seed, layers, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -162,9 +162,9 @@ impl Kernels {
         unsafe { (self.closest)(scene, batch) }
     }
     /// What the camera rays of the batch hit first, for these layers.
-    pub fn first_hits(&self, scene: &Scene, layers: LayerSet, batch: &mut Batch) {
+    pub fn first_hits(&self, scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.first_hits)(scene, layers, batch) }
+        unsafe { (self.first_hits)(scene, seed, layers, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {

@@ -18,7 +18,7 @@ mod trace;
 
 pub use batch::Counters;
 pub(crate) use batch::LayerSamples;
-pub(crate) use stages::{materials::Bsdf, surface::Surface};
+pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
 use crate::film::{Cells, Crop, Film, FilmState, Overlap};

@@ -81,9 +81,9 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
 /// One vertex of all paths: what their rays hit, the light that is seen and sampled from there, and the next rays.
 pub fn bounce(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     closest(scene, kernels, vertex == 0, batch);
-    if vertex == 0 && !pass.layers.is_empty() {
-        batch.layers.start(pass.layers.channels());
-        kernels.first_hits(scene, pass.layers, batch);
+    if vertex == 0 && pass.layers.are_of_hits() {
+        batch.layers.start(pass.layers.kept());
+        kernels.first_hits(scene, pass.seed, pass.layers, batch);
         batch.watch.lap(Stage::Layers);
     }
     batch.watch.shaded(batch.paths.len, pass.lanes);

@@ -13,10 +13,11 @@
 //! | | the tiles, in any order: number (4), length (4), sums ([`super::pack`]) |
 //! | 8 | checksum of all before |
 
-use super::layers::{SavedLayer, channels};
+use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
 use super::{Crop, Film, FilmLayer, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
 use crate::engine::{Costs, Counters};
+use crate::layers::{Kept, LayerSet};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
@@ -276,6 +277,11 @@ fn counters_from_array(counters: [u64; 8]) -> Counters {
     Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond }
 }
 
+/// What tiles keep for these layers.
+fn kept(layers: &[FilmLayer]) -> Kept {
+    layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
+}
+
 /// A tile as it stands in the file, its number and length included.
 pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     let mut out = Vec::with_capacity(8192);
@@ -303,9 +309,9 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     out
 }
 
-/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; layers have so
-/// many channels.
-fn read_tile(mut from: &[u8], most: u32, layer_channels: usize, tile: &mut Tile) -> Option<()> {
+/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
+/// is kept for layers.
+fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
     let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
@@ -335,7 +341,7 @@ fn read_tile(mut from: &[u8], most: u32, layer_channels: usize, tile: &mut Tile)
         tile.splats = Some(splats);
     }
     if flags & 4 != 0 {
-        tile.layers = Some(Box::new(TileLayers::read(from, most, layer_channels)?));
+        tile.layers = Some(Box::new(TileLayers::read(from, most, kept)?));
     }
     (flags < 8 && from.is_empty()).then_some(())
 }
@@ -442,8 +448,8 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
         let (mut tile, most) = (Tile::zeroed(), *self.head.samples.end());
-        let channels = channels(&self.head.film_layers()?);
-        self.tiles(|_, bytes| read_tile(bytes, most, channels, &mut tile))?;
+        let kept = kept(&self.head.film_layers()?);
+        self.tiles(|_, bytes| read_tile(bytes, most, kept, &mut tile))?;
         Ok(self.head)
     }
 
@@ -453,14 +459,14 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, is not as it was written, or takes more memory than there is.
     pub fn film(mut self) -> Result<Film, FilmError> {
         let layers = self.head.film_layers()?;
-        let channels = channels(&layers);
+        let kept = kept(&layers);
         let mut tiles: Vec<Tile> =
             try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
         let (clamped, most) = (self.head.clamp.is_some(), *self.head.samples.end());
         self.tiles(|place, bytes| {
             let tile = tiles.get_mut(place)?;
-            read_tile(bytes, most, channels, tile)?;
-            (tile.taken.is_some() == clamped && (tile.layers.is_none() || channels > 0)).then_some(())
+            read_tile(bytes, most, kept, tile)?;
+            (tile.taken.is_some() == clamped && (tile.layers.is_none() || kept != Kept::default())).then_some(())
         })?;
         let head = self.head;
         // Without tiles: theirs are at hand.

@@ -5,18 +5,33 @@ use super::pack::{pack, unpack};
 use super::{Crop, Film, PIXELS, Tile};
 use crate::engine::LayerSamples;
 use crate::engine::slots_of;
-use crate::layers::{LayerSet, Pixel, Units, definition, units};
+use crate::layers::{Kept, LayerSet, Pixel, Units, definition, units};
 use crate::scene::Scene;
 use rayon::prelude::*;
 use scene_format::desc::Layer;
 
-/// The sums of a tile's layers.
+/// What a tile holds for its layers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TileLayers {
     /// Samples of each pixel that hit something.
     hits: [u32; PIXELS],
-    /// Per channel of each layer, one layer after the other: the sum over the samples.
+    /// Per channel of those that are means, one layer after the other: the sum over the samples.
     sums: Vec<[i128; PIXELS]>,
+    /// Per layer of the others: the [`candidate`] that won; zero before any sample.
+    nearest: Vec<[u64; PIXELS]>,
+}
+
+/// A sample's number as that of its pixel: the largest of all is the nearest sample's, and of equally near ones the one with the smallest
+/// number, whoever comes first.
+#[inline(always)]
+fn candidate(distance2: f32, number: u32) -> u64 {
+    // What is not negative is ordered as its bits are.
+    u64::from(!distance2.to_bits()) << 32 | u64::from(!number)
+}
+
+/// The number of a candidate; zero before any.
+fn number_of(candidate: u64) -> u32 {
+    if candidate == 0 { 0 } else { !(candidate as u32) }
 }
 
 /// A layer of a film, and what its sums stand for.
@@ -32,11 +47,6 @@ impl FilmLayer {
         let Units { scale, offset } = self.units;
         SavedLayer { name: definition(self.layer).name.to_owned(), units: [scale, offset[0], offset[1], offset[2]] }
     }
-}
-
-/// Numbers that a pixel has of these layers.
-pub(super) fn channels(layers: &[FilmLayer]) -> usize {
-    layers.iter().map(|of| definition(of.layer).channels.len()).sum()
 }
 
 /// A layer in the head of a saved film: by its name, since a film of another version of the program may have others.
@@ -66,31 +76,40 @@ pub struct LayerImage {
 }
 
 impl TileLayers {
-    fn new(channels: usize) -> Self {
-        TileLayers { hits: [0; PIXELS], sums: vec![[0; PIXELS]; channels] }
+    fn new(kept: Kept) -> Self {
+        let (sums, nearest) = (vec![[0; PIXELS]; kept.sums], vec![[0; PIXELS]; kept.nearest]);
+        TileLayers { hits: [0; PIXELS], sums, nearest }
     }
 
     /// Appends it to a tile's record.
     pub fn record(&self, out: &mut Vec<u8>) {
         pack(|k| self.hits[k].into(), out);
         self.sums.iter().for_each(|sums| pack(|k| sums[k], out));
+        self.nearest.iter().for_each(|nearest| pack(|k| nearest[k].into(), out));
     }
 
     /// Reads it from one; no pixel has more samples than so many.
-    pub fn read(from: &mut &[u8], most: u32, channels: usize) -> Option<Self> {
-        let mut layers = TileLayers::new(channels);
+    pub fn read(from: &mut &[u8], most: u32, kept: Kept) -> Option<Self> {
+        let mut layers = TileLayers::new(kept);
         let mut fits = true;
         unpack(from, |k, count| match u32::try_from(count) {
             Ok(count) if count <= most => layers.hits[k] = count,
             _ => fits = false,
         })?;
         layers.sums.iter_mut().try_for_each(|sums| unpack(from, |k, sum| sums[k] = sum))?;
+        layers.nearest.iter_mut().try_for_each(|nearest| {
+            unpack(from, |k, best| match u64::try_from(best) {
+                Ok(best) => nearest[k] = best,
+                Err(_) => fits = false,
+            })
+        })?;
         fits.then_some(layers)
     }
 
-    /// Bytes of memory that a tile takes for so many channels.
-    pub fn bytes(channels: usize) -> usize {
-        if channels == 0 { 0 } else { size_of::<TileLayers>() + channels * size_of::<[i128; PIXELS]>() }
+    /// Bytes of memory that a tile takes.
+    pub fn bytes(kept: Kept) -> usize {
+        let (sums, nearest) = (kept.sums * size_of::<[i128; PIXELS]>(), kept.nearest * size_of::<[u64; PIXELS]>());
+        if sums + nearest == 0 { 0 } else { size_of::<TileLayers>() + sums + nearest }
     }
 }
 
@@ -103,14 +122,20 @@ impl Tile {
         item: usize,
         pixels: impl Iterator<Item = (usize, usize)> + Clone,
     ) {
-        if samples.columns.is_empty() {
+        if samples.sums.is_empty() && samples.nearest.is_empty() {
             return;
         }
-        let layers = self.layers.get_or_insert_with(|| Box::new(TileLayers::new(samples.columns.len())));
+        let layers = self.layers.get_or_insert_with(|| Box::new(TileLayers::new(samples.kept())));
         pixels.clone().for_each(|(k, pixel)| layers.hits[pixel] += (samples.hits[item] >> k & 1) as u32);
-        for (sums, column) in layers.sums.iter_mut().zip(&samples.columns) {
+        for (sums, column) in layers.sums.iter_mut().zip(&samples.sums) {
             let column = &column[slots_of(item)];
             pixels.clone().for_each(|(k, pixel)| sums[pixel] = sums[pixel].wrapping_add(fixed(within(column[k]))));
+        }
+        for (nearest, column) in layers.nearest.iter_mut().zip(&samples.nearest) {
+            let (column, distance2) = (&column[slots_of(item)], &samples.distance2[slots_of(item)]);
+            pixels
+                .clone()
+                .for_each(|(k, pixel)| nearest[pixel] = nearest[pixel].max(candidate(distance2[k], column[k])));
         }
     }
 }
@@ -166,24 +191,25 @@ impl Film {
     /// # }
     /// ```
     pub fn layer(&self, layer: Layer) -> Option<LayerImage> {
-        let place = self.layers.iter().position(|of| of.layer == layer)?;
-        let first = self.layers[..place].iter().map(|of| definition(of.layer).channels.len()).sum();
+        let of = self.layers.iter().find(|of| of.layer == layer)?;
+        // Those before it in the set come before it in the tiles.
+        let before =
+            self.layers.iter().map(|of| of.layer).take_while(|&other| other != layer).collect::<LayerSet>().kept();
         let definition = definition(layer);
-        let of = &self.layers[place];
         let Crop { x, y, width, height } = self.crop;
         let count = definition.channels.len();
         let mut values = vec![0.0; count * width as usize * height as usize];
         let rows = values.par_chunks_exact_mut((count * width as usize).max(1)).zip(y..y + height);
         rows.for_each(|(row, y)| {
             for (x, pixel) in (x..x + width).zip(row.chunks_exact_mut(count)) {
-                self.layer_of_pixel(x, y, of, first, pixel);
+                self.layer_of_pixel(x, y, of, before, pixel);
             }
         });
         Some(LayerImage { name: definition.name, channels: definition.channels, values })
     }
 
-    /// A pixel of a layer, whose first channel has this number among all.
-    fn layer_of_pixel(&self, x: u32, y: u32, of: &FilmLayer, first: usize, pixel: &mut [f32]) {
+    /// A pixel of a layer, before which so much is kept.
+    fn layer_of_pixel(&self, x: u32, y: u32, of: &FilmLayer, before: Kept, pixel: &mut [f32]) {
         let (tile, k) = self.place(x, y);
         let layers = tile.layers.as_deref();
         let hits = layers.map_or(0, |layers| layers.hits[k]);
@@ -191,12 +217,20 @@ impl Film {
             Pixel::Mean => tile.samples[k].max(1),
             Pixel::MeanOfHits(empty) if hits == 0 => return pixel.fill(empty),
             Pixel::MeanOfHits(_) => hits,
+            Pixel::Nearest(_) => {
+                return pixel.fill(layers.map_or(0, |layers| number_of(layers.nearest[before.nearest][k])) as f32);
+            }
+            Pixel::OfFilm(number) => return pixel.fill(finite(number(self, x, y))),
         };
         for (c, value) in pixel.iter_mut().enumerate() {
-            let sum = layers.map_or(0, |layers| layers.sums[first + c][k]);
+            let sum = layers.map_or(0, |layers| layers.sums[before.sums + c][k]);
             let mean = sum as f64 * LEAST / f64::from(count);
-            let mean = mean * of.units.scale + of.units.offset[c];
-            *value = mean.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+            *value = finite(mean * of.units.scale + of.units.offset[c]);
         }
     }
+}
+
+/// In single precision; what is beyond its range is its largest number.
+fn finite(x: f64) -> f32 {
+    x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }

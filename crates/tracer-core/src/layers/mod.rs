@@ -8,21 +8,32 @@
 
 mod albedo;
 mod depth;
+mod emission;
+mod material_id;
 mod normal;
+mod object_id;
+mod position;
+mod uv;
+mod variance;
 
 use crate::engine::Surface;
+use crate::film::Film;
 use crate::lanes::Lanes;
 use crate::math::V3;
 use crate::scene::Scene;
 use scene_format::desc::Layer;
 
 /// How a pixel's value comes of its samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Pixel {
     /// Their mean; a camera ray that hits nothing brings zero.
     Mean,
     /// The mean over those that hit something; this value where none does.
     MeanOfHits(f32),
+    /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive and instance; zero where that hits nothing.
+    Nearest(fn(&Scene, u32, u32) -> u32),
+    /// Not of what camera rays hit: a number that the film has of each pixel, in the person's units.
+    OfFilm(fn(&Film, u32, u32) -> f64),
 }
 
 /// How the numbers of a layer in render space become the person's: by a factor and an offset.
@@ -45,10 +56,15 @@ pub(crate) trait PictureLayer {
     const CHANNELS: &'static [&'static str];
     /// How a pixel's value comes of its samples.
     const PIXEL: Pixel;
+    /// Whether it reads texture coordinates, which are not found for nothing.
+    const READS_UV: bool = false;
 
-    /// Its value at what camera rays hit first, a number for each channel and anything for the others; in render space. Lanes
-    /// outside of `hit.valid` may hold anything.
-    fn at<F: Lanes>(hit: &FirstHit<'_, F>) -> [F; 3];
+    /// Of means: its value at what camera rays hit first, a number for each channel and anything for the others; in render space.
+    /// Lanes outside of `hit.valid` may hold anything.
+    #[inline(always)]
+    fn at<F: Lanes>(_: &FirstHit<'_, F>) -> [F; 3] {
+        [F::splat(0.0), F::splat(0.0), F::splat(0.0)]
+    }
 
     /// How its numbers become the person's.
     fn units(_: &Scene) -> Units {
@@ -68,17 +84,27 @@ pub(crate) struct FirstHit<'a, F: Lanes> {
     pub surface: &'a Surface<F>,
 }
 
+/// What is kept of each pixel for a set of layers: so many sums, and so many numbers of the sample nearest to its centre.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Kept {
+    pub sums: usize,
+    pub nearest: usize,
+    /// Texture coordinates have to be found, whether there are textures or not.
+    pub uv: bool,
+}
+
 /// A layer's contract as data.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Definition {
     pub name: &'static str,
     pub channels: &'static [&'static str],
     pub pixel: Pixel,
+    pub uv: bool,
 }
 
 impl Definition {
     const fn of<L: PictureLayer>() -> Self {
-        Definition { name: L::NAME, channels: L::CHANNELS, pixel: L::PIXEL }
+        Definition { name: L::NAME, channels: L::CHANNELS, pixel: L::PIXEL, uv: L::READS_UV }
     }
 }
 
@@ -116,6 +142,12 @@ layers! {
     Albedo: albedo::Albedo,
     Normal: normal::Normal,
     Depth: depth::Depth,
+    Position: position::Position,
+    Uv: uv::Uv,
+    Emission: emission::Emission,
+    ObjectId: object_id::ObjectId,
+    MaterialId: material_id::MaterialId,
+    Variance: variance::Variance,
 }
 
 /// A set of layers, for [`crate::RenderOptions::layers`]; it goes through them in the order in which files have them.
@@ -164,6 +196,26 @@ impl LayerSet {
     /// Numbers that a pixel has of them.
     pub fn channels(self) -> usize {
         self.iter().map(|layer| definition(layer).channels.len()).sum()
+    }
+
+    /// What is kept of each pixel for them.
+    pub(crate) fn kept(self) -> Kept {
+        let mut kept = Kept::default();
+        for layer in self.iter() {
+            let Definition { channels, pixel, uv, .. } = definition(layer);
+            match pixel {
+                Pixel::Mean | Pixel::MeanOfHits(_) => kept.sums += channels.len(),
+                Pixel::Nearest(_) => kept.nearest += 1,
+                Pixel::OfFilm(_) => {}
+            }
+            kept.uv |= uv;
+        }
+        kept
+    }
+
+    /// Whether camera rays have to be looked at for them.
+    pub(crate) fn are_of_hits(self) -> bool {
+        self.kept() != Kept::default()
     }
 }
 

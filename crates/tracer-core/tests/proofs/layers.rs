@@ -73,6 +73,22 @@ fn first_hits_are_those_of_the_reference() {
         close("normal", &three(Layer::Normal), &of_hit(&|hit| hit.normal.to_array(), 0.0), 3, 2e-5);
         let depth = of_hit(&|hit| [hit.depth / scale; 3], f64::INFINITY);
         close("depth", &one(Layer::Depth), &depth, 1, 3e-5);
+        let position = of_hit(&|hit| (hit.point / scale + scene.frame.centre).to_array(), 0.0);
+        close("position", &three(Layer::Position), &position, 3, 3e-5);
+        let uv: Vec<[f64; 3]> =
+            layer::<2>(&film, Layer::Uv).iter().map(|uv| [uv[0].into(), uv[1].into(), 0.0]).collect();
+        close("uv", &uv, &of_hit(&|hit| [hit.uv[0], hit.uv[1], 0.0], 0.0), 2, 2e-5);
+        close("emission", &three(Layer::Emission), &of_hit(&|hit| hit.emission.to_array(), 0.0), 3, 1e-5);
+        let number = |number: u32| [f64::from(number.wrapping_add(1)); 3];
+        close("object", &one(Layer::ObjectId), &of_hit(&|hit| number(hit.object), 0.0), 1, 0.0);
+        close("material", &one(Layer::MaterialId), &of_hit(&|hit| number(hit.material), 0.0), 1, 0.0);
+        let variance = (0..37 * 37).map(|k| [film.variance(k % 37, k / 37); 3]).collect::<Vec<_>>();
+        close("variance", &one(Layer::Variance), &variance, 1, 1e-5);
+        // All of it is seen.
+        let seen = |of: Layer| one(of).iter().map(|x| x[0] as u32).collect::<std::collections::BTreeSet<_>>();
+        assert!(seen(Layer::ObjectId).len() > 10 && seen(Layer::MaterialId).len() > 9, "{:?}", seen(Layer::ObjectId));
+        let shines = three(Layer::Emission).iter().any(|x| x[0] > 0.0) && variance.iter().any(|x| x[0] > 0.0);
+        assert!(shines || desc.lights.len() == 2);
         assert_eq!(expected.iter().any(Option::is_none), desc.lights.len() == 2);
     }
 }
@@ -140,6 +156,7 @@ fn a_ball_is_as_the_formula_says() {
         scene(SIZE, vec![], vec![sphere([0.0; 3], 1.0, diffuse([0.5; 3]))]).camera([0.0, 0.0, 4.0], [0.0; 3], 40.0);
     let film = render(&compiled(&desc), &samples(16), &Unobserved);
     let (normals, depths) = (layer::<3>(&film, Layer::Normal), layer::<1>(&film, Layer::Depth));
+    let objects = layer::<1>(&film, Layer::ObjectId);
     // From the eye at (0, 0, 4): t of the nearer hit with x^2 + y^2 + z^2 = 1, depth and normal there.
     let hit = |x: f64, y: f64| {
         let half = 20f64.to_radians().tan();
@@ -153,6 +170,13 @@ fn a_ball_is_as_the_formula_says() {
     for (k, (normal, [depth])) in normals.iter().zip(&depths).enumerate() {
         let (x, y) = (f64::from(k as u32 % SIZE), f64::from(k as u32 / SIZE));
         let places = (0..=16).flat_map(|j| (0..=16).map(move |i| (x + f64::from(i) / 16.0, y + f64::from(j) / 16.0)));
+        // Of 16 samples in as many squares of a pixel one lies in each of the four about its centre.
+        let near =
+            places.clone().filter(|(i, j)| (i - x - 0.5).hypot(j - y - 0.5) < 0.36).map(|(x, y)| hit(x, y).is_some());
+        let near: Vec<bool> = near.collect();
+        if near.iter().all(|&hit| hit == near[0]) {
+            assert_eq!(objects[k], [if near[0] { 1.0 } else { 0.0 }], "pixel {k}");
+        }
         let found: Vec<_> = places.map(|(x, y)| hit(x, y)).collect();
         let Some(found) = found.iter().copied().collect::<Option<Vec<_>>>() else {
             outside += usize::from(found.iter().all(Option::is_none));
