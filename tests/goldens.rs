@@ -1,6 +1,6 @@
 //! Golden pictures: every `golden/<family>/<case>.ron` is rendered and compared with the `.png` beside it, byte for byte.
 //!
-//! A missing picture fails, and so do a picture without a scene and a combination of material, shape and effect that no scene shows. A failure writes what was made, what was expected, the difference and one page
+//! A scene with a layer is rendered for that one. A missing picture fails, and so do a picture without a scene and a combination of material, shape and effect that no scene shows. A failure writes what was made, what was expected, the difference and one page
 //! that shows them with a wipe, the FLIP map and the scene (`target/goldens/<family>/<case>/index.html`), and prints the command
 //! that accepts the new picture.
 
@@ -12,7 +12,7 @@ mod page;
 use libtest_mimic::{Arguments, Failed, Trial};
 use page::{Page, command, difference};
 use std::path::{Path, PathBuf};
-use tracer_core::{RenderOptions, Unobserved};
+use tracer_core::{LayerImage, RenderOptions, Unobserved};
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -106,9 +106,21 @@ fn render(scene: &Path) -> Result<Picture, Failed> {
         return Err(format!("{} samples were not finite", film.counters.dropped).into());
     }
     let image = tracer_core::develop(&film, &compiled.look);
+    if let Some(layer) = image.layers.first() {
+        return Ok(Picture { width: image.width, height: image.height, rgb: shown(layer) });
+    }
     // As the program writes files: in single precision a value just below a half is rounded up.
     let rgb = image.display.iter().map(|&x| (f64::from(x) * 255.0 + 0.5) as u8).collect();
     Ok(Picture { width: image.width, height: image.height, rgb })
+}
+
+/// A layer as it can be looked at: its least number black and its greatest white, and what is not finite, too.
+fn shown(layer: &LayerImage) -> Vec<u8> {
+    let finite = || layer.values.iter().copied().filter(|x| x.is_finite()).map(f64::from);
+    let (least, most) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let code = |x: f32| if x.is_finite() { ((f64::from(x) - least) / (most - least) * 255.0 + 0.5) as u8 } else { 255 };
+    let pixels = layer.values.chunks_exact(layer.channels.len());
+    pixels.flat_map(|pixel| [0, 1, 2].map(|c| code(pixel[c % pixel.len()]))).collect()
 }
 
 fn compare(name: &str, scene: &Path, output: &Path) -> Result<(), Failed> {

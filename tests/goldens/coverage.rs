@@ -1,10 +1,11 @@
-//! What the golden scenes cover: every material in every shape under every effect, and each later kind once.
+//! What the golden scenes cover: every material in every shape under every effect, each later kind once, and each layer.
 
 use libtest_mimic::Failed;
 use scene_format::SceneDesc;
 use scene_format::desc::{Albedo, Material, MaterialRef, Object, PixelFilter, Placements, Shading, ToneMap};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use tracer_core::LayerSet;
 
 const MATERIALS: [&str; 5] = ["diffuse", "texture", "mirror", "transparent", "Blinn-Phong"];
 const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a mesh"];
@@ -27,10 +28,13 @@ pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {
         all.filter(|case| !shown.contains(case)).map(|(m, s, e)| format!("{m}, {s}, {e}")).collect();
     let folder = |file: &PathBuf| Some(file.parent()?.file_name()?.to_string_lossy().into_owned());
     let folders: BTreeSet<String> = scenes.iter().filter_map(folder).collect();
+    let layer = |name: &&str| !scenes.iter().any(|file| file.ends_with(format!("layers/{name}.ron")));
+    let layers = LayerSet::all().names().filter(layer).map(|name| format!("golden/layers/{name}.ron"));
     let missing: Vec<String> = FOLDERS
         .iter()
         .filter(|name| !folders.contains(**name))
         .map(|name| format!("golden/{name}"))
+        .chain(layers)
         .chain(missing)
         .collect();
     if missing.is_empty() { Ok(()) } else { Err(format!("no golden scene shows\n{}", missing.join("\n")).into()) }

@@ -12,6 +12,7 @@
 
 mod camera;
 mod environment;
+mod first_hit;
 mod light;
 mod random;
 mod scatter;
@@ -20,6 +21,7 @@ mod surface;
 mod texture;
 mod world;
 
+pub use first_hit::{FirstHit, first_hits};
 use glam::DVec3;
 pub use random::Random;
 use tracer_core::Scene;

@@ -17,6 +17,8 @@ pub struct Triangle {
     pub material: u32,
     /// Index of the light, or `NONE`.
     pub light: u32,
+    /// The object that it is of.
+    pub object: u32,
 }
 
 /// What a ray hit.
@@ -73,6 +75,14 @@ impl World {
         (light != NONE).then_some(light as usize)
     }
 
+    /// The object that was hit.
+    pub fn object_of(&self, hit: &Hit) -> u32 {
+        match hit.shape {
+            Shape::Sphere(k) => self.spheres[k].object,
+            Shape::Triangle(k) => self.triangles[k].object,
+        }
+    }
+
     /// The surface at a hit.
     pub fn surface(&self, ray: &Ray, hit: &Hit, smoothing: Smoothing) -> surface::Surface {
         let p = ray.origin + hit.t * ray.direction;
@@ -103,6 +113,7 @@ fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
         uvs: triangles.corner_uvs(k).map(|t| [t[a], t[b], t[c]]),
         material: if instance.material == NONE { triangles.material[k as usize] } else { instance.material },
         light: triangles.light.get(k as usize).copied().unwrap_or(NONE),
+        object: instance.object,
     }
 }
 

@@ -1,8 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Light, Material, Object, PixelFilter, Reuse, Shading,
-    TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
+    Shading, TextureFilter, TextureWrap, ToneMap,
 };
 use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, TransformWords};
 use crate::schema::EnumDef;
@@ -40,10 +40,11 @@ const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_b
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 19] = [
+pub(crate) const CHOICES: [&EnumDef; 20] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
+    &Layer::DEF,
     &Acceleration::DEF,
     &Integrator::DEF,
     &Reuse::DEF,
@@ -63,7 +64,7 @@ pub(crate) const CHOICES: [&EnumDef; 19] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 50] = [
+const SNIPPETS: [(&str, &str, &str); 59] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -73,6 +74,15 @@ const SNIPPETS: [(&str, &str, &str); 50] = [
     ("ToneMap", "None", "tone_map: None"),
     ("ToneMap", "Filmic", "tone_map: Filmic"),
     ("ToneMap", "AgX", "tone_map: AgX"),
+    ("Layer", "Albedo", "layers: [Albedo]"),
+    ("Layer", "Normal", "layers: [Normal]"),
+    ("Layer", "Depth", "layers: [Depth]"),
+    ("Layer", "Position", "layers: [Position]"),
+    ("Layer", "Uv", "layers: [Uv]"),
+    ("Layer", "Emission", "layers: [Emission]"),
+    ("Layer", "ObjectId", "layers: [ObjectId]"),
+    ("Layer", "MaterialId", "layers: [MaterialId]"),
+    ("Layer", "Variance", "layers: [Variance]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
@@ -143,14 +153,15 @@ pub fn examples() -> Vec<Example> {
 }
 
 fn example(choice: &str, kind: &str, words: &'static str) -> Example {
-    let (mut effects, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
+    let (mut more, mut render) = (String::new(), "samples: 16, max_bounces: 4".to_owned());
     let mut light = "SphereLight(center: (3, 4, 5), radius: 1, radiance: 20)".to_owned();
     let mut object = "Sphere(center: (0, 0, 0), radius: 1)".to_owned();
     let mut background = "0.1";
     let mut files: &'static [ExampleFile] = &[];
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     match choice {
-        "PixelFilter" | "DepthOfField" | "ToneMap" => effects = format!("    effects: Effects({words}),\n"),
+        "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
+        "Layer" => more = format!("    output: Output({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "BackgroundWords" => {
@@ -182,7 +193,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     }
     let ron = format!(
         "Scene(\n    camera: Camera(position: (0, 1, 5)),\n    image: Image(width: 64, height: 64),\n    render: \
-         Render({render}),\n{effects}    background: {background},\n    lights: [{light}],\n    objects: [\n        {object},\n        \
+         Render({render}),\n{more}    background: {background},\n    lights: [{light}],\n    objects: [\n        {object},\n        \
          Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
     );
     let choice = choice.trim_end_matches("Words");

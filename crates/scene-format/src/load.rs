@@ -141,6 +141,7 @@ fn load_string(
                 image: scene.image,
                 render: scene.render,
                 effects: scene.effects,
+                output: scene.output,
                 background: scene.background,
                 lights: scene.lights,
                 materials: scene.materials,

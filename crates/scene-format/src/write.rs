@@ -42,6 +42,7 @@ fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
         image: scene.image.clone(),
         render: scene.render.clone(),
         effects: scene.effects.clone(),
+        output: scene.output.clone(),
         background: scene.background.clone(),
         lights: scene.lights.clone(),
         materials: scene.materials.clone(),

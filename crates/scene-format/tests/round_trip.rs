@@ -191,6 +191,7 @@ fn scene(random: &mut Random) -> SceneDesc {
             exposure: number(random, -5.0, 5.0).into(),
             tone_map: *random.pick(&[ToneMap::None, ToneMap::Filmic, ToneMap::AgX]),
         },
+        output: Output { layers: (0..random.below(3)).map(|_| *random.pick(&[Layer::Albedo, Layer::Depth])).collect() },
         background: match random.below(3) {
             0 => Background::Environment(Box::new(Environment {
                 file: std::sync::Arc::<std::path::Path>::from(PathBuf::from(text(random))).into(),

@@ -6,16 +6,20 @@
 mod cells;
 mod exact;
 mod file;
+mod layers;
 mod pack;
 mod state;
 
 use crate::sampling::blocks::TILE;
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
+pub use layers::LayerImage;
+use layers::{FilmLayer, TileLayers};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
 
 use crate::engine::{Costs, Counters, Statistics};
+use crate::layers::{Kept, LayerSet};
 use crate::level::Level;
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
@@ -81,6 +85,8 @@ pub(crate) struct Tile {
     taken: Option<Box<Taken>>,
     /// Where light paths have fallen.
     splats: Option<Box<Splats>>,
+    /// Where samples with layers have been added.
+    layers: Option<Box<TileLayers>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -173,9 +179,10 @@ impl Tile {
     }
 
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool, light_paths: bool) -> usize {
+    fn bytes(clamped: bool, light_paths: bool, kept: Kept) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
-        size_of::<Tile>() + of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>())
+        let layers = TileLayers::bytes(kept);
+        size_of::<Tile>() + of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>()) + layers
     }
 }
 
@@ -216,6 +223,7 @@ pub struct Film {
     seed: u32,
     /// What a radiance of one in the sums stands for; a power of two.
     unit: f64,
+    layers: Vec<FilmLayer>,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -259,6 +267,7 @@ impl Film {
             crop,
             seed,
             unit,
+            layers: Vec::new(),
             first_tile,
             tile_columns,
             tiles,
@@ -319,14 +328,17 @@ impl Film {
 
     /// Bytes of memory that the sums take.
     pub fn bytes(&self) -> usize {
-        self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some())).sum()
+        let kept = self.layers().kept();
+        let of_layers = |tile: &Tile| if tile.layers.is_some() { kept } else { Kept::default() };
+        self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile))).sum()
     }
 
     /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not, where light paths fall everywhere
-    /// or nowhere.
-    pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool) -> u64 {
+    /// or nowhere, with these layers.
+    pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
-        tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * Tile::bytes(clamped, light_paths) as u64
+        let of_tile = Tile::bytes(clamped, light_paths, layers.kept());
+        tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * of_tile as u64
     }
 
     /// Tile and place in it of a pixel of the crop.

@@ -41,6 +41,7 @@ mod develop;
 mod engine;
 mod film;
 pub(crate) mod lanes;
+pub(crate) mod layers;
 mod level;
 pub(crate) mod math;
 pub mod mesh;
@@ -53,6 +54,7 @@ pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{
     Costs, Counters, Misfit, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render, resume,
 };
-pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, Note, PROGRAM, SavedFilm};
+pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
+pub use layers::LayerSet;
 pub use level::Level;
 pub use scene::Scene;

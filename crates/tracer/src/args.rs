@@ -4,10 +4,11 @@ use crate::commands::Template;
 use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scene_format::desc::Layer;
 use scene_format::{Override, Syntax};
 use std::path::PathBuf;
 use std::time::Duration;
-use tracer_core::Crop;
+use tracer_core::{Crop, LayerSet};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -143,7 +144,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --syntax, --diagnostics, --format and --bits, too.";
+`tracer man render` has --syntax, --diagnostics, --format, --bits and --stats.";
 
 /// `tracer render`
 #[derive(Debug, Args)]
@@ -176,6 +177,9 @@ pub struct RenderArgs {
     /// Stops to brighten the picture by
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
+    /// Layers of the EXR beside the scene's: albedo,depth
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
+    pub layers: Vec<Layer>,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -424,6 +428,11 @@ fn crop(text: &str) -> Result<Crop, String> {
         [x, y, width, height] if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
         _ => Err(expected.to_owned()),
     }
+}
+
+fn layer(text: &str) -> Result<Layer, String> {
+    let names = || LayerSet::all().names().collect::<Vec<_>>().join(", ");
+    LayerSet::by_name(text.trim()).ok_or_else(|| format!("expected names of layers with commas between: {}", names()))
 }
 
 fn bits(text: &str) -> Result<Bits, String> {

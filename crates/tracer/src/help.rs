@@ -21,7 +21,7 @@ pub fn command() -> Command {
     cli.mut_subcommands(|command| command.args(everywhere.clone()).help_template(TEMPLATE))
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
-            ["syntax", "diagnostics", "format", "bits"]
+            ["syntax", "diagnostics", "format", "bits", "stats"]
                 .into_iter()
                 .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
         })

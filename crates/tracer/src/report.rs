@@ -76,6 +76,8 @@ pub struct PictureReport {
     pub samples_max: u32,
     /// Of these, fewest samples of a pixel that came from a checkpoint.
     pub samples_resumed: u32,
+    /// Layers that EXR files hold beside it.
+    pub layers: Vec<&'static str>,
 }
 
 /// Wall-clock seconds of the phases, one after the other: they sum to `total`.

@@ -12,6 +12,7 @@ mod emissive;
 mod light;
 mod material;
 mod object;
+mod output;
 mod per_axis;
 mod shapes;
 mod textures;
@@ -26,6 +27,7 @@ pub use emissive::{Amount, Emissive};
 pub use light::{Emission, Light, SphereLight};
 pub use material::{Material, MaterialRef, NamedMaterial};
 pub use object::Object;
+pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{Instances, Mesh, PlacementList, Placements, RectBox, Rectangle, Shading, Sphere};
 pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
@@ -62,6 +64,8 @@ pub struct SceneDesc {
     pub render: Render,
     /// Film and lens effects.
     pub effects: Effects,
+    /// What is written beside the picture.
+    pub output: Output,
     /// Radiance of everything that no object covers.
     pub background: Background,
     /// Lights.
@@ -91,6 +95,8 @@ scene_struct! {
         render: Render = Render::default();
         /// Film and lens effects.
         effects: Effects = Effects::default();
+        /// What is written beside the picture.
+        output: Output = Output::default();
         /// Radiance of everything that no object covers.
         background: Background = Background::default() => Rule::light("in W/(sr m^2)");
         /// Lights. A scene needs one, or a background.
@@ -110,6 +116,7 @@ impl Default for SceneDesc {
             image: Image::default(),
             render: Render::default(),
             effects: Effects::default(),
+            output: Output::default(),
             background: Background::default(),
             lights: Vec::new(),
             materials: Vec::new(),

@@ -308,7 +308,9 @@ impl Parser<'_> {
             b'[' | b'{' if start < self.at => b'(',
             b'{' if inner().starts_with(|c: char| c.is_ascii_uppercase()) => {
                 let word = inner().trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
-                if word.starts_with('(') { b'[' } else { written }
+                // What has a name has it before a colon.
+                let item = word.starts_with('(') || word.trim_start().starts_with([',', '}']);
+                if item { b'[' } else { written }
             }
             b'[' if inner().starts_with('"') => {
                 let ahead = super::line_ahead(inner(), 1);

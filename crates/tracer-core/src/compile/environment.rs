@@ -39,7 +39,8 @@ impl Loaded<'_> {
         match self {
             Loaded::Color(color) => *color,
             Loaded::Environment(environment, picture) => {
-                let most = picture.texels.iter().fold([0f32; 3], |most, texel| [0, 1, 2].map(|c| most[c].max(texel[c])));
+                let most =
+                    picture.texels.iter().fold([0f32; 3], |most, texel| [0, 1, 2].map(|c| most[c].max(texel[c])));
                 [0, 1, 2].map(|c| f64::from(most[c]) * environment.scale[c])
             }
         }

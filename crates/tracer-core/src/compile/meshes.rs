@@ -329,7 +329,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
         if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
             for (copy, world) in worlds.enumerate() {
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
-                built.instances.push(Instance { mesh, material: whole, placement: None });
+                built.instances.push(Instance { mesh, material: whole, object: polygonal.number, placement: None });
                 if let Some(emissive) = emissive {
                     let radiance = parts.radiances[object][copy].map(|x| x / parts.radiance_unit);
                     let quads = matches!(polygonal.geometry, Geometry::Unit(_));
@@ -353,6 +353,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
         built.instances.extend(worlds.map(|world| Instance {
             mesh,
             material: whole,
+            object: polygonal.number,
             placement: Some(rows(&(scaled * world * file_from_object))),
         }));
     }

@@ -155,6 +155,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
+        layers: desc.output.layers.iter().copied().collect(),
         radiance_unit,
         background,
         spheres,
@@ -202,14 +203,15 @@ fn spheres_and_lights(
     sphere_materials: &[u32],
     sphere_lights: &[Option<Emissive>],
 ) -> (Vec<Sphere>, Vec<Light>) {
-    let objects = desc.objects.iter().filter_map(|object| match &object.value {
-        Object::Sphere(sphere) => Some(sphere),
+    let objects = (0..).zip(&desc.objects).filter_map(|(number, object)| match &object.value {
+        Object::Sphere(sphere) => Some((number, sphere)),
         _ => None,
     });
-    let render_space = |center: [f64; 3], radius: f64, material: u32, light: u32| Sphere {
+    let render_space = |center: [f64; 3], radius: f64, material: u32, object: u32, light: u32| Sphere {
         center: frame.point(DVec3::from(center)),
         radius: frame.length(radius),
         material,
+        object,
         light,
     };
     let mut lights: Vec<Light> = Vec::new();
@@ -218,17 +220,15 @@ fn spheres_and_lights(
         lights.len() as u32 - 1
     };
     let mut spheres = Vec::with_capacity(sphere_materials.len() + desc.lights.len());
-    for ((s, &material), emissive) in objects.zip(sphere_materials).zip(sphere_lights) {
-        let (material, light) = match emissive {
-            Some(emissive) => (NONE, shine(radiances::of_sphere(s, emissive), emissive.two_sided)),
-            None => (material, NONE),
-        };
-        spheres.push(render_space(s.center.value, s.radius.value, material, light));
+    for (((number, s), &material), emissive) in objects.zip(sphere_materials).zip(sphere_lights) {
+        let shines = |emissive: &Emissive| shine(radiances::of_sphere(s, emissive), emissive.two_sided);
+        let light = emissive.as_ref().map_or(NONE, shines);
+        spheres.push(render_space(s.center.value, s.radius.value, material, number, light));
     }
-    for light in &desc.lights {
+    for (number, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
         let index = shine(radiances::of_light(light), true);
-        spheres.push(render_space(light.center.value, light.radius.value, NONE, index));
+        spheres.push(render_space(light.center.value, light.radius.value, NONE, number, index));
     }
     SphereTable::order(&mut spheres);
     for (k, sphere) in spheres.iter().enumerate() {

@@ -75,7 +75,10 @@ pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
         [file, placements, texture].into_iter().flatten()
     });
     let of_background = desc.background.environment().map(|environment| &environment.file);
-    of_background.into_iter().chain(of_objects).chain(desc.materials.iter().filter_map(|named| texture_file(&named.material)))
+    of_background
+        .into_iter()
+        .chain(of_objects)
+        .chain(desc.materials.iter().filter_map(|named| texture_file(&named.material)))
 }
 
 fn texture_file(material: &Material) -> Option<&Spanned<Arc<Path>>> {

@@ -29,6 +29,8 @@ pub enum UnitShape {
 
 /// An object that becomes triangles.
 pub struct Polygonal<'a> {
+    /// Its place among the objects of the scene.
+    pub number: u32,
     /// Its triangles, in a frame of their own.
     pub geometry: Geometry<&'a Spanned<Arc<Path>>>,
     /// From that frame to the one that the object is written in.
@@ -51,9 +53,10 @@ pub struct Polygonal<'a> {
 
 /// The objects of a scene that become triangles, in order.
 pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
-    desc.objects.iter().filter_map(|object| {
+    (0..).zip(&desc.objects).filter_map(|(number, object)| {
         let of_unit = |shape: UnitShape, local: DAffine3, noun: &'static str| {
             Some(Polygonal {
+                number,
                 geometry: Geometry::Unit(shape),
                 local,
                 material: object.value.material(),
@@ -71,6 +74,7 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
             Object::Rectangle(rectangle) => of_unit(UnitShape::Square, of_rectangle(rectangle), "rectangle"),
             Object::Box(cuboid) => of_unit(UnitShape::Cube, of_box(cuboid), "box"),
             Object::Mesh(mesh) => Some(Polygonal {
+                number,
                 geometry: Geometry::File(&mesh.file),
                 local: DAffine3::IDENTITY,
                 material: &mesh.material,

@@ -6,7 +6,7 @@ mod tone_map;
 pub use srgb::srgb_encode;
 pub use tone_map::{agx, filmic};
 
-use crate::film::{Crop, Film};
+use crate::film::{Crop, Film, LayerImage};
 use rayon::prelude::*;
 use scene_format::desc::ToneMap;
 use srgb::ENCODER;
@@ -34,6 +34,8 @@ pub struct Image {
     pub linear: Vec<f32>,
     /// Tone-mapped and sRGB-encoded, in 0..=1.
     pub display: Vec<f32>,
+    /// The film's layers, as they are: not developed.
+    pub layers: Vec<LayerImage>,
 }
 
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
@@ -65,5 +67,6 @@ pub fn develop(film: &Film, look: &Look) -> Image {
             }
         }
     });
-    Image { width, height, linear, display }
+    let layers = film.layers().iter().filter_map(|layer| film.layer(layer)).collect();
+    Image { width, height, linear, display, layers }
 }

@@ -8,6 +8,7 @@ use super::glints::WEIGHT;
 use super::stages::shade::BRANCHING;
 use super::statistics::Watch;
 use crate::lanes::{Bits, Lanes};
+use crate::layers::Kept;
 use crate::math::V3;
 use crate::sampling::blocks::{ITEM_PIXELS, Item, Pixels};
 use crate::scene::NONE;
@@ -329,6 +330,36 @@ pub struct Groups {
     pub gathered: Columns,
 }
 
+/// What camera rays hit first, for the layers that are asked for ([`crate::layers`]), slot by slot.
+#[derive(Default)]
+pub struct LayerSamples {
+    /// A column for each channel of those layers that are means, one layer after the other; zero where nothing is hit.
+    pub sums: Vec<Box<[f32; PATHS]>>,
+    /// A column for each of those that go by the nearest sample; zero where nothing is hit.
+    pub nearest: Vec<Box<[u32; PATHS]>>,
+    /// For these: the square of the sample's distance from its pixel's centre, in pixels.
+    pub distance2: Vec<f32>,
+    /// Per item: the slots whose ray hit something, a bit each.
+    pub hits: [u64; ITEMS],
+}
+
+impl LayerSamples {
+    /// Makes ready for so many columns.
+    pub fn start(&mut self, kept: Kept) {
+        self.hits = [0; ITEMS];
+        self.sums.resize_with(kept.sums, || Box::new([0.0; PATHS]));
+        self.sums.iter_mut().for_each(|column| column.fill(0.0));
+        self.nearest.resize_with(kept.nearest, || Box::new([0; PATHS]));
+        self.nearest.iter_mut().for_each(|column| column.fill(0));
+        self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, 0.0);
+    }
+
+    /// What there are columns for.
+    pub fn kept(&self) -> Kept {
+        Kept { sums: self.sums.len(), nearest: self.nearest.len(), uv: false }
+    }
+}
+
 /// What a batch counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -392,6 +423,8 @@ pub struct Batch {
     pub segments: Shadows,
     /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path found.
     pub radiance: Columns,
+    /// What camera rays hit first.
+    pub layers: LayerSamples,
     /// Photons on their way from the lights.
     pub photons: Photons,
     /// What light paths bring to the film.
@@ -427,6 +460,7 @@ impl Batch {
             paths: Paths::new(),
             next: Paths::new(),
             branches: Paths::new(),
+            layers: LayerSamples::default(),
             photons: Photons {
                 pair: words(),
                 index: words(),

@@ -6,12 +6,13 @@ use super::guide::plan::Plan;
 use super::guide::trace::PhotonPass;
 use super::stages::light_paths::LightPass;
 use super::stages::shaft::Obstacles;
-use super::stages::{aim, camera, light_paths, photons, reach, shade, share, spheres};
+use super::stages::{aim, camera, first_hits, light_paths, photons, reach, shade, share, spheres};
 use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{F8, F16, Pair};
+use crate::layers::LayerSet;
 use crate::level::{Level, Set};
 use crate::scene::Scene;
 
@@ -21,6 +22,7 @@ pub struct Kernels {
     level: Level,
     camera: unsafe fn(&Scene, u32, u32, &mut Batch),
     closest: unsafe fn(&Scene, &mut Batch),
+    first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
@@ -45,6 +47,10 @@ macro_rules! kernels {
             $(#[target_feature(enable = $features)])?
             fn closest_entry(scene: &Scene, batch: &mut Batch) {
                 spheres::spheres_closest::<$of_spheres>(&scene.tables.spheres, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn first_hits_entry(scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
+                first_hits::first_hits::<$lanes>(scene, seed, layers, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -91,6 +97,7 @@ macro_rules! kernels {
                 level,
                 camera: camera_entry,
                 closest: closest_entry,
+                first_hits: first_hits_entry,
                 shade: shade_entry,
                 occluded: occluded_entry,
                 reach_closest: reach_closest_entry,
@@ -153,6 +160,11 @@ impl Kernels {
     pub fn closest(&self, scene: &Scene, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.closest)(scene, batch) }
+    }
+    /// What the camera rays of the batch hit first, for these layers.
+    pub fn first_hits(&self, scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
+        unsafe { (self.first_hits)(scene, seed, layers, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {

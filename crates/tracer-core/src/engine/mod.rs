@@ -17,9 +17,12 @@ mod statistics;
 mod trace;
 
 pub use batch::Counters;
+pub(crate) use batch::LayerSamples;
+pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
 use crate::film::{Cells, Crop, Film, FilmState};
+use crate::layers::LayerSet;
 use crate::level::Level;
 use crate::sampling::blocks::{BLOCK_PIXELS, Block, ITEM_PIXELS, Item, QUARTERS, TILE};
 use crate::sampling::sampler::hash3;
@@ -59,6 +62,8 @@ pub struct RenderOptions {
     /// all that a pixel gets at one sample index, its part of what others have found included; what one light path brings to a pixel is
     /// scaled by itself. What is not a finite number above zero is no limit.
     pub clamp: Option<f32>,
+    /// What is kept of what camera rays hit first, beside the picture ([`Film::layer`]).
+    pub layers: Option<LayerSet>,
     /// Whether to keep [`Statistics`].
     pub statistics: bool,
     /// Passes are made no longer than this, as far as those before tell, so that [`Observer::state`] comes often: it comes between passes only.
@@ -138,6 +143,7 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("crop", film.crop() == fresh.crop())?;
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
+    fits("set of layers", film.has_layers_of(&fresh))?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
     let samples = options.samples.unwrap_or(scene.samples);
     let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
@@ -155,7 +161,9 @@ fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
 fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
     let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
-    Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp)
+    let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
+    film.keep_layers(options.layers.unwrap_or(scene.layers), scene);
+    film
 }
 
 /// Adds the samples that a film lacks.
@@ -178,6 +186,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         guide: None,
         light_paths: None,
         task: trace::Task::Picture,
+        layers: LayerSet::default(),
     };
     let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
@@ -224,6 +233,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
             options: trace::Pass {
                 guide: guides.as_ref().map(Guides::guide),
                 light_paths: light_paths.as_ref().map(|(light_paths, plan)| (light_paths, *plan)),
+                layers: film.layers(),
                 ..pass_options
             },
             statistics: options.statistics,
@@ -336,7 +346,7 @@ fn second_vertices(scene: &Scene, kernels: &Kernels, pass: trace::Pass<'_>, work
 }
 
 /// The slots of the block whose first item this is.
-fn slots_of_block(first: usize) -> Range<usize> {
+pub(crate) fn slots_of_block(first: usize) -> Range<usize> {
     first * ITEM_PIXELS..first * ITEM_PIXELS + BLOCK_PIXELS
 }
 
@@ -350,6 +360,7 @@ fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
             let left_out = tile.add(samples, common);
             batch.counters.dropped += left_out.dropped;
             batch.counters.beyond += left_out.beyond;
+            tile.add_layers(&batch.layers, first, common);
             added += common.len() as u64;
         });
     }

@@ -13,6 +13,8 @@ pub enum Stage {
     Reach,
     /// Closest hits in the tree.
     Closest,
+    /// What camera rays hit first, where the picture has layers.
+    Layers,
     /// Surfaces, materials, lights and the next rays.
     Shade,
     /// Shadow rays, and segments between pixels, in the tree.
@@ -31,11 +33,12 @@ pub enum Stage {
 
 impl Stage {
     /// All of them.
-    pub const ALL: [Stage; 11] = [
+    pub const ALL: [Stage; 12] = [
         Stage::Camera,
         Stage::Spheres,
         Stage::Reach,
         Stage::Closest,
+        Stage::Layers,
         Stage::Shade,
         Stage::Occluded,
         Stage::Deposit,
@@ -52,6 +55,7 @@ impl Stage {
             Stage::Spheres => "spheres",
             Stage::Reach => "reach",
             Stage::Closest => "closest",
+            Stage::Layers => "layers",
             Stage::Shade => "shade",
             Stage::Occluded => "occluded",
             Stage::Deposit => "deposit",

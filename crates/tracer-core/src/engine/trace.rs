@@ -11,6 +11,7 @@ use super::stages::deposit::deposit;
 use super::stages::shaft::Obstacles;
 use super::statistics::Stage;
 use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
+use crate::layers::LayerSet;
 use crate::level::Level;
 use crate::scene::Scene;
 use std::time::Instant;
@@ -39,6 +40,8 @@ pub struct Pass<'a> {
     pub light_paths: Option<(&'a LightPaths, &'a Plan)>,
     /// What for.
     pub task: Task,
+    /// What is kept of the first hits of the picture's camera rays.
+    pub layers: LayerSet,
 }
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
@@ -78,6 +81,11 @@ pub fn trace(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, batch: &mut Batch
 /// One vertex of all paths: what their rays hit, the light that is seen and sampled from there, and the next rays.
 pub fn bounce(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     closest(scene, kernels, vertex == 0, batch);
+    if vertex == 0 && pass.layers.are_of_hits() {
+        batch.layers.start(pass.layers.kept());
+        kernels.first_hits(scene, pass.seed, pass.layers, batch);
+        batch.watch.lap(Stage::Layers);
+    }
     batch.watch.shaded(batch.paths.len, pass.lanes);
     kernels.shade(scene, pass, vertex, batch);
     batch.watch.lap(Stage::Shade);

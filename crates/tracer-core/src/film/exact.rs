@@ -19,7 +19,7 @@ use bytemuck::Zeroable;
 pub(super) const LARGEST: f32 = 67_108_864.0;
 /// 2^80 and 2^-80.
 const PER_ONE: f64 = 1_208_925_819_614_629_174_706_176.0;
-const LEAST: f64 = 1.0 / PER_ONE;
+pub(super) const LEAST: f64 = 1.0 / PER_ONE;
 
 /// A number of at most [`LARGEST`] in least units, rounded to the nearest, ties to even.
 #[inline(always)]

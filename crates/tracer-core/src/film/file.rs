@@ -13,9 +13,11 @@
 //! | | the tiles, in any order: number (4), length (4), sums ([`super::pack`]) |
 //! | 8 | checksum of all before |
 
+use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{Crop, Film, Piece, Splats, Squares, Sums, TILE, Taken, Tile, Unfinished};
+use super::{Crop, Film, FilmLayer, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
 use crate::engine::{Costs, Counters};
+use crate::layers::{Kept, LayerSet};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
@@ -25,10 +27,10 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
-const LONGEST_TILE: u32 = 1 << 17;
+const LONGEST_TILE: u32 = 1 << 18;
 /// Pixels along a side at most.
 const MAX_SIDE: u32 = 1 << 16;
 
@@ -87,6 +89,7 @@ pub struct FilmHead {
     costs: Costs,
     reuse: bool,
     caustics: bool,
+    layers: Vec<SavedLayer>,
 }
 
 impl FilmHead {
@@ -108,6 +111,7 @@ impl FilmHead {
             costs: film.costs,
             reuse: film.reuse,
             caustics: film.caustics,
+            layers: film.layers.iter().map(|layer| layer.saved()).collect(),
         }
     }
 
@@ -139,6 +143,11 @@ impl FilmHead {
         let counters = counters_as_array(self.counters);
         let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
         out.extend(counters.into_iter().chain(costs.map(f64::to_bits)).flat_map(u64::to_le_bytes));
+        out.extend((self.layers.len() as u32).to_le_bytes());
+        for SavedLayer { name, units } in &self.layers {
+            text(name, &mut out);
+            out.extend(units.iter().flat_map(|x| x.to_bits().to_le_bytes()));
+        }
         let mut head = MAGIC.to_vec();
         head.extend([FORMAT, out.len() as u32].into_iter().flat_map(u32::to_le_bytes));
         head.extend(out);
@@ -169,9 +178,14 @@ impl FilmHead {
         for counter in &mut counters {
             *counter = long(from)?;
         }
-        let mut long = || long(from).map(f64::from_bits);
-        let unit = long()?;
-        let costs = Costs { total: long()?, reuse: long()?, caustics: long()?, clamp: long()? };
+        let real = |from: &mut &[u8]| long(from).map(f64::from_bits);
+        let unit = real(from)?;
+        let costs = Costs { total: real(from)?, reuse: real(from)?, caustics: real(from)?, clamp: real(from)? };
+        let mut layers = Vec::new();
+        for _ in 0..number(from)? {
+            let name = text(from)?;
+            layers.push(SavedLayer { name, units: [real(from)?, real(from)?, real(from)?, real(from)?] });
+        }
         let head = FilmHead {
             program,
             notes,
@@ -187,6 +201,7 @@ impl FilmHead {
             costs,
             reuse,
             caustics,
+            layers,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -202,13 +217,16 @@ impl FilmHead {
                     && samples.start < samples.end
                     && samples.end <= *end
             };
-            whole < *end && pieces.iter().all(within)
+            // A pass has one guide: it ends at a power of two at the latest.
+            let latest = (u64::from(whole) + 1).next_power_of_two();
+            whole < *end && u64::from(*end) <= latest && pieces.iter().all(within)
         });
         let end = self.unfinished.as_ref().map_or(whole, |rest| rest.end);
         self.size.iter().all(|side| (1..=MAX_SIDE).contains(side))
             && self.crop.within(self.size) == self.crop
             && self.clamp.is_none_or(|limit| limit > 0.0 && limit.is_finite())
             && (self.unit > 0.0 && self.unit.is_normal())
+            && self.layers.iter().flat_map(|layer| layer.units).all(f64::is_finite)
             && rest
             && self.samples.end() >= self.samples.start()
             && *self.samples.end() <= end
@@ -219,7 +237,19 @@ impl FilmHead {
 
     /// Bytes of memory that the film takes at most.
     pub fn bytes(&self) -> u64 {
-        Film::bytes_of(self.crop, self.clamp.is_some(), true)
+        let layers = self.layers.iter().filter_map(|layer| Some(layer.layer()?.layer)).collect();
+        Film::bytes_of(self.crop, self.clamp.is_some(), true, layers)
+    }
+
+    /// The names of the layers that it holds, as files have them.
+    pub fn layers(&self) -> impl Iterator<Item = &str> {
+        self.layers.iter().map(|layer| layer.name.as_str())
+    }
+
+    /// The layers, as this program has them.
+    fn film_layers(&self) -> Result<Vec<FilmLayer>, FilmError> {
+        let layers: Option<Vec<FilmLayer>> = self.layers.iter().map(SavedLayer::layer).collect();
+        layers.ok_or_else(|| FilmError::Program(self.program.clone()))
     }
 }
 
@@ -247,12 +277,18 @@ fn counters_from_array(counters: [u64; 8]) -> Counters {
     Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond }
 }
 
+/// What tiles keep for these layers.
+fn kept(layers: &[FilmLayer]) -> Kept {
+    layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
+}
+
 /// A tile as it stands in the file, its number and length included.
 pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     let mut out = Vec::with_capacity(8192);
     out.extend((place as u32).to_le_bytes());
     out.extend([0; 4]);
-    out.push(u8::from(tile.taken.is_some()) | u8::from(tile.splats.is_some()) << 1);
+    let parts = [tile.taken.is_some(), tile.splats.is_some(), tile.layers.is_some()];
+    out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
     let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
     sums(&tile.sums, &mut out);
     pack_wide(|k| tile.squares.words(k), &mut out);
@@ -265,13 +301,17 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
         sums(&splats.sums, &mut out);
         pack_wide(|k| splats.squares.words(k), &mut out);
     }
+    if let Some(layers) = &tile.layers {
+        layers.record(&mut out);
+    }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
     out
 }
 
-/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many.
-fn read_tile(mut from: &[u8], most: u32, tile: &mut Tile) -> Option<()> {
+/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
+/// is kept for layers.
+fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
     let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
@@ -300,7 +340,10 @@ fn read_tile(mut from: &[u8], most: u32, tile: &mut Tile) -> Option<()> {
         squares(&mut splats.squares, from)?;
         tile.splats = Some(splats);
     }
-    (flags < 4 && from.is_empty()).then_some(())
+    if flags & 4 != 0 {
+        tile.layers = Some(Box::new(TileLayers::read(from, most, kept)?));
+    }
+    (flags < 8 && from.is_empty()).then_some(())
 }
 
 /// Writes a film from its parts, and sums what goes through.
@@ -405,7 +448,8 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
         let (mut tile, most) = (Tile::zeroed(), *self.head.samples.end());
-        self.tiles(|_, bytes| read_tile(bytes, most, &mut tile))?;
+        let kept = kept(&self.head.film_layers()?);
+        self.tiles(|_, bytes| read_tile(bytes, most, kept, &mut tile))?;
         Ok(self.head)
     }
 
@@ -414,13 +458,15 @@ impl<R: Read> SavedFilm<R> {
     /// # Errors
     /// When it cannot be read, is not as it was written, or takes more memory than there is.
     pub fn film(mut self) -> Result<Film, FilmError> {
+        let layers = self.head.film_layers()?;
+        let kept = kept(&layers);
         let mut tiles: Vec<Tile> =
             try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
         let (clamped, most) = (self.head.clamp.is_some(), *self.head.samples.end());
         self.tiles(|place, bytes| {
             let tile = tiles.get_mut(place)?;
-            read_tile(bytes, most, tile)?;
-            (tile.taken.is_some() == clamped).then_some(())
+            read_tile(bytes, most, kept, tile)?;
+            (tile.taken.is_some() == clamped && (tile.layers.is_none() || kept != Kept::default())).then_some(())
         })?;
         let head = self.head;
         // Without tiles: theirs are at hand.
@@ -431,7 +477,7 @@ impl<R: Read> SavedFilm<R> {
         (film.whole, film.unfinished, film.light_samples) =
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
-        (film.reuse, film.caustics) = (head.reuse, head.caustics);
+        (film.reuse, film.caustics, film.layers) = (head.reuse, head.caustics, layers);
         Ok(film)
     }
 

@@ -67,7 +67,11 @@ fn axes(up: DVec3, degrees: f64) -> [DVec3; 3] {
     // The least turn from +y: v + (a x v) + a x (a x v) / (1 + cos) with a = y x up; half a turn about z where `up` is -y.
     let a = DVec3::Y.cross(up);
     let turned = |v: DVec3| {
-        if up.y <= -1.0 + 1e-12 { DVec3::new(-v.x, -v.y, v.z) } else { v + a.cross(v) + a.cross(a.cross(v)) / (1.0 + up.y) }
+        if up.y <= -1.0 + 1e-12 {
+            DVec3::new(-v.x, -v.y, v.z)
+        } else {
+            v + a.cross(v) + a.cross(a.cross(v)) / (1.0 + up.y)
+        }
     };
     let (right, front) = (turned(DVec3::X), turned(DVec3::NEG_Z));
     let (sin, cos) = match degrees.rem_euclid(360.0) {
@@ -83,8 +87,9 @@ fn axes(up: DVec3, degrees: f64) -> [DVec3; 3] {
 impl Density {
     fn new([width, height]: [u32; 2], texels: &[[f32; 3]]) -> Density {
         let [columns, rows] = [width.min(MOST_CELLS[0]), height.min(MOST_CELLS[1])];
-        let luminance =
-            |column: usize, row: usize| texels[row * width as usize + column].iter().map(|&x| f64::from(x)).sum::<f64>();
+        let luminance = |column: usize, row: usize| {
+            texels[row * width as usize + column].iter().map(|&x| f64::from(x)).sum::<f64>()
+        };
         // Texels that begin before a cell ends, and one more at each side: what lies between texels reaches there.
         let touched = |k: u32, of: u32, size: u32| {
             let (k, of, size) = (u64::from(k), u64::from(of), u64::from(size));

@@ -1,7 +1,7 @@
 //! Lights, and the tree by which one of them is chosen.
 
-use super::{Environment, Sphere};
 use super::table::Table;
+use super::{Environment, Sphere};
 use glam::DVec3;
 
 /// A light. What it shines it shines in all directions alike from each of its points, and it reflects nothing.

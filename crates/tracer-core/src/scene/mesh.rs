@@ -19,6 +19,8 @@ pub struct Instance {
     pub mesh: u32,
     /// Index into `Scene::materials` for the whole of it; [`NONE`]: the triangles' own.
     pub material: u32,
+    /// Its object's place in the scene.
+    pub object: u32,
     /// Rows of the 3x4 matrix from the mesh's frame to render space; `None`: the mesh is in render space already (it is placed once).
     pub placement: Option<[[f32; 4]; 3]>,
 }

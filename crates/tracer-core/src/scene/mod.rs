@@ -70,6 +70,8 @@ pub struct Scene {
     pub caustics: bool,
     /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
     pub clamp: Option<f32>,
+    /// What is kept of what camera rays hit first, unless the caller says otherwise.
+    pub layers: crate::layers::LayerSet,
     /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or background is from
     /// 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All of a [`crate::Film`] that is read is
     /// in W/(sr m^2) again.

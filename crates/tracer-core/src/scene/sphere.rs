@@ -20,8 +20,10 @@ pub struct Sphere {
     pub center: DVec3,
     /// Radius.
     pub radius: f64,
-    /// Index into `Scene::materials`; [`super::NONE`] for a light's sphere.
+    /// Index into `Scene::materials`; [`super::NONE`] for a lamp that is no object.
     pub material: u32,
+    /// Its object's place in the scene; of lamps that are none the number of objects and their own place.
+    pub object: u32,
     /// Index into `Scene::lights`; [`super::NONE`] for an object.
     pub light: u32,
 }

@@ -60,9 +60,9 @@ fn names(formats: &[ImageFormat]) -> String {
         ImageFormat::OpenExr => "EXR".to_owned(),
         other => format!("{other:?}").to_uppercase(),
     };
-    let (last, others) = formats.split_last().map_or((String::new(), Vec::new()), |(last, others)| {
-        (name(last), others.iter().map(name).collect())
-    });
+    let (last, others) = formats
+        .split_last()
+        .map_or((String::new(), Vec::new()), |(last, others)| (name(last), others.iter().map(name).collect()));
     if others.is_empty() { last } else { format!("{} or {last}", others.join(", ")) }
 }
 

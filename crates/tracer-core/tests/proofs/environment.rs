@@ -147,10 +147,14 @@ fn skies_as_the_reference_sees_them() {
 #[test]
 fn sharing_under_a_sky() {
     let sky = || environment(sunny());
-    let open = scene(48, vec![], vec![
-        sphere([0.0, -101.0, 0.0], 100.0, diffuse([0.7, 0.6, 0.5])),
-        sphere([0.0, -0.3, 0.0], 0.7, diffuse([0.4, 0.5, 0.6])),
-    ]);
+    let open = scene(
+        48,
+        vec![],
+        vec![
+            sphere([0.0, -101.0, 0.0], 100.0, diffuse([0.7, 0.6, 0.5])),
+            sphere([0.0, -0.3, 0.0], 0.7, diffuse([0.4, 0.5, 0.6])),
+        ],
+    );
     assert_sharing_is_unbiased("open under a sky", &open.camera([0.0, 1.0, 5.0], [0.0; 3], 40.0).under(sky()), SHARED);
     let mut room = room();
     room.remove(0);
@@ -192,7 +196,8 @@ fn formats_are_alike() {
 /// What is wrong with a picture is told at its name; what is odd, too.
 #[test]
 fn faults_of_pictures_are_told() {
-    let scene = |file: PathBuf| scene(8, vec![], vec![sphere([0.0; 3], 1.0, diffuse([0.5; 3]))]).under(environment(file));
+    let scene =
+        |file: PathBuf| scene(8, vec![], vec![sphere([0.0; 3], 1.0, diffuse([0.5; 3]))]).under(environment(file));
     let whole = std::fs::read(sunny()).expect("a file");
     let cut = write("cut.exr", &whole[..whole.len() / 2]);
     let text = write("text.hdr", b"no picture");
@@ -207,7 +212,8 @@ fn faults_of_pictures_are_told() {
         let found: Vec<_> = error.diagnostics.iter().map(|fault| fault.code).collect();
         assert_eq!(found, [code], "{}", file.display());
     }
-    let odd = sky("odd.exr", [3, 3], ImageFormat::OpenExr, |i, _| [f32::NAN, -1.0, [f32::INFINITY, 1.0, 2.0][i as usize]]);
+    let odd =
+        sky("odd.exr", [3, 3], ImageFormat::OpenExr, |i, _| [f32::NAN, -1.0, [f32::INFINITY, 1.0, 2.0][i as usize]]);
     let compiled = tracer_core::compile(&scene(odd)).expect("odd, not wrong");
     let found: Vec<_> = compiled.warnings.iter().map(|warning| warning.code).collect();
     assert_eq!(found, [codes::ENVIRONMENT_SHAPE, codes::ENVIRONMENT_PIXELS]);

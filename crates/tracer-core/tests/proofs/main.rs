@@ -14,6 +14,7 @@ mod convergence;
 mod environment;
 mod figures;
 mod glints;
+mod layers;
 mod matrix;
 mod random_scenes;
 mod range;

@@ -1,5 +1,6 @@
 //! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
 
+use super::told;
 use crate::failure::Failure;
 use scene_format::desc::{Acceleration, ToneMap};
 use scene_format::{SceneDesc, hash_hex};
@@ -10,7 +11,7 @@ use std::io;
 use std::mem::{swap, take};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
-use tracer_core::{Crop, FilmHead, Note, PROGRAM};
+use tracer_core::{Crop, FilmHead, LayerSet, Note, PROGRAM};
 
 /// Kinds of notes, as their names begin: a value to be shown, a part of the scene by its hash, a file by its own.
 const SETTING: &str = "render.";
@@ -60,15 +61,17 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failu
     Ok(notes)
 }
 
-/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits.
+/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits; and but for its layers, which are
+/// named where they differ.
 fn hash_of_film(desc: &mut SceneDesc) -> String {
     let render = desc.render.clone();
     let effects = desc.effects.clone();
+    let layers = take(&mut desc.output.layers);
     desc.render.samples = 1.into();
     desc.render.acceleration = Acceleration::Bvh;
     (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
     let hash = hash_hex(desc);
-    (desc.render, desc.effects) = (render, effects);
+    (desc.render, desc.effects, desc.output.layers) = (render, effects, layers);
     hash
 }
 
@@ -100,6 +103,7 @@ pub struct Asked<'a> {
     pub crop: Crop,
     pub seed: u32,
     pub clamp: Option<f32>,
+    pub layers: LayerSet,
     pub notes: &'a [Note],
 }
 
@@ -121,6 +125,7 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     compare("the seed", head.seed.to_string(), asked.seed.to_string());
     let clamp = |limit: Option<f32>| limit.map_or("None".to_owned(), |limit| limit.to_string());
     compare("render.clamp", clamp(head.clamp), clamp(asked.clamp));
+    compare("the set of layers", told::layers(head), asked.layers.to_string());
     let (there, here): (BTreeMap<_, _>, BTreeMap<_, _>) =
         (head.notes.iter().cloned().collect(), asked.notes.iter().cloned().collect());
     let names = here.keys().chain(there.keys().filter(|name| !here.contains_key(*name)));

@@ -40,7 +40,7 @@ fn is_empty(path: &Path) -> bool {
 /// # Errors
 /// When it belongs to another, or neither it nor the one before can be read.
 pub fn look_for(place: &Place, scene: &Scene, crop: Crop, notes: &[Note], shell: &Shell) -> Result<Found, Failure> {
-    let asked = Asked { size: scene.size, crop, seed: scene.seed, clamp: scene.clamp, notes };
+    let asked = Asked { size: scene.size, crop, seed: scene.seed, clamp: scene.clamp, layers: scene.layers, notes };
     let (name, previous) = (place.name(), format!("{}.previous", place.name()));
     let first = match load(place.file(), &name, &asked) {
         Ok(film) => return Ok(Found { film: Some(film), is_spoilt: false }),

@@ -13,6 +13,12 @@ fn files(head: &FilmHead) -> Vec<&str> {
     head.notes.iter().filter_map(|(name, _)| name.strip_prefix("file:")).collect()
 }
 
+/// The names of the layers; `none` where there is none.
+pub fn layers(head: &FilmHead) -> String {
+    let names: Vec<&str> = head.layers().collect();
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
 /// A few lines for people.
 pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     let mut text = String::new();
@@ -25,6 +31,9 @@ pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     line("picture", format!("{}x{} pixels{part}, seed {}", head.size[0], head.size[1], head.seed));
     let (fewest, most) = head.samples.clone().into_inner();
     line("samples", if fewest == most { fewest.to_string() } else { format!("{fewest} to {most}") });
+    if head.layers().next().is_some() {
+        line("layers", layers(head));
+    }
     line("written", note(head, "when").to_owned());
     line("program", head.program.clone());
     for (k, file) in files(head).into_iter().enumerate() {
@@ -46,6 +55,7 @@ pub fn as_json(path: &Path, bytes: u64, head: &FilmHead) -> serde_json::Value {
         "picture": { "width": head.size[0], "height": head.size[1], "crop": [x, y, width, height], "seed": head.seed },
         "samples_min": head.samples.start(),
         "samples_max": head.samples.end(),
+        "layers": head.layers().collect::<Vec<_>>(),
         "written": note(head, "when"),
         "tracer_version": head.program,
         "files": files(head),

@@ -1,4 +1,5 @@
-//! OpenEXR: one layer of R, G, B in 32-bit floats, ZIP, with attributes that say what the picture was made from.
+//! OpenEXR: R, G, B and the channels of the picture's layers (`depth.Z`) in 32-bit floats, ZIP, in one part as readers of channels by name
+//! expect it, with attributes that say what the picture was made from.
 
 use super::{Encoding, Provenance, WriteError};
 use exr::image::Blocks;
@@ -9,14 +10,16 @@ use exr::prelude::{
     LineOrder, SmallVec, Text, Vec2, WritableImage,
 };
 use std::io::Cursor;
-use tracer_core::Image;
+use tracer_core::{Image, LayerImage};
 
 pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
     let channel = |name: &str, c: usize| {
         AnyChannel::new(name, FlatSamples::F32(image.linear.iter().skip(c).step_by(3).copied().collect()))
     };
+    let mut channels = vec![channel("R", 0), channel("G", 1), channel("B", 2)];
+    channels.extend(image.layers.iter().flat_map(channels_of));
     // The format wants channels in alphabetical order; `sort` makes it so.
-    let channels = AnyChannels::sort(SmallVec::from_vec(vec![channel("R", 0), channel("G", 1), channel("B", 2)]));
+    let channels = AnyChannels::sort(SmallVec::from_vec(channels));
     let comments = [provenance.scene_name.as_str(), &provenance.settings_line()].join(": ");
     let mut attributes = LayerAttributes {
         software_name: Some(text(Provenance::SOFTWARE)),
@@ -44,6 +47,15 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
         .to_unbuffered(&mut bytes)
         .map_err(|error| WriteError::Encode { encoding: Encoding::Exr.name(), message: error.to_string() })?;
     Ok(bytes.into_inner())
+}
+
+/// The channels of a layer: `normal.X`, `normal.Y`, `normal.Z`.
+fn channels_of(layer: &LayerImage) -> impl Iterator<Item = AnyChannel<FlatSamples>> {
+    let count = layer.channels.len();
+    layer.channels.iter().enumerate().map(move |(c, channel)| {
+        let values = layer.values.iter().skip(c).step_by(count).copied().collect();
+        AnyChannel::new(format!("{}.{channel}", layer.name).as_str(), FlatSamples::F32(values))
+    })
 }
 
 /// The bytes of the text as they are; the format does not say which encoding, and readers take UTF-8.

@@ -8,6 +8,7 @@ mod faults;
 mod habits;
 #[cfg(unix)]
 mod interrupt;
+mod layers;
 mod render;
 mod report;
 mod support;

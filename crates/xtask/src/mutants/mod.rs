@@ -5,6 +5,7 @@
 
 mod engine;
 mod files;
+mod layers;
 mod photons;
 mod run;
 mod scene;
@@ -52,7 +53,7 @@ const fn suite(program: &'static str, filters: &'static [&'static str]) -> Tests
 
 /// All faults.
 pub fn all() -> impl Iterator<Item = &'static Mutant> {
-    [engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS].into_iter().flatten()
+    [engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS].into_iter().flatten()
 }
 
 impl Mutant {

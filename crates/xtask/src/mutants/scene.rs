@@ -101,8 +101,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "copies-forget-their-own-material",
         file: MESHES,
-        find: "material: whole,\n            placement: Some(",
-        replace: "material: 0,\n            placement: Some(",
+        find: "material: whole,\n            object: polygonal.number,\n            placement: Some(",
+        replace: "material: 0,\n            object: polygonal.number,\n            placement: Some(",
         caught_by: proofs(&["compiling", "random_scenes"]),
     },
     Mutant {

@@ -5,8 +5,9 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Background, Environment, Albedo, Checkerboard, Color, Emission, Instances, Light, Mapping, Material, MaterialRef, Mesh, NamedMaterial,
-    Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
+    Albedo, Background, Checkerboard, Color, Emission, Environment, Instances, Light, Mapping, Material, MaterialRef,
+    Mesh, NamedMaterial, Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap,
+    Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;

@@ -127,7 +127,7 @@ static SLOTS: [u32; ITEM_PIXELS] = {
 
 /// Offset from the pixel's centre, in pixels.
 #[inline(always)]
-fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
+pub fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
     let c = F::splat;
     match filter {
         Filter::Centre => (c(0.0), c(0.0)),

@@ -3,6 +3,7 @@
 pub mod aim;
 pub mod camera;
 pub mod deposit;
+pub mod first_hits;
 pub mod light_paths;
 pub mod lights;
 pub mod materials;

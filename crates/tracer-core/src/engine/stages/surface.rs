@@ -32,7 +32,7 @@ pub struct Surface<F: Lanes> {
     pub light: F::U,
 }
 
-/// The surface at the hits; lanes outside `valid` hold anything.
+/// The surface at the hits; lanes outside `valid` hold anything. Without textures there are no texture coordinates.
 #[inline(always)]
 pub fn surface<F: Lanes>(
     scene: &Scene,
@@ -43,13 +43,29 @@ pub fn surface<F: Lanes>(
     instance: F::U,
     valid: F::M,
 ) -> Surface<F> {
+    surface_and_uv(scene, origin, direction, t, primitive, instance, valid, scene.tables.materials.textured)
+}
+
+/// As [`surface`], with texture coordinates if they are wanted.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+pub fn surface_and_uv<F: Lanes>(
+    scene: &Scene,
+    origin: V3<F>,
+    direction: V3<F>,
+    t: F,
+    primitive: F::U,
+    instance: F::U,
+    valid: F::M,
+    wants_uv: bool,
+) -> Surface<F> {
     let spheres = F::U::splat(scene.tables.spheres.len);
     let on_sphere = primitive.lt(spheres);
     let on_triangle = valid & !on_sphere;
-    let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)));
+    let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)), wants_uv);
     if on_triangle.any() {
         let triangle = F::U::select(on_triangle, primitive - spheres, F::U::splat(0));
-        let m = on_triangles(scene, origin, direction, triangle, instance, on_triangle);
+        let m = on_triangles(scene, origin, direction, triangle, instance, on_triangle, wants_uv);
         let pick = on_triangle;
         s = Surface {
             p: V3::select(pick, m.p, s.p),
@@ -69,7 +85,7 @@ pub fn surface<F: Lanes>(
 }
 
 #[inline(always)]
-fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id: F::U) -> Surface<F> {
+fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id: F::U, wants_uv: bool) -> Surface<F> {
     let c = F::splat;
     let table = &scene.tables.spheres;
     let [px, py, pz, nx, ny, nz, k, material, light] = table.rows.row::<F>(id);
@@ -84,7 +100,7 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
     let p = outward.mad(gamma * c(-0.5), hit);
     let outside = outward.dot(direction).lt(c(0.0));
     let facing = V3::select(outside, outward, outward.neg());
-    let (u, v) = if scene.tables.materials.textured {
+    let (u, v) = if wants_uv {
         // Longitude and latitude; the middle of the picture looks along +z, u grows towards +x.
         let turns = atan2_turns(outward.0, outward.2);
         (turns + c(0.5), acos(outward.1).fma(c(-std::f32::consts::FRAC_1_PI), c(1.0)))
@@ -172,6 +188,7 @@ fn on_triangles<F: Lanes>(
     triangle: F::U,
     instance: F::U,
     valid: F::M,
+    wants_uv: bool,
 ) -> Surface<F> {
     let c = F::splat;
     let zero = c(0.0);
@@ -240,7 +257,7 @@ fn on_triangles<F: Lanes>(
     let start = ng.mad(offset, start);
 
     let (mut u, mut v) = (zero, zero);
-    if scene.tables.materials.textured && !triangles.uv_indices.is_empty() {
+    if wants_uv && !triangles.uv_indices.is_empty() {
         let ti = gather_indices::<F>(&triangles.uv_indices, triangle);
         let has = valid & !ti[0].eq(F::U::splat(NONE));
         if has.any() {

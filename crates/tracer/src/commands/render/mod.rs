@@ -21,13 +21,12 @@ use kept::{Kept, Places};
 use outputs::Output;
 use rescue::{Rescued, rescue};
 use scene_format::SceneDesc;
-use scene_format::desc::Render;
 use std::io::Write;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, develop, render, resume};
+use tracer_core::{Counters, Crop, Film, LayerSet, RenderOptions, Scene, develop, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
@@ -39,7 +38,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
     let mut desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
-    check_memory(crop, &desc.render)?;
+    check_memory(crop, &desc)?;
+    outputs::tell_of_layers(&outputs, args, &desc, shell);
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
     outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
@@ -194,6 +194,11 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     if let Some(exposure) = args.exposure {
         desc.effects.exposure = exposure.into();
     }
+    for &layer in &args.layers {
+        if !desc.output.layers.contains(&layer) {
+            desc.output.layers.push(layer);
+        }
+    }
     Ok(desc)
 }
 
@@ -211,11 +216,14 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop, render: &Render) -> Result<(), Failure> {
+fn check_memory(crop: Crop, desc: &SceneDesc) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let needed = memory::of_film(crop, render) + pixels * BYTES_PER_PIXEL;
+    let layers: LayerSet = desc.output.layers.iter().copied().collect();
+    // As numbers, as channels and as bytes.
+    let of_pixel = BYTES_PER_PIXEL + 12 * layers.channels() as u64;
+    let needed = memory::of_film(crop, &desc.render, layers) + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
@@ -297,6 +305,7 @@ fn report(
             samples_min,
             samples_max,
             samples_resumed: before.samples,
+            layers: film.layers().names().collect(),
         },
         transport: Transport::new(&desc.render, film),
         rays: Rays {

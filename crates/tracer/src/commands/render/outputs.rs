@@ -4,9 +4,12 @@ use super::place;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::loading::is_dash;
+use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, Place, is_one_file};
+use scene_format::SceneDesc;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use tracer_core::LayerSet;
 
 /// A picture to write.
 pub(super) struct Output {
@@ -58,7 +61,39 @@ pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     if args.bits.is_some() && !outputs.iter().any(|output| matches!(output.encoding, Encoding::Png(_))) {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
     }
+    if !args.layers.is_empty() && !has_exr(&outputs) {
+        return Err(Failure::wrong(format!(
+            "--layers is for EXR, and no -o is one; add -o {}",
+            exr_beside(&outputs, args)
+        )));
+    }
     Ok(outputs)
+}
+
+/// Layers go into this kind of picture only.
+fn has_exr(outputs: &[Output]) -> bool {
+    outputs.iter().any(|output| output.encoding == Encoding::Exr)
+}
+
+/// An EXR to suggest, beside the first picture.
+fn exr_beside(outputs: &[Output], args: &RenderArgs) -> String {
+    let first = outputs.iter().find_map(|output| match &output.place {
+        Place::File(path) => Some(path.as_path()),
+        Place::Stdout => None,
+    });
+    let scene = || Path::new(args.scene.scene.file_stem().unwrap_or("picture".as_ref()));
+    first.unwrap_or_else(scene).with_extension("exr").display().to_string()
+}
+
+/// Says where a scene's layers go nowhere: a quick look at it is no fault.
+pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
+    let layers: LayerSet = desc.output.layers.iter().copied().collect();
+    if !layers.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
+        shell.say(&format!(
+            "warning: the scene's layers ({layers}) are written into EXR only; add -o {}",
+            exr_beside(outputs, args)
+        ));
+    }
 }
 
 /// The checkpoints that the command line names.

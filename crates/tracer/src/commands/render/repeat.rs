@@ -4,7 +4,7 @@ use crate::args::{RenderArgs, SyntaxName};
 use crate::command_line::quoted;
 use crate::write::Bits;
 use scene_format::SceneDesc;
-use tracer_core::Crop;
+use tracer_core::{Crop, LayerSet};
 
 /// Says size, samples and seed even where the scene said them: the scene may change them, the command stays right.
 pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
@@ -38,6 +38,9 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
     option("--seed", desc.render.seed.value.to_string());
     if let Some(exposure) = args.exposure {
         option("--exposure", exposure.to_string());
+    }
+    if !args.layers.is_empty() {
+        option("--layers", args.layers.iter().copied().collect::<LayerSet>().names().collect::<Vec<_>>().join(","));
     }
     if let Some(Crop { x, y, width, height }) = args.crop {
         option("--crop", format!("{x},{y},{width},{height}"));

@@ -44,7 +44,7 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let spheres: Vec<Sphere> = lights
         .iter()
         .enumerate()
-        .map(|(k, &(center, radius, _))| Sphere { center, radius, material: NONE, light: k as u32 })
+        .map(|(k, &(center, radius, _))| Sphere { center, radius, material: NONE, object: 0, light: k as u32 })
         .collect();
     let lights: Vec<Light> = lights
         .iter()

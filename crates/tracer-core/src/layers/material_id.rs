@@ -1,0 +1,21 @@
+//! Which material: 1 is the first of `materials`, then the next; behind them those without a name there: written in objects, from
+//! MTL files, the default. Zero: none, or a lamp of `lights`, which has none.
+
+use super::{PictureLayer, Pixel};
+use crate::scene::NONE;
+
+pub(super) struct MaterialId;
+
+impl PictureLayer for MaterialId {
+    const NAME: &'static str = "material_id";
+    const CHANNELS: &'static [&'static str] = &["Y"];
+    const PIXEL: Pixel = Pixel::Nearest(|scene, primitive, instance| {
+        let first_triangle = scene.spheres.len();
+        let material = match scene.instances.get(instance as usize) {
+            Some(instance) if instance.material != NONE => instance.material,
+            Some(_) => scene.triangles.material.get(primitive as usize - first_triangle).map_or(NONE, |&m| m),
+            None => scene.spheres.get(primitive as usize).map_or(NONE, |sphere| sphere.material),
+        };
+        material.wrapping_add(1)
+    });
+}

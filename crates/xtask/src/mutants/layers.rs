@@ -1,0 +1,44 @@
+//! Faults in picture layers.
+
+use super::{Mutant, proofs};
+
+const FILM: &str = "crates/tracer-core/src/film/layers.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "depth-along-the-ray",
+        file: "crates/tracer-core/src/layers/depth.rs",
+        find: "let depth = hit.t * hit.direction.dot(forward);",
+        replace: "let depth = hit.t + F::splat(0.0) * hit.direction.dot(forward);",
+        caught_by: proofs(&["layers::a_wall_seen_straight_has_one_depth"]),
+    },
+    Mutant {
+        name: "normals-of-the-triangles",
+        file: "crates/tracer-core/src/layers/normal.rs",
+        find: "hit.surface.ns",
+        replace: "hit.surface.ng",
+        caught_by: proofs(&["layers::first_hits_are_those_of_the_reference"]),
+    },
+    Mutant {
+        name: "misses-do-not-count",
+        file: FILM,
+        find: "Pixel::Mean => tile.samples[k].max(1)",
+        replace: "Pixel::Mean => hits.max(1)",
+        caught_by: proofs(&["layers::layers_are_averaged_as_the_picture_is"]),
+    },
+    Mutant {
+        name: "the-farthest-sample-names-the-object",
+        file: FILM,
+        find: "u64::from(!distance2.to_bits()) << 32",
+        replace: "u64::from(distance2.to_bits()) << 32",
+        caught_by: proofs(&["layers::a_ball_is_as_the_formula_says"]),
+    },
+    Mutant {
+        name: "a-film-of-other-layers-is-taken",
+        file: FILM,
+        find: "self.layers == other.layers",
+        replace: "self.layers.len() <= other.layers.len() + 64",
+        caught_by: proofs(&["layers::films_with_layers_are_gone_on_with"]),
+    },
+];
