@@ -173,6 +173,8 @@ fn scene(random: &mut Random) -> SceneDesc {
         image: Image { width: (1 + random.below(65536) as u32).into(), ..Image::default() },
         render: Render {
             seed: (random.next() as u32).into(),
+            noise: (random.below(2) == 0).then(|| number(random, 0.001, 0.9).into()),
+            time: (random.below(2) == 0).then(|| length(random).into()),
             acceleration: *random.pick(&[Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None]),
             integrator: *random.pick(&[Integrator::Full, Integrator::Path]),
             ..Render::default()

@@ -6,10 +6,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use xtask::truth::kinds;
 
 /// Words that are not drawn, and why.
-const NOT_DRAWN: [(&str, &str); 20] = [
+const NOT_DRAWN: [(&str, &str); 22] = [
     ("Render.samples", "the command says how many"),
     ("Render.seed", "the command says which"),
     ("Render.clamp", "takes light on purpose"),
+    ("Render.noise", "the command says how many samples"),
+    ("Render.time", "the command says how many samples"),
     ("Render.acceleration", "the same bytes: proofs::same_bytes"),
     ("Acceleration.", "the same bytes: proofs::same_bytes"),
     ("Render.integrator", "the default is what is tested, the other is the truth"),

@@ -54,6 +54,12 @@ scene_struct! {
         /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one
         /// light path brings (`caustics`) counts at most as much; a caustic of many may be brighter.
         clamp: Option<Spanned<f64>> = None => Rule::length("a radiance").unit("in W/(sr m^2)");
+        /// The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to
+        /// the mean luminance, as the report has it. 0.01 is hardly seen. `samples` are the most. It is looked at with 16, 32, 64, 128, 192, ..
+        /// samples, so the picture depends on nothing else. `None`: all samples.
+        noise: Option<Spanned<f64>> = None => Rule::between("a relative error", 0.0, 1.0);
+        /// The rendering ends when the program has run so long. `samples` are the most. `None`: all samples.
+        time: Option<Spanned<f64>> = None => Rule::length("a time").unit("in seconds");
     }
 }
 
@@ -144,6 +150,8 @@ impl Default for Render {
             caustics: Caustics::Photons,
             indirect: Indirect::Paths,
             clamp: None,
+            noise: None,
+            time: None,
         }
     }
 }

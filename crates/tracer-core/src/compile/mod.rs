@@ -155,6 +155,8 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         },
         caustics: full && desc.render.caustics == Caustics::Photons,
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
+        noise: desc.render.noise.as_ref().map(|goal| goal.value),
+        time: desc.render.time.as_ref().map(|seconds| seconds.value),
         layers: desc.output.layers.iter().copied().collect(),
         radiance_unit,
         background,

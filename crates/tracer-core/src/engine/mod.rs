@@ -62,6 +62,12 @@ pub struct RenderOptions {
     /// all that a pixel gets at one sample index, its part of what others have found included; what one light path brings to a pixel is
     /// scaled by itself. What is not a finite number above zero is no limit.
     pub clamp: Option<f32>,
+    /// The rendering ends as soon as [`Film::relative_noise`] is no more than this, with fewer samples than are asked for. It is looked at where
+    /// all pixels have 16 samples, at every power of two, and from 64 on at every multiple of 64: so the picture depends on
+    /// nothing but the scene.
+    pub noise: Option<f64>,
+    /// The rendering ends then, as an observer would end it; not before every pixel has a sample.
+    pub until: Option<Instant>,
     /// What is kept of what camera rays hit first, beside the picture ([`Film::layer`]).
     pub layers: Option<LayerSet>,
     /// Whether to keep [`Statistics`].
@@ -69,6 +75,14 @@ pub struct RenderOptions {
     /// Passes are made no longer than this, as far as those before tell, so that [`Observer::state`] comes often: it comes between passes only.
     /// The picture does not depend on it.
     pub longest_pass: Option<Duration>,
+}
+
+/// Samples per pixel at which a noise goal is looked at first: with fewer, what is rare has not been found, and does not count.
+const FIRST_LOOK: u32 = 16;
+
+/// Whether a noise goal is looked at where all pixels have so many samples.
+fn is_looked_at(samples: u32) -> bool {
+    samples >= FIRST_LOOK && (samples.is_power_of_two() || samples.is_multiple_of(passes::LOOKS))
 }
 
 /// Why a film cannot be gone on with ([`resume`]).
@@ -220,9 +234,18 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     let before = (film.counters, film.costs);
     let done = AtomicU64::new(if resumed { film.camera_samples() } else { 0 });
     let stopped = AtomicBool::new(false);
-    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES);
+    let noise = options.noise.or(scene.noise);
+    // A time that no clock can hold is none.
+    let time = scene.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let until = options.until.or_else(|| Instant::now().checked_add(time?));
+    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(noise.is_some());
     let mut keeper = None;
-    while let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end)) {
+    let is_good = |film: &Film| {
+        film.unfinished.is_none() && is_looked_at(film.whole) && noise.is_some_and(|goal| film.relative_noise() <= goal)
+    };
+    while !is_good(&film)
+        && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
+    {
         let started = Instant::now();
         if let Some(guides) = &mut guides {
             guides.prepare(scene, &kernels, &pass, &workers);
@@ -243,6 +266,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
             share_of_blocks,
             observer,
             samples_total,
+            until: until.filter(|_| film.whole > 0),
             done: &done,
             stopped: &stopped,
         };

@@ -22,12 +22,21 @@ pub struct Passes {
     samples: u32,
     longest: u32,
     last: u32,
+    looks: bool,
 }
+
+/// Where somebody looks at the film, no pass goes over a multiple of this.
+pub const LOOKS: u32 = 64;
 
 impl Passes {
     /// From a sample index on.
     pub fn new(next: u32, samples: u32, longest: u32) -> Self {
-        Passes { next, samples, longest, last: 1 }
+        Passes { next, samples, longest, last: 1, looks: false }
+    }
+
+    /// Whether none goes over a multiple of [`LOOKS`].
+    pub fn looking(self, looks: bool) -> Self {
+        Passes { looks, ..self }
     }
 
     /// The next one, up to `end` where a pass is to be gone on with.
@@ -35,7 +44,8 @@ impl Passes {
         let start = self.next;
         let of_guide = start.checked_next_power_of_two().map_or(u32::MAX, |next| next.max(1) - start);
         let of_guide = if of_guide == 0 { start } else { of_guide };
-        let rest = self.samples.saturating_sub(start).min(self.longest).min(of_guide);
+        let of_look = if self.looks { LOOKS - start % LOOKS } else { u32::MAX };
+        let rest = self.samples.saturating_sub(start).min(self.longest).min(of_guide).min(of_look);
         // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
         let whole = match rest {
             0 => 0,
@@ -120,6 +130,7 @@ pub struct Painter<'a> {
     pub share_of_blocks: f32,
     pub observer: &'a dyn Observer,
     pub samples_total: u64,
+    pub until: Option<Instant>,
     pub done: &'a AtomicU64,
     /// The observer has ended the rendering.
     pub stopped: &'a AtomicBool,
@@ -232,7 +243,8 @@ impl Painter<'_> {
         let samples_done = self.done.fetch_add(added, Ordering::Relaxed) + added;
         let goes_on =
             self.observer.progress(Progress { samples_done, samples_total: self.samples_total }).is_continue();
-        if !goes_on {
+        let is_over = self.until.is_some_and(|until| Instant::now() >= until);
+        if !goes_on || is_over {
             self.stopped.store(true, Ordering::Relaxed);
         }
         goes_on
@@ -270,6 +282,21 @@ mod tests {
             passes.next(None);
             passes.took(Duration::from_secs_f64(seconds), Some(Duration::from_secs(8)));
             assert_eq!(passes.longest, length);
+        }
+    }
+
+    /// A noise goal is looked at at the same numbers of samples, however long passes are.
+    #[test]
+    fn passes_stop_where_noise_is_looked_at() {
+        for (samples, longest, start) in [(1000, 64, 0), (1000, 5, 3), (300, 7, 70), (257, 33, 1)] {
+            let mut passes = Passes::new(start, samples, longest).looking(true);
+            let mut ends = Vec::new();
+            while let Some(pass) = passes.next(None) {
+                ends.push(pass.end);
+                passes.longest = 1 + (pass.end * 7) % 64;
+            }
+            let looks = (start + 1..=samples).filter(|&n| super::super::is_looked_at(n));
+            assert!(looks.clone().count() > 2 && looks.clone().all(|look| ends.contains(&look)), "{ends:?}");
         }
     }
 

@@ -70,6 +70,10 @@ pub struct Scene {
     pub caustics: bool,
     /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
     pub clamp: Option<f32>,
+    /// The relative noise at which rendering ends, unless the caller says otherwise.
+    pub noise: Option<f64>,
+    /// Seconds after which rendering ends, unless the caller says otherwise.
+    pub time: Option<f64>,
     /// What is kept of what camera rays hit first, unless the caller says otherwise.
     pub layers: crate::layers::LayerSet,
     /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or background is from

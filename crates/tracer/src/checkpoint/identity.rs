@@ -68,6 +68,7 @@ fn hash_of_film(desc: &mut SceneDesc) -> String {
     let effects = desc.effects.clone();
     let layers = take(&mut desc.output.layers);
     desc.render.samples = 1.into();
+    (desc.render.noise, desc.render.time) = (None, None);
     desc.render.acceleration = Acceleration::Bvh;
     (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
     let hash = hash_hex(desc);
