@@ -209,6 +209,22 @@ codes! {
     /// Scene(objects: [Sphere(center: 0, 0, 0, radius: 1)])
     /// ```
     NO_BRACKETS "E0121" "a vector without brackets";
+    /// `<<<<<<<`, `=======` and `>>>>>>>` at the beginnings of lines: `git merge` leaves both versions for you to choose from.
+    ///
+    /// ```ron
+    /// Scene(
+    /// <<<<<<< HEAD
+    ///     background: 1,
+    /// =======
+    ///     background: 0.5,
+    /// >>>>>>> darker
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    MERGE_CONFLICT "E0122" "a merge that was not finished";
+    /// The file is written in another language: TOML under a name that says RON or the other way round, YAML, or a scene of another
+    /// program (POV-Ray, pbrt, Mitsuba). Only RON and TOML are read, each by its extension or by `--syntax`.
+    OTHER_LANGUAGE "E0123" "a file in another language";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
     /// typo.
@@ -432,6 +448,12 @@ codes! {
     /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other; or `vars` have more than
     /// sixteen lists within each other, or more than two hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
+    /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1/3)])
+    /// ```
+    BARE_EXPRESSION "E0607" "an expression without quotes";
 
     /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to `lights`, or a `background`.
     ///
