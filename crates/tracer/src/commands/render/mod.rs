@@ -9,7 +9,7 @@ use crate::args::RenderArgs;
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
-use crate::progress::{Watch, rate};
+use crate::progress::{Watch, noise, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
     Seconds, Stats, Transport, Tree, VERSION,
@@ -31,6 +31,7 @@ use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, develop, render, r
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
+    let args = &outputs::named(args)?;
     let outputs = outputs::outputs(args)?;
     let level = lanes::from_environment()?;
     use_threads(args.threads)?;
@@ -54,7 +55,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let before = Before::of(begun.as_ref());
     let done = pixels * u64::from(before.samples);
-    let watch = Watch::new(shell, pixels * u64::from(scene.samples)).going_on(done, checkpoints.as_ref());
+    let all = pixels * u64::from(scene.samples);
+    let watch = Watch::new(shell, all).going_on(done, all, checkpoints.as_ref());
     let options = RenderOptions {
         crop: Some(crop),
         threads: args.threads.map_or(0, usize::from),
@@ -108,12 +110,14 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     };
 
     tell_of(&film, args, &desc, shell);
+    if shell.is_told() {
+        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
+        let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
+        shell.say(&format!("{names} in {:.2} s, {}{noise}", seconds.total, rate(samples)));
+    }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
         write_report(path, report)?;
-    } else if shell.is_watched() {
-        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
-        shell.say(&format!("{names} in {:.2} s, {}", seconds.total, rate(samples)));
     }
     if interrupted {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
