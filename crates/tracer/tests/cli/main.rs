@@ -12,3 +12,4 @@ mod render;
 mod report;
 mod support;
 mod tutorial;
+mod unmeant;

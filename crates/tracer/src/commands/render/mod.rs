@@ -1,5 +1,6 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
+mod empty;
 mod kept;
 mod outputs;
 mod repeat;
@@ -110,6 +111,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     };
 
     tell_of(&film, args, &desc, shell);
+    shell.diagnostics(empty::warning(&film, &desc).as_slice(), &desc.sources, args.scene.diagnostics);
     if shell.is_told() {
         let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
         let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
