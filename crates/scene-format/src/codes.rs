@@ -209,6 +209,22 @@ codes! {
     /// Scene(objects: [Sphere(center: 0, 0, 0, radius: 1)])
     /// ```
     NO_BRACKETS "E0121" "a vector without brackets";
+    /// `<<<<<<<`, `=======` and `>>>>>>>` at the beginnings of lines: `git merge` leaves both versions for you to choose from.
+    ///
+    /// ```ron
+    /// Scene(
+    /// <<<<<<< HEAD
+    ///     background: 1,
+    /// =======
+    ///     background: 0.5,
+    /// >>>>>>> darker
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    MERGE_CONFLICT "E0122" "a merge that was not finished";
+    /// The file is written in another language: TOML under a name that says RON or the other way round, YAML, or a scene of another
+    /// program (POV-Ray, pbrt, Mitsuba). Only RON and TOML are read, each by its extension or by `--syntax`.
+    OTHER_LANGUAGE "E0123" "a file in another language";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
     /// typo.
@@ -385,7 +401,14 @@ codes! {
     EMPTY_MESH "E0511" "a mesh has no triangles";
     /// A picture file cannot be decoded as PNG or JPEG.
     BROKEN_TEXTURE "E0520" "a texture cannot be read";
-    /// A line of a placements file is not what it should be.
+    /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about an axis by degrees) or
+    /// 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.
+    ///
+    /// ```text
+    /// 0 0 0
+    /// 2 0 0   0.5
+    /// 4 0 0   1   0 1 0  45
+    /// ```
     BROKEN_PLACEMENTS "E0530" "a placements file is broken";
     /// A transform squeezes a mesh to nothing: a scale of zero, or a chain of steps that comes to it.
     ///
@@ -434,6 +457,12 @@ codes! {
     /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other; or `vars` have more than
     /// sixteen lists within each other, or more than two hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
+    /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1/3)])
+    /// ```
+    BARE_EXPRESSION "E0607" "an expression without quotes";
 
     /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to
     /// `lights`, an object with an `Emissive` material, or a `background`.
@@ -458,6 +487,28 @@ codes! {
     /// `render.indirect: Map` asks for the map of indirect light that earlier versions had. It let light through walls and is
     /// gone; indirect light comes by paths. Leave the field out.
     MAP_IS_GONE "W0304" "there is no map of indirect light any more";
+    /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong way at it. Seen
+    /// from outside, the corners of a face go round counterclockwise.
+    INSIDE_OUT "W0305" "glass that is inside out";
+    /// The camera stands inside an opaque ball or box in which there is no light: all that it sees is black.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 5), radius: 1)])
+    /// ```
+    CAMERA_SHUT_IN "W0306" "the camera is shut in";
+    /// A light lies inside an opaque ball or box, and the camera does not: none of its light gets out.
+    ///
+    /// ```text
+    /// Scene(
+    ///     lights: [SphereLight(center: (0, 0, 0), radius: 0.5, radiance: 10)],
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    LIGHT_SHUT_IN "W0307" "a light is shut in";
+    /// The rendered picture is black: no light reaches what the camera sees.
+    ALL_BLACK "W0308" "the picture is black";
+    /// The rendered picture shows nothing but the background: the camera looks past all objects.
+    NOTHING_IN_VIEW "W0309" "nothing is in view";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron
@@ -483,6 +534,9 @@ codes! {
     ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
     /// A texture has transparent pixels. Its colours are used, its transparency is not.
     TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
+    /// A mesh has a material with a picture or a checkerboard, and its file no texture coordinates: every point of it has the colour of
+    /// one corner of the picture.
+    NO_COORDINATES "W0521" "a texture on a mesh without texture coordinates";
     /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as the largest number of a
     /// half, 65504.
     ENVIRONMENT_PIXELS "W0552" "pixels of an environment that no light can have";

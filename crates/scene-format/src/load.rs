@@ -7,7 +7,7 @@ use crate::files::{self, NamedFile};
 use crate::follow_ups;
 use crate::overrides::{self, Override};
 use crate::read;
-use crate::syntax::{Sink, Syntax, ron, toml};
+use crate::syntax::{Sink, Syntax, foreign, ron, toml};
 use crate::tree::{Builder, Text, Tree};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -87,6 +87,9 @@ pub fn load_bytes(
     base_dir: &Path,
     overrides: &[Override],
 ) -> Result<Loaded, LoadError> {
+    if let Some(text) = utf16(&bytes) {
+        return Err(in_utf16(name, text));
+    }
     let text = String::from_utf8(bytes).map_err(|error| not_utf8(name, &error))?;
     load_string(name, text, syntax, base_dir, overrides)
 }
@@ -120,6 +123,11 @@ fn load_string(
     let scene = analyse(&text, syntax, overrides, &mut sink);
     let mut sources = vec![Source { name: name.to_owned(), text }];
     sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
+    if sink.errors > 0
+        && let Some(fault) = foreign::whole(&sources[0].text, syntax)
+    {
+        return Err(LoadError::Invalid { diagnostics: vec![fault], sources, files: Vec::new() });
+    }
     // What could be read of a wrong scene is of no use any more, and may be large.
     let scene = scene.filter(|_| sink.errors == 0);
     let mut diagnostics = sink.diagnostics;
@@ -185,6 +193,37 @@ fn too_large(name: String) -> LoadError {
     LoadError::Invalid {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name, text: String::new() }],
+        files: Vec::new(),
+    }
+}
+
+/// The text of a file in UTF-16, as Windows programs save it: told by its byte order mark, or by a zero in every other byte at its
+/// beginning.
+fn utf16(bytes: &[u8]) -> Option<String> {
+    const LOOK_AT: usize = 64;
+    let head = &bytes[..bytes.len().min(LOOK_AT)];
+    let zeros = |from: usize| head.len() >= 8 && head.iter().skip(from).step_by(2).all(|&byte| byte == 0);
+    let of_two: fn([u8; 2]) -> u16 = match head {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ if zeros(1) && !zeros(0) => u16::from_le_bytes,
+        _ if zeros(0) && !zeros(1) => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = bytes.chunks_exact(2).map(|pair| of_two([pair[0], pair[1]]));
+    Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
+}
+
+fn in_utf16(name: &str, text: String) -> LoadError {
+    let start = if text.starts_with('\u{feff}') { 3 } else { 0 };
+    let end = start + text[start..].lines().next().map_or(0, str::len);
+    let span = Span { source: 0, start: start as u32, end: end as u32 };
+    let diagnostic = Diagnostic::error(codes::NOT_UTF8, span, "the file is UTF-16, not UTF-8")
+        .expected("a text file in UTF-8")
+        .hint("save it as UTF-8 in your editor; in PowerShell: `.. | Out-File -Encoding utf8 FILE`");
+    LoadError::Invalid {
+        diagnostics: vec![diagnostic],
+        sources: vec![Source { name: name.to_owned(), text }],
         files: Vec::new(),
     }
 }

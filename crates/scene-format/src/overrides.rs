@@ -22,8 +22,29 @@ pub struct Override {
 
 impl<T: Into<String>> From<T> for Override {
     fn from(argument: T) -> Self {
-        Override { argument: argument.into() }
+        let argument = argument.into();
+        let quoted = completed(&argument);
+        Override { argument: quoted.unwrap_or(argument) }
     }
+}
+
+/// The argument with the quotes or brackets that a shell makes hard to write: `albedo=#ff0000`, `material=gold`, `file=cat.obj`,
+/// `position=1,2,3`. `None`: it is as it is.
+fn completed(argument: &str) -> Option<String> {
+    let (path, value) = argument.split_at(end_of_path(argument)? + 1);
+    let value = value.trim();
+    let field = path.trim_end_matches('=').trim().rsplit('.').next()?;
+    let hex = value.strip_prefix('#').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_hexdigit()));
+    let of_text = matches!(field, "material" | "file" | "placements");
+    let plain = value.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | ' ' | '~'));
+    let word = plain
+        && value
+            .starts_with(|c: char| c.is_lowercase() || c == '/' || c == '.' || field == "file" && c.is_alphanumeric());
+    if hex || of_text && word {
+        return Some(format!("{path}\"{value}\""));
+    }
+    let numbers = value.split(',').filter(|number| number.trim().parse::<f64>().is_ok()).count();
+    (numbers > 1 && numbers == value.split(',').count()).then(|| format!("{path}({value})"))
 }
 
 /// One step of a path: where it stands in the argument, and what it says.
@@ -301,6 +322,14 @@ impl Setter {
                 .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
                 .expected(format!("one of {}", suggest::list(&names)));
             fault.did_you_mean(suggest::nearest(name, names.iter().copied()), str::to_owned);
+            // `fov`, without the group that it is a field of.
+            let group = Scene::DEF
+                .fields
+                .iter()
+                .find(|group| matches!(group.kind, Type::Struct(fields) if fields.field(name).is_some()));
+            if let Some(group) = group.filter(|_| def.name == "Scene") {
+                fault.did_you_mean(Some(&format!("{}.{name}", group.name)), str::to_owned);
+            }
             return Err(fault);
         };
         if !matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Tuple) {
@@ -453,4 +482,26 @@ fn splice(tree: &mut Tree<'_>, inside: usize, range: std::ops::Range<usize>, nod
     tree.nodes.truncate(range.start);
     tree.nodes.extend(nodes);
     tree.nodes.extend(rest);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotes_and_brackets_are_added_where_a_shell_makes_them_hard() {
+        for (written, read) in [
+            ("materials.a.albedo=#ff0000", "materials.a.albedo=\"#ff0000\""),
+            ("objects[1].material=gold", "objects[1].material=\"gold\""),
+            ("objects[1].file=Models/cat.obj", "objects[1].file=\"Models/cat.obj\""),
+            ("camera.position=1,2,-3", "camera.position=(1,2,-3)"),
+            ("objects[1].material=Mirror()", "objects[1].material=Mirror()"),
+            ("camera.fov=40", "camera.fov=40"),
+            ("effects.tone_map=Filmic", "effects.tone_map=Filmic"),
+            ("objects[1].material=\"gold\"", "objects[1].material=\"gold\""),
+            ("camera.fov", "camera.fov"),
+        ] {
+            assert_eq!(Override::from(written).argument, read);
+        }
+    }
 }

@@ -87,6 +87,46 @@ Scene(
 - With a count of 0 its items are not read. `--set` reaches nothing within; it sets the `vars` that it goes by.
 - Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every machine.
 
+## Placements files
+
+`placements: \"copies.txt\"` takes many copies of an object from a text file, one a line. Numbers are parted by blanks or commas, `#` begins a
+comment, empty lines are passed over. How many numbers stand on a line says what they are:
+
+| numbers | placement |
+|---|---|
+| 3 | moves by `x y z` |
+| 4 | moves by `x y z`, after scaling by one factor |
+| 8 | moves by `x y z`, after scaling by one factor, after that turned about an axis (three numbers, any length) by an angle in degrees |
+| 12 | a matrix of 3 rows and 4 columns, row by row; the last number of each row moves |
+
+```text
+# x y z, factor, axis, degrees
+0 0 0
+2 0 0   0.5
+4 0 0   1   0 1 0  45
+1 0 0 6  0 1 0 0  0 0 1 0
+```
+
+A placement scales, then turns, then moves, all about the origin, and comes after the object's own `transform`.
+
+## Materials of OBJ files
+
+A mesh from an OBJ file without a `material` in the scene has those of its MTL file:
+
+| MTL | material |
+|---|---|
+| `illum` 4, 6, 7 or 9, or `d` below 1 (or `Tr` above 0 without `d`) | `Transparent`: `ior` is `Ni` (1.5 where there is none), `transmittance` is `Tf` |
+| else `illum` 3 or 5, and `Ks` not black | `Mirror`: `reflectance` is `Ks` (1 where there is none) |
+| else `Ks` not black and `Ns` above 0, `illum` neither 0 nor 1 | `BlinnPhong`: `albedo` is `Kd` + `Ks`, `specular` the share of `Ks` in it, `exponent` is `Ns` |
+| else | `Diffuse`: `albedo` is `Kd` (0.8 where there is none) |
+
+`map_Kd` replaces the albedo by a picture. Colours are linear RGB. `Ka` is passed over, since light from all around is computed here. All
+else (`Ke`, other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' names: what shines is an object
+with `material: Emissive(radiance: ..)`.
+
+Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 tells of meshes that
+are inside out).
+
 ## In an editor
 
 `tracer schema > scene.schema.json` writes a JSON Schema (draft-07) with all descriptions, defaults and ranges. With

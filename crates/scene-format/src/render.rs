@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Edit, Severity, Source, Span};
 use annotate_snippets::renderer::{DEFAULT_TERM_WIDTH, DecorStyle};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// How text is set.
@@ -97,15 +98,59 @@ impl Lines<'_> {
     }
 }
 
-/// All diagnostics as text, a blank line after each.
+/// More faults that are alike than this are told by the first of them.
+const MANY_ALIKE: usize = 3;
+/// So many of their lines are named.
+const SHOWN_LINES: usize = 8;
+
+type Alike<'d> = (Severity, &'d str, &'d str, &'d str, u32);
+
+/// What diagnostics that are alike have in common; those that no source shows stand alone.
+fn alike<'d>(d: &'d Diagnostic, lines: &[Lines<'_>]) -> Option<Alike<'d>> {
+    let shown = d.elsewhere.is_none() && (d.span.source as usize) < lines.len();
+    shown.then_some((d.severity, d.code.as_str(), &*d.message, &*d.expected, d.span.source))
+}
+
+/// For each diagnostic what is said of the others like it: `None` where another one tells of it.
+fn grouped(diagnostics: &[Diagnostic], lines: &[Lines<'_>]) -> Vec<Option<String>> {
+    let mut groups: BTreeMap<Alike<'_>, Vec<usize>> = BTreeMap::new();
+    for (index, diagnostic) in diagnostics.iter().enumerate() {
+        if let Some(key) = alike(diagnostic, lines) {
+            groups.entry(key).or_default().push(index);
+        }
+    }
+    let mut said = vec![Some(String::new()); diagnostics.len()];
+    for (_, group) in groups.into_iter().filter(|(_, group)| group.len() > MANY_ALIKE) {
+        let mut numbers: Vec<usize> = Vec::new();
+        for &index in &group[1..] {
+            said[index] = None;
+            let span = diagnostics[index].span;
+            numbers.push(lines[span.source as usize].index.line(span.start as usize) + 1);
+        }
+        numbers.dedup();
+        let shown = |numbers: &[usize]| numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let places = match numbers.as_slice() {
+            [only] => format!("line {only}"),
+            numbers if numbers.len() <= SHOWN_LINES => format!("lines {}", shown(numbers)),
+            numbers => format!("lines {} .. {}", shown(&numbers[..SHOWN_LINES]), numbers[numbers.len() - 1]),
+        };
+        said[group[0]] = Some(format!("{} more like this, on {places}", group.len() - 1));
+    }
+    said
+}
+
+/// All diagnostics as text, a blank line after each. Where many are alike, the first one tells of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> String {
     let lines = lines(sources);
     let renderer = if style.color { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.term_width(style.width.max(40)).decor_style(DecorStyle::Ascii);
     let mut out = String::new();
-    for diagnostic in diagnostics {
-        out.push_str(&renderer.render(&[group(diagnostic, &lines)]));
-        out.push_str("\n\n");
+    let grouped = grouped(diagnostics, &lines);
+    for (diagnostic, others) in diagnostics.iter().zip(&grouped) {
+        if let Some(others) = others {
+            out.push_str(&renderer.render(&[group(diagnostic, &lines, others)]));
+            out.push_str("\n\n");
+        }
     }
     out
 }
@@ -167,7 +212,7 @@ impl Excerpt {
     }
 }
 
-fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>]) -> Group<'g> {
+fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>], others: &'g str) -> Group<'g> {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -191,6 +236,9 @@ fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>]) -> Group<'g> {
     }
     if !diagnostic.hint.is_empty() {
         group = group.element(Level::HELP.with_name(Some("hint")).message(&diagnostic.hint));
+    }
+    if !others.is_empty() {
+        group = group.element(Level::NOTE.with_name(Some("and")).message(others));
     }
     group
 }
@@ -416,6 +464,18 @@ mod tests {
         let (diagnostics, sources) = faults(BROKEN);
         assert!(!text(&diagnostics, &sources, Style::default()).contains('\u{1b}'));
         assert!(text(&diagnostics, &sources, Style { color: true, width: 80 }).contains("\u{1b}["));
+    }
+
+    #[test]
+    fn many_faults_that_are_alike_are_told_once_with_their_lines() {
+        let spheres = "Sphere(center: (0, 0, 0), radus: 1),\n".repeat(200);
+        let (diagnostics, sources) = faults(&format!("Scene(objects: [\n{spheres}])"));
+        assert_eq!(diagnostics.len(), 200, "editors get all of them");
+        let shown = text(&diagnostics, &sources, Style::default());
+        assert_eq!(shown.matches("no field `radus`").count(), 1, "{shown}");
+        assert!(shown.contains("and: 199 more like this, on lines 3, 4, 5, 6, 7, 8, 9, 10 .. 201"), "{shown}");
+        let shown = text(&diagnostics[..3], &sources, Style::default());
+        assert_eq!(shown.matches("no field `radus`").count(), 3, "three are few: {shown}");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use tracer_core::{Crop, LayerSet};
 
 const EXAMPLES: &str = "\
 Examples:
-  tracer new ball.ron && tracer render ball.ron -o ball.png
+  tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100
 Exit codes: 0 done, 1 failed, 2 wrong input, 130 interrupted (TERM 143, HUP 129)";
 
@@ -61,7 +61,7 @@ pub enum Command {
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings
     BenchFigures(BenchFiguresArgs),
-    /// Explain the code of a diagnostic
+    /// Explain a diagnostic's code, or a word of the language
     Explain(ExplainArgs),
     /// Print the JSON Schema of scene files
     #[command(after_help = SCHEMA_EXAMPLES)]
@@ -111,7 +111,7 @@ impl From<SyntaxName> for Syntax {
 }
 
 /// The scene, and how faults of it are told.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
     /// Scene file (.ron, .toml), or - for standard input
     pub scene: PathBuf,
@@ -144,17 +144,17 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --syntax, --diagnostics, --format, --bits and --stats.";
+`tracer man render` has --seed, --exposure, --every, --stats, --bits and more.";
 
 /// `tracer render`
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub scene: SceneArgs,
     /// Picture: .png .exr .hdr .pfm, or - (repeatable)
-    #[arg(short, long = "output", value_name = "FILE", required = true)]
+    #[arg(short, long = "output", value_name = "FILE", help = "Picture: .png .exr .hdr .pfm, - [default: SCENE.png]")]
     pub output: Vec<PathBuf>,
     /// Kind of picture for `-o -`: png, exr, hdr or pfm
     #[arg(long, value_name = "KIND")]
@@ -162,9 +162,15 @@ pub struct RenderArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
-    /// Samples per pixel
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    /// Samples per pixel; with --noise or --time the most
+    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
+    /// End when the noise is no more than this: 0.01, 1%
+    #[arg(long, value_name = "SHARE", value_parser = noise)]
+    pub noise: Option<f64>,
+    /// End after this time, all written: 60s, 5m, 1h
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub time: Option<Duration>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
@@ -206,7 +212,7 @@ pub struct RenderArgs {
 const CHECK_EXAMPLES: &str = "\
 Examples:
   tracer check scenes/fig4.ron
-  tracer check scene.toml --diagnostics json
+  tracer check scenes ball.toml --deny-warnings
 
 Diagnostics go to standard error. Exit code 2 when there is an error.";
 
@@ -214,9 +220,30 @@ Diagnostics go to standard error. Exit code 2 when there is an error.";
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_EXAMPLES)]
 pub struct CheckArgs {
-    #[command(flatten)]
-    #[allow(missing_docs)]
-    pub scene: SceneArgs,
+    /// Scene files, folders of them, or - for standard input
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+    /// Set a field of each scene: camera.fov=40 (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Syntax of the scenes [default: by their names]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    pub syntax: Option<SyntaxName>,
+    /// How to print what is wrong: text or json
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
+    pub diagnostics: DiagnosticsForm,
+    /// Take warnings for errors
+    #[arg(long)]
+    pub deny_warnings: bool,
+}
+
+impl CheckArgs {
+    /// The same for one scene.
+    pub fn of(&self, scene: PathBuf) -> SceneArgs {
+        SceneArgs { scene, set: self.set.clone(), syntax: self.syntax, diagnostics: self.diagnostics }
+    }
 }
 
 const INFO_EXAMPLES: &str = "\
@@ -328,7 +355,7 @@ pub struct BenchAccelerationArgs {
     #[allow(missing_docs)]
     pub scene: SceneArgs,
     /// Samples per pixel
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -354,7 +381,7 @@ pub struct BenchFiguresArgs {
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes: PathBuf,
     /// At most so many samples per pixel, for a quick look
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -364,13 +391,14 @@ pub struct BenchFiguresArgs {
 const EXPLAIN_EXAMPLES: &str = "\
 Examples:
   tracer explain E0301
-  tracer explain";
+  tracer explain radius";
 
 /// `tracer explain`
 #[derive(Debug, Args)]
 #[command(after_help = EXPLAIN_EXAMPLES)]
 pub struct ExplainArgs {
-    /// Code, as E0102 [default: list all codes]
+    /// Code, as E0102, or a word of the scene language, as Sphere [default: list all codes]
+    #[arg(value_name = "CODE|WORD", help = "Code or word of the language [default: list all codes]")]
     pub code: Option<String>,
 }
 
@@ -412,6 +440,20 @@ pub struct Size {
 
 /// The most pixels along a side; the scene language has the same limit.
 const MAX_SIDE: u32 = 65_536;
+
+/// A number of samples: 64, 1_000, 1k, 2M, 1e3.
+fn count(text: &str) -> Result<u32, String> {
+    let expected = || "expected a whole number in 1..=1000000000, as in 64, 1k or 1e3".to_owned();
+    let plain = text.replace('_', "");
+    let (number, factor) = match plain.strip_suffix(['k', 'K']) {
+        Some(thousands) => (thousands, 1e3),
+        None => plain.strip_suffix('M').map_or((plain.as_str(), 1.0), |millions| (millions, 1e6)),
+    };
+    let digits = number.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'e' | b'E' | b'+'));
+    let value = number.parse::<f64>().ok().filter(|_| digits).ok_or_else(expected)? * factor;
+    // Exact: whole numbers of this size are doubles.
+    if value.fract() == 0.0 && (1.0..=1e9).contains(&value) { Ok(value as u32) } else { Err(expected()) }
+}
 
 fn size(text: &str) -> Result<Size, String> {
     let expected = || format!("expected width and height in pixels, 1 to {MAX_SIDE}, as in 640x480");
@@ -458,6 +500,14 @@ fn interval(text: &str) -> Result<Duration, String> {
     (1e-3..=3.6e6).contains(&seconds).then(|| Duration::from_secs_f64(seconds)).ok_or_else(expected)
 }
 
+/// A relative error: 0.01, or 1%.
+fn noise(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent, 0.01));
+    let share = number.trim_end().parse::<f64>().ok().map(|number| number * unit);
+    let expected = || "expected a relative error, above 0 and below 1, as in 0.01 or 1%".to_owned();
+    share.filter(|share| *share > 0.0 && *share < 1.0).ok_or_else(expected)
+}
+
 fn exposure(text: &str) -> Result<f64, String> {
     let expected = "expected a number of stops, -64 to 64, as in -0.5";
     text.parse().ok().filter(|stops: &f64| stops.abs() <= 64.0).ok_or_else(|| expected.to_owned())
@@ -484,6 +534,16 @@ mod tests {
         }
         for bad in ["", "s", "0s", "-1s", "1d", "1e400s", "nan", "1.2.3s", "5 m", "1001h"] {
             assert!(interval(bad).is_err(), "{bad}");
+        }
+        for (text, samples) in [("64", 64), ("1k", 1000), ("1e3", 1000), ("2.5M", 2_500_000), ("1_000", 1000)] {
+            assert_eq!(count(text), Ok(samples));
+        }
+        for bad in ["", "0", "-1", "1.5", "1e10", "k", "inf", "nan", "1kk", "0x10"] {
+            assert!(count(bad).is_err(), "{bad}");
+        }
+        assert_eq!((noise("0.01"), noise("1%"), noise("2.5 %")), (Ok(0.01), Ok(0.01), Ok(0.025)));
+        for bad in ["", "0", "1", "-1%", "100%", "nan", "%", "1 percent"] {
+            assert!(noise(bad).is_err(), "{bad}");
         }
         assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         for bad in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4", "a,b,c,d"] {

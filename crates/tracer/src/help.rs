@@ -4,27 +4,64 @@ use crate::args::Cli;
 use crate::command_line::quoted;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Arg, Command, CommandFactory};
+use clap::{Command, CommandFactory};
 use std::ffi::OsString;
 use std::path::Path;
 use tracer_core::mesh::MeshFormat;
 
-/// The parts of a command's help, without headings and arguments that the usage line names and the first line explains.
-const TEMPLATE: &str = "{about}\n\n{usage-heading} {usage}\n\n{options}{after-help}";
+/// The parts of a command's help, without headings.
+const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{options}{after-help}";
 
-/// The words of the command line. The help of one command leaves out what all commands take: `tracer --help` has it. (Manual
-/// pages and completions are made from [`Cli`] itself and have everything.)
+/// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
-    let cli = Cli::command();
-    let everywhere: Vec<Arg> =
-        cli.get_arguments().filter(|arg| arg.is_global_set()).map(|arg| arg.clone().hide(true)).collect();
-    cli.mut_subcommands(|command| command.args(everywhere.clone()).help_template(TEMPLATE))
+    Cli::command()
+        .mut_subcommands(|command| command.help_template(TEMPLATE))
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
-            ["syntax", "diagnostics", "format", "bits", "stats"]
+            ["syntax", "diagnostics", "seed", "exposure", "every", "format", "bits", "stats"]
                 .into_iter()
                 .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
         })
+}
+
+/// `tracer help`, `tracer help render` and `tracer scene.ron`, as the commands that they mean.
+pub fn meant(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    let word = |k: usize| arguments.get(k).and_then(|word| word.to_str());
+    match word(1) {
+        Some("help") => match word(2).is_some_and(|command| !command.starts_with('-')) {
+            true => {
+                arguments.remove(1);
+                arguments.truncate(2);
+                arguments.push("--help".into());
+            }
+            false => {
+                arguments.truncate(1);
+                arguments.push("--help".into());
+            }
+        },
+        Some(scene) if is_scene(scene) && !scene.starts_with('-') => arguments.insert(1, "render".into()),
+        _ => {}
+    }
+    arguments
+}
+
+/// What other programs call an option of ours.
+fn option_elsewhere(option: &str) -> Option<&'static str> {
+    let name = option.split('=').next().unwrap_or(option).to_ascii_lowercase();
+    Some(match name.as_str() {
+        "--spp" | "--samples-per-pixel" | "--nsamples" | "--pixelsamples" | "-spp" => "--samples 64",
+        "--width" | "--height" | "--resolution" | "--res" | "-w" => "--size 640x480",
+        "--out" | "--outfile" | "--outputfile" | "--output-file" | "--image" => "-o picture.png",
+        "--nthreads" | "--jobs" | "--cores" | "--cpus" => "--threads 4",
+        "--preview" | "--quick" | "--draft" | "--fast" => "--samples 4 --size 160x120",
+        "--fov" | "--define" | "-d" | "--camera" | "--depth" | "--max-depth" | "--bounces" => {
+            "--set camera.fov=40, for any field of the scene"
+        }
+        "--verbose-level" | "--log-level" | "--debug" => "--verbose",
+        "--region" | "--cropwindow" | "--window" | "--tile" => "--crop 100,50,64,64",
+        "--continue" | "--restart" => "--resume FILE",
+        _ => return None,
+    })
 }
 
 /// Adds to a fault of the command line what was probably meant.
@@ -35,12 +72,9 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
         ErrorKind::UnknownArgument => {
             // An option of a command, without the command.
             let before = words.iter().all(|word| Cli::command().find_subcommand(word).is_none());
-            context(&error, ContextKind::InvalidArg).filter(|_| before).and_then(|option| of_option(&option))
-        }
-        ErrorKind::MissingRequiredArgument if words.first().is_some_and(|word| word == "render") => {
-            let scene = words.iter().skip(1).find(|word| is_scene(word));
-            let named = words.iter().any(|word| word.starts_with("-o") || word.starts_with("--output"));
-            scene.filter(|_| !named).map(|scene| format!("name the picture: {}", render(scene)))
+            let option = context(&error, ContextKind::InvalidArg);
+            let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| format!("here it is {ours}"));
+            elsewhere.or_else(|| option.filter(|_| before).and_then(|option| of_option(&option)))
         }
         _ => None,
     };
@@ -61,17 +95,10 @@ fn is_scene(word: &str) -> bool {
     scene_format::Syntax::from_path(Path::new(word)).is_some()
 }
 
-/// The command that renders a scene into a picture of its name in this folder.
-fn render(scene: &str) -> String {
-    let picture = Path::new(Path::new(scene).file_name().unwrap_or_default()).with_extension("png");
-    format!("tracer render {} -o {}", quoted(scene), quoted(&picture.to_string_lossy()))
-}
-
 /// A file stands where the command should.
 fn of_file(word: &str) -> Option<String> {
     let extension = Path::new(word).extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("ron" | "toml") => Some(format!("to render a scene: {}", render(word))),
         Some(_) if MeshFormat::of(Path::new(word)).is_some() => {
             Some("a mesh stands in a scene, as Mesh(file: \"..\"); to start a scene: tracer new scene.ron".to_owned())
         }
@@ -96,5 +123,26 @@ fn of_option(option: &str) -> Option<String> {
         [] => None,
         [only] => Some(format!("{option} belongs to {only}")),
         [first, ..] => Some(format!("{option} belongs to a command, as in {first}; write the command first")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_and_scenes_are_commands() {
+        let cases = [
+            (&["tracer", "help"][..], &["tracer", "--help"][..]),
+            (&["tracer", "help", "render"], &["tracer", "render", "--help"]),
+            (&["tracer", "help", "render", "-v"], &["tracer", "render", "--help"]),
+            (&["tracer", "a.ron", "-o", "b.png"], &["tracer", "render", "a.ron", "-o", "b.png"]),
+            (&["tracer", "check", "help"], &["tracer", "check", "help"]),
+            (&["tracer"], &["tracer"]),
+        ];
+        for (written, expected) in cases {
+            let words = |words: &[&str]| words.iter().map(OsString::from).collect::<Vec<_>>();
+            assert_eq!(meant(words(written)), words(expected));
+        }
     }
 }

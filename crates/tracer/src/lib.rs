@@ -29,7 +29,7 @@ use std::time::Instant;
 /// The program: reads the command line, does what it says, and gives the exit code.
 pub fn main() -> ExitCode {
     let started = Instant::now();
-    let arguments: Vec<std::ffi::OsString> = std::env::args_os().collect();
+    let arguments = help::meant(std::env::args_os().collect());
     let matches = help::command().color(color_of_help(&arguments)).try_get_matches_from(&arguments);
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,

@@ -23,6 +23,14 @@ pub fn is_dash(path: &Path) -> bool {
 /// # Errors
 /// When it cannot be read, or is wrong: then everything that is wrong has been printed.
 pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
+    load_counting(args, shell).map(|(scene, _)| scene)
+}
+
+/// As [`load`]; how many warnings there were, too.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_counting(args: &SceneArgs, shell: &Shell) -> Result<(SceneDesc, usize), Failure> {
     let overrides = args.overrides();
     let syntax = args.syntax.map(Syntax::from);
     if syntax.is_none()
@@ -47,7 +55,7 @@ pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
         let (objects, lights) = (counted(scene.objects.len(), "object"), counted(scene.lights.len(), "light"));
         format!("read {source}: {objects}, {lights}")
     });
-    Ok(scene)
+    Ok((scene, warnings.len()))
 }
 
 /// The same error with what is wrong with the files that the text names: all mistakes in one run.
@@ -80,15 +88,15 @@ fn no_scene(path: &Path) -> Option<String> {
 /// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of millions of files.
 const MAX_NAMES: usize = 5000;
 
-/// A scene file near a path where none is: of nearly the same name, or of the same one in the other syntax.
-fn nearby(path: &Path) -> Option<String> {
+/// A file of a kind near a path where none is: of nearly the same name, or of the same one with another extension.
+pub fn nearby(path: &Path, is_kind: impl Fn(&Path) -> bool) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let mut scenes: Vec<String> = std::fs::read_dir(folder.unwrap_or(Path::new(".")))
         .ok()?
         .take(MAX_NAMES)
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| Syntax::from_path(Path::new(name)).is_some())
+        .filter(|name| is_kind(Path::new(name)))
         .collect();
     scenes.sort();
     let stem = Path::new(name).file_stem();
@@ -103,6 +111,7 @@ fn nearby(path: &Path) -> Option<String> {
 /// When it cannot be read.
 pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
     let could_not = |name: &str, error: std::io::Error| Failure::could_not(format!("cannot read {name}: {error}"));
+    let unread = |error| unread(scene, &error);
     if is_dash(scene) {
         let mut bytes = Vec::new();
         // One byte more than a scene may have: then it says so itself.
@@ -111,10 +120,10 @@ pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
         Ok(("<stdin>".to_owned(), bytes))
     } else {
         let name = scene.display().to_string();
-        let file = std::fs::File::open(scene).map_err(|error| could_not(&format!("the scene file {name}"), error))?;
+        let file = std::fs::File::open(scene).map_err(unread)?;
         let mut bytes = Vec::new();
         let mut input = file.take(MAX_FILE_BYTES + 1);
-        input.read_to_end(&mut bytes).map_err(|error| could_not(&format!("the scene file {name}"), error))?;
+        input.read_to_end(&mut bytes).map_err(unread)?;
         Ok((name, bytes))
     }
 }
@@ -126,19 +135,24 @@ pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
             shell.diagnostics(&diagnostics, &sources, form);
             Failure::WrongScene
         }
-        LoadError::Io { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
-            let shown = path.display();
-            let tip = match nearby(&path) {
-                Some(near) => format!("did you mean {near}?"),
-                None => format!("`tracer new {shown}` starts one"),
-            };
-            Failure::could_not(format!("there is no scene file {shown}; {tip}"))
-        }
-        LoadError::Io { path, .. } if path.is_dir() => {
-            Failure::could_not(format!("cannot read {}: it is a folder; name a scene file in it", path.display()))
-        }
-        io @ LoadError::Io { .. } => Failure::could_not(io.to_string()),
+        LoadError::Io { path, source } => unread(&path, &source),
     }
+}
+
+/// Why a scene file could not be opened: a name that leads to none is wrong input.
+fn unread(path: &Path, error: &std::io::Error) -> Failure {
+    let shown = path.display();
+    if error.kind() == std::io::ErrorKind::NotFound {
+        let tip = match nearby(path, |name| Syntax::from_path(name).is_some()) {
+            Some(near) => format!("did you mean {near}?"),
+            None => format!("`tracer new {shown}` starts one"),
+        };
+        return Failure::wrong(format!("there is no scene file {shown}; {tip}"));
+    }
+    if path.is_dir() {
+        return Failure::wrong(format!("cannot read {shown}: it is a folder; name a scene file in it"));
+    }
+    Failure::could_not(format!("cannot read the scene file {shown}: {error}"))
 }
 
 /// Compiles the scene: the second hand. Warnings are printed.

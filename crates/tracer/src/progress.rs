@@ -1,4 +1,4 @@
-//! A bar with rate and time left, on a terminal.
+//! How far a rendering is: a bar with rate and time left on a terminal, else a line now and then.
 
 use crate::checkpoint::Checkpoints;
 use crate::interrupt;
@@ -6,19 +6,42 @@ use crate::shell::Shell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::ops::ControlFlow;
-use tracer_core::{FilmState, Observer, Progress};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use tracer_core::{Crop, Film, FilmState, Observer, Progress};
 
 /// Watches a rendering: shows how far it is, ends it on Ctrl-C, and has its state kept.
 pub struct Watch<'a> {
     bar: Option<ProgressBar>,
+    lines: Option<Mutex<Lines>>,
+    shell: Shell,
+    begun: Instant,
     checkpoints: Option<&'a Checkpoints>,
+    goals: Goals,
+    /// Camera samples that were done before.
+    before: u64,
+    /// Camera samples that a noise goal will take, as far as one can tell.
+    for_noise: AtomicU64,
+}
+
+/// What may end a rendering before all samples are done.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Goals {
+    /// The relative noise.
+    pub noise: Option<f64>,
+    /// The moment.
+    pub until: Option<Instant>,
 }
 
 impl<'a> Watch<'a> {
-    /// Draws only where somebody watches.
+    /// Draws only where somebody watches; elsewhere there are lines, unless nothing is to be said.
     pub fn new(shell: &Shell, samples: u64) -> Self {
         let bar = shell.is_watched().then(|| {
-            let template = "{bar:30} {percent:>3} %  {rate}  {eta} left";
+            let template = match shell.width() {
+                0..NARROW => "{wide_bar} {percent:>3} %",
+                _ => "{wide_bar} {percent:>3} %  {rate}  {eta} left",
+            };
             let style = ProgressStyle::with_template(template)
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .with_key("rate", |state: &ProgressState, out: &mut dyn Write| {
@@ -28,17 +51,40 @@ impl<'a> Watch<'a> {
             let target = ProgressDrawTarget::stderr_with_hz(10);
             ProgressBar::with_draw_target(Some(samples), target).with_style(style)
         });
-        Watch { bar, checkpoints: None }
+        let begun = Instant::now();
+        let lines = (bar.is_none() && shell.is_told()).then(|| Mutex::new(Lines { last: begun, tenths: 0 }));
+        let (goals, for_noise) = (Goals::default(), AtomicU64::new(u64::MAX));
+        Watch { bar, lines, shell: *shell, begun, checkpoints: None, goals, before: 0, for_noise }
     }
 
     /// The same, where so many samples were done before, and the state is kept.
-    pub fn going_on(self, done: u64, checkpoints: Option<&'a Checkpoints>) -> Self {
+    pub fn going_on(mut self, done: u64, of: u64, checkpoints: Option<&'a Checkpoints>) -> Self {
         if let Some(bar) = &self.bar {
-            bar.set_position(done);
             // What was done before says nothing about the time that is left.
+            bar.update(|state| state.set_pos(done));
             bar.reset_eta();
         }
-        Watch { checkpoints, ..self }
+        if let Some(lines) = &mut self.lines {
+            lines.get_mut().unwrap_or_else(PoisonError::into_inner).tenths = tenths(done, of);
+        }
+        Watch { checkpoints, before: done, ..self }
+    }
+
+    /// The same, where it may end sooner.
+    pub fn until(self, goals: Goals) -> Self {
+        Watch { goals, ..self }
+    }
+
+    /// How many samples it will be, as far as one can tell.
+    fn expected(&self, progress: Progress) -> u64 {
+        let now = Instant::now();
+        let by_time = self.goals.until.map_or(u64::MAX, |until| {
+            let (gone, left) = (now - self.begun, until.saturating_duration_since(now));
+            let here = progress.samples_done.saturating_sub(self.before) as f64;
+            progress.samples_done + (here * left.as_secs_f64() / gone.as_secs_f64().max(1e-3)) as u64
+        });
+        let by_noise = self.for_noise.load(Ordering::Relaxed).max(progress.samples_done);
+        progress.samples_total.min(by_time).min(by_noise)
     }
 
     /// Takes the bar away.
@@ -51,10 +97,28 @@ impl<'a> Watch<'a> {
 
 impl Observer for Watch<'_> {
     fn progress(&self, progress: Progress) -> ControlFlow<()> {
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = self.bar.as_ref().filter(|_| self.begun.elapsed() >= NO_BAR_BEFORE) {
+            bar.set_length(self.expected(progress));
             bar.set_position(progress.samples_done);
         }
+        if let Some(lines) = &self.lines {
+            let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+            let all = self.expected(progress);
+            if lines.is_due(tenths(progress.samples_done, all), Instant::now()) {
+                let percent = 100 * progress.samples_done / all.max(1);
+                self.shell.say(&format!("{percent} % after {}", time(self.begun.elapsed())));
+            }
+        }
         if interrupt::requested().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn pass(&self, film: &Film) {
+        let Some(goal) = self.goals.noise else { return };
+        // Noise goes down by the root of the number of samples.
+        let times = (film.relative_noise() / goal).powi(2);
+        let Crop { width, height, .. } = film.crop();
+        let done = f64::from(width) * f64::from(height) * f64::from(*film.samples().start());
+        self.for_noise.store((done * times) as u64, Ordering::Relaxed);
     }
 
     fn wants_state(&self) -> bool {
@@ -68,6 +132,70 @@ impl Observer for Watch<'_> {
     }
 }
 
+/// Terminals of fewer columns get the bar and a number.
+const NARROW: usize = 60;
+/// What is done sooner needs no bar.
+const NO_BAR_BEFORE: Duration = Duration::from_millis(300);
+/// Lines come no faster than this, and, while there is any progress, no slower than that.
+const SOONEST: Duration = Duration::from_secs(10);
+const LATEST: Duration = Duration::from_secs(60);
+
+/// When the last line was said, and of which tenth of the work.
+struct Lines {
+    last: Instant,
+    tenths: u64,
+}
+
+impl Lines {
+    /// Whether a line is due: at another tenth, or after a minute.
+    fn is_due(&mut self, tenths: u64, now: Instant) -> bool {
+        let since = now.duration_since(self.last);
+        let due = tenths > self.tenths && since >= SOONEST || since >= LATEST;
+        if due {
+            *self = Lines { last: now, tenths };
+        }
+        due
+    }
+}
+
+fn tenths(done: u64, of: u64) -> u64 {
+    10 * done / of.max(1)
+}
+
+/// `42 s`, `3 min 20 s`, `2 h 5 min`
+fn time(duration: Duration) -> String {
+    match duration.as_secs() {
+        s @ 0..60 => format!("{s} s"),
+        s @ 60..3600 => format!("{} min {} s", s / 60, s % 60),
+        s => format!("{} h {} min", s / 3600, s % 3600 / 60),
+    }
+}
+
+/// How noisy a picture is, and what it takes to be less so: `noise 4 %, about 1000 samples for 1 %`. `None`: it has no noise, or one cannot
+/// tell.
+pub fn noise(relative: f64, samples: u32) -> Option<String> {
+    if !(relative.is_finite() && relative > 1e-6) || samples < 2 {
+        return None;
+    }
+    let percent = 100.0 * relative;
+    let shown = |percent: f64| {
+        let digits = if percent >= 10.0 { 0 } else { 1 };
+        format!("{percent:.digits$}").trim_end_matches(".0").to_owned()
+    };
+    let mut line = format!("noise {} %", shown(percent));
+    // The next power of ten that is well below; noise goes down by the root of the number of samples.
+    if let Some(goal) = [10.0, 1.0, 0.1].into_iter().find(|goal| *goal * 1.5 <= percent) {
+        let needed = f64::from(samples) * (percent / goal).powi(2);
+        let unit = 10f64.powf((needed.log10() - 1.0).floor());
+        let needed = (needed / unit).ceil() * unit;
+        // More is no advice.
+        if needed <= 1e9 {
+            line += &format!(", about {needed:.0} samples for {goal} %");
+        }
+    }
+    Some(line)
+}
+
 /// `12.3 M samples/s`
 pub fn rate(per_second: f64) -> String {
     match per_second {
@@ -75,5 +203,40 @@ pub fn rate(per_second: f64) -> String {
         r if r >= 1e6 => format!("{:.1} M samples/s", r / 1e6),
         r if r >= 1e3 => format!("{:.1} k samples/s", r / 1e3),
         r => format!("{r:.0} samples/s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_at_tenths_but_not_too_often_and_each_minute() {
+        let begun = Instant::now();
+        let at = |seconds| begun + Duration::from_secs(seconds);
+        let mut lines = Lines { last: begun, tenths: 0 };
+        let said: Vec<u64> = [(1, 1), (9, 3), (10, 3), (15, 4), (20, 4), (79, 4), (80, 4), (100, 9)]
+            .into_iter()
+            .filter(|&(second, tenths)| lines.is_due(tenths, at(second)))
+            .map(|(second, _)| second)
+            .collect();
+        assert_eq!(said, [10, 20, 80, 100]);
+    }
+
+    #[test]
+    fn noise_is_told_with_what_it_takes() {
+        assert_eq!(noise(0.04, 64).as_deref(), Some("noise 4 %, about 1100 samples for 1 %"));
+        assert_eq!(noise(0.24, 32).as_deref(), Some("noise 24 %, about 190 samples for 10 %"));
+        assert_eq!(noise(0.0123, 100).as_deref(), Some("noise 1.2 %, about 16000 samples for 0.1 %"));
+        assert_eq!(noise(0.0012, 100).as_deref(), Some("noise 0.1 %"));
+        for (relative, samples) in [(0.0, 64), (f64::NAN, 64), (0.3, 1)] {
+            assert_eq!(noise(relative, samples), None);
+        }
+    }
+
+    #[test]
+    fn times_are_read_at_a_glance() {
+        let shown = [0, 59, 61, 7500].map(|seconds| time(Duration::from_secs(seconds)));
+        assert_eq!(shown, ["0 s", "59 s", "1 min 1 s", "2 h 5 min"]);
     }
 }

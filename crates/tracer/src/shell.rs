@@ -50,6 +50,16 @@ impl Shell {
         self.terminal && self.verbosity > Verbosity::Quiet
     }
 
+    /// Whether anything but errors is said.
+    pub fn is_told(&self) -> bool {
+        self.verbosity > Verbosity::Quiet
+    }
+
+    /// Columns of the terminal.
+    pub fn width(&self) -> usize {
+        width()
+    }
+
     /// A line on standard error. That it cannot be said is no reason to fail.
     pub fn say(&self, line: &str) {
         let _ = writeln!(std::io::stderr().lock(), "{line}");

@@ -113,9 +113,13 @@ impl Words for MaterialRef {
         let item = item.without_some();
         match item.kind() {
             Kind::Text => {
+                if !reader.knows_material(&item.text()) && reader.material_elsewhere(item) {
+                    return None;
+                }
                 let name = reader.material_name(item, at)?;
                 Some(MaterialRef::Named { name, span: item.span() })
             }
+            _ if reader.material_elsewhere(item) => None,
             Kind::Struct | Kind::Map | Kind::Tuple | Kind::Word => {
                 let material = Material::read(reader, item, at)?;
                 Some(MaterialRef::Inline(Box::new(Spanned { value: material, span: item.span() })))

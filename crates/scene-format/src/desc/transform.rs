@@ -85,6 +85,9 @@ impl Words for Transform {
     const TYPE: Type = TransformWords::TYPE;
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if reader.transform_elsewhere(item) {
+            return None;
+        }
         TransformWords::read(reader, item, at).map(|words| match words {
             TransformWords::Translate(by) => Transform::Translate(by),
             TransformWords::Scale { factor, about } => {

@@ -100,23 +100,301 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
     found.map(|(kind, _)| *kind)
 }
 
-/// How the language says what other programs have a kind for.
+/// How the language says what other programs have a kind for, or what to do where it does not. A hint goes with the kind that it tells of:
+/// once there is one, nobody asks.
 pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    let has = |kind| def.variant(kind).is_some();
+    let lower = name.to_ascii_lowercase();
+    let table = match def.noun {
+        "object" => OBJECTS,
+        "material" => MATERIALS,
+        "texture" => TEXTURES,
+        "light" => LIGHTS,
+        "transform" => TRANSFORMS,
+        _ => return None,
+    };
+    table.iter().find(|(names, _)| names.contains(&lower.as_str())).map(|(_, hint)| *hint)
+}
+
+type Hints = &'static [(&'static [&'static str], &'static str)];
+
+const OBJECTS: Hints = &[
+    (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
+    (
+        &[
+            "cylinder",
+            "cone",
+            "disk",
+            "disc",
+            "circle",
+            "triangle",
+            "torus",
+            "capsule",
+            "polygon",
+            "ellipsoid",
+            "pyramid",
+            "prism",
+        ],
+        "other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`",
+    ),
+    (
+        &[
+            "lathe",
+            "sor",
+            "extrude",
+            "revolve",
+            "heightfield",
+            "curve",
+            "curves",
+            "tube",
+            "spline",
+            "bezier",
+            "nurbs",
+            "sweep",
+            "text",
+        ],
+        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY or STL, and name its file in a `Mesh`",
+    ),
+    (
+        &["group", "union", "node", "collection", "merge"],
+        "there are no groups: write the objects beside each other; `vars` hold what they share, as in center: (0, \"=table\", 0)",
+    ),
+    (
+        &["instance", "objectinstance", "copy", "array", "clone", "for", "loop"],
+        "copies of an object are its `placements`, and `Repeat(count: .., items: [..])` makes objects by a rule",
+    ),
+    (
+        &["difference", "intersection", "subtract", "csg", "boolean"],
+        "solids cannot be cut from each other: build it of parts, or name a mesh file in a `Mesh`",
+    ),
+    (
+        &["include", "import", "link"],
+        "a scene is one file; geometry from other files comes by `Mesh(file: ..)` and `placements`",
+    ),
+    (
+        &["arealight", "area", "quadlight", "rectlight", "rectanglelight", "meshlight", "lamp"],
+        "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
+    ),
+    (&["spherelight", "pointlight", "light", "sun", "spotlight"], "lights stand in `lights`, beside `objects`"),
+    (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
+    (
+        &["volume", "fog", "medium", "smoke", "hair", "particles", "points", "metaballs", "sdf"],
+        "there is no such thing: surfaces only",
+    ),
+];
+
+const MATERIALS: Hints = &[
+    (
+        &["translucent", "difftrans", "subsurface", "sss", "skin", "wax", "cloth", "velvet", "sheen", "hair", "paper"],
+        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: 1.5)`",
+    ),
+    (
+        &[
+            "principled",
+            "disney",
+            "pbr",
+            "standard",
+            "metallicroughness",
+            "uber",
+            "plastic",
+            "roughplastic",
+            "coat",
+            "coateddiffuse",
+        ],
+        "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: true)",
+    ),
+    (
+        &["roughconductor", "roughmetal", "brushed", "brushedmetal", "ggx", "microfacet", "metal", "conductor"],
+        "rough metal is BlinnPhong(albedo: .., exponent: 1000, specular: 1, energy_conserving: true)",
+    ),
+    (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
+    (
+        &["mix", "blend", "blendbsdf", "layered"],
+        "materials cannot be mixed; `BlinnPhong` mixes a matt and a glossy share",
+    ),
+    (&["null", "none", "invisible"], "leave the object out"),
+    (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
+    (&["normalmap", "bumpmap", "bump", "displacement"], "surfaces have no bumps: they need to be in the mesh"),
+];
+
+const TEXTURES: Hints = &[
+    (
+        &[
+            "noise",
+            "perlin",
+            "fbm",
+            "marble",
+            "wood",
+            "voronoi",
+            "clouds",
+            "wrinkled",
+            "turbulence",
+            "granite",
+            "gradient",
+            "ramp",
+            "colorramp",
+            "stripes",
+            "dots",
+            "bricks",
+            "brick",
+            "wave",
+        ],
+        "there is no such pattern: make a picture of it, and name its file: Texture(file: \"wood.png\")",
+    ),
+    (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),
+    (&["multiply", "scale", "mix", "math"], "textures cannot be reckoned with: change the picture"),
+    (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
+];
+
+const LIGHTS: Hints = &[
+    (
+        &["directional", "distant", "sun", "directionallight", "distantlight", "sunlight", "parallel", "parallellight"],
+        "a sun is a large sphere light far away",
+    ),
+    (
+        &[
+            "sky",
+            "sunsky",
+            "sunandsky",
+            "environment",
+            "environmentmap",
+            "envmap",
+            "envlight",
+            "environmentlight",
+            "hdri",
+            "infinite",
+            "infinitelight",
+            "ibl",
+            "domelight",
+            "dome",
+            "constant",
+            "ambient",
+            "ambientlight",
+            "skylight",
+        ],
+        "light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`",
+    ),
+    (
+        &[
+            "quadlight",
+            "rectanglelight",
+            "rectlight",
+            "arealight",
+            "area",
+            "disklight",
+            "quad",
+            "meshlight",
+            "emission",
+            "emissive",
+            "emitter",
+        ],
+        "a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`",
+    ),
+    (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.01, intensity: .. in W/sr"),
+    (
+        &["spotlight", "spot", "ies", "goniometric", "goniometriclight", "projector", "projectionlight"],
+        "there is no spotlight: put a `SphereLight` into a tube or box of objects, open to one side",
+    ),
+];
+
+const TRANSFORMS: Hints = &[
+    (
+        &["matrix", "transform", "to_world", "toworld", "affine"],
+        "write its steps: Scale, Rotate, Translate; or rows of 12 numbers in a placements file",
+    ),
+    (
+        &["lookat", "look_at", "orient", "align"],
+        "turn it by Rotate(axis: (0, 1, 0), degrees: 90); the camera alone has `look_at`",
+    ),
+    (&["shear", "skew"], "there is no shear step; a placements file takes rows of 12 numbers, which may shear"),
+    (&["mirror", "reflect", "flip"], "a negative factor mirrors: Scale((-1, 1, 1))"),
+    (
+        &["quaternion", "euler", "euler_xyz"],
+        "turn about one axis after the other: Rotate(axis: (0, 1, 0), degrees: 90)",
+    ),
+];
+
+/// What is said of fields for the brightness of a light that there are not.
+pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    if !def.exactly_one.contains(&"radiance") {
+        return None;
+    }
     match name.to_ascii_lowercase().as_str() {
-        "plane" | "ground" | "floor" if has("Rectangle") => Some("a floor is a large `Rectangle(size: 20)`"),
-        "cylinder" | "cone" | "disk" | "triangle" | "torus" if has("Mesh") => {
-            Some("other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`")
+        "color" | "colour" | "rgb" => {
+            Some("a light's colour is in its brightness, per channel: `radiance: (1, 0.9, 0.8)`")
         }
-        "directional" | "distant" | "sun" | "directionallight" | "distantlight" if has("SphereLight") => {
-            Some("a sun is a large sphere light far away")
+        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" => {
+            Some("how bright a light is is said by `radiance`, by `power` in W, or for spheres by `intensity` in W/sr")
         }
-        "environment" | "sky" | "constant" | "envmap" | "infinite" | "ambientlight" if has("SphereLight") => {
-            Some("light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`")
-        }
-        "quadlight" | "rectanglelight" | "rectlight" | "arealight" | "area" | "disklight" if has("SphereLight") => {
-            Some("a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`")
-        }
+        "watts" | "watt" | "flux" | "lumens" | "lumen" => Some("the light that is given in all is `power`, in W"),
         _ => None,
     }
+}
+
+/// How the language says what other programs have a field for, or what to do where it does not.
+pub(super) fn field_of_others(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    let lower = name.to_ascii_lowercase();
+    let has = |field| def.field(field).is_some();
+    let camera = def.name == "Camera" || def.name == "Scene";
+    let surface = has("albedo") || has("material") || has("reflectance") || has("ior");
+    Some(match lower.as_str() {
+        "sky" | "environment" | "envmap" | "world" | "hdri" | "ambient" | "ambient_light" | "sun"
+            if has("background") =>
+        {
+            "light from all around is `background`, one colour; a sun is a large `SphereLight` far away"
+        }
+        "emission" | "emissive" | "emit" | "glow" | "light" | "radiance" | "emissive_color"
+            if surface && !has("radiance") =>
+        {
+            "what shines has the material Emissive(radiance: 5)"
+        }
+        "emission" | "emissive" if def.name == "Scene" => {
+            "what shines has the material Emissive(radiance: 5), or stands in `lights`"
+        }
+        "vertices" | "faces" | "indices" | "triangles" | "points" | "positions" => {
+            "the triangles of a mesh stand in a file, OBJ, OFF, PLY or STL: Mesh(file: \"cat.obj\")"
+        }
+        "dof" | "depth_of_field" | "aperture" | "focus_distance" | "focus" | "f_stop" | "fstop" | "focal_distance"
+        | "lens_radius" | "bokeh"
+            if camera =>
+        {
+            "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
+        }
+        "focal_length" | "focal" | "lens" | "sensor" | "sensor_width" | "zoom" if camera => {
+            "the view's height is said by `fov`, in degrees: 2 atan(12 / focal length in mm) for film of 36x24 mm, 27 for 50 mm"
+        }
+        "projection" | "orthographic" | "ortho" | "type" if camera => {
+            "the camera sees in perspective; nearly parallel views come from far away with a small `fov`"
+        }
+        "near" | "far" | "clip" | "near_clip" | "far_clip" | "znear" | "zfar" if camera => {
+            "there are no clip planes: leave it out"
+        }
+        "shutter" | "motion_blur" if camera => "nothing moves in a scene: leave it out",
+        "rotation" | "direction" | "forward" | "matrix" | "to_world" | "transform" if camera => {
+            "the camera's direction is said by `look_at`, the point that it looks at"
+        }
+        "bump" | "bump_map" | "normal_map" | "normal" | "displacement" | "normals" if surface => {
+            "surfaces have no bumps: they need to be in the mesh; `shading: Smooth` rounds a mesh"
+        }
+        "bump" | "normal_map" | "displacement" => "surfaces have no bumps: they need to be in the mesh",
+        "roughness" | "glossiness" | "gloss" | "smoothness" | "metallic" | "metalness" | "clearcoat" | "anisotropy"
+            if surface || def.name == "Scene" =>
+        {
+            "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a mirror"
+        }
+        "opacity" | "alpha" | "alpha_map" | "transparency" if surface => {
+            "what is seen through is Transparent(ior: 1.5)"
+        }
+        "resolution" | "size" | "film" if def.name == "Scene" => {
+            "the size is `image: Image(width: 640, height: 480)`, or --size"
+        }
+        "output" | "filename" | "file" if def.name == "Scene" => {
+            "the picture's name stands on the command line: tracer render scene.ron -o picture.png"
+        }
+        "name" | "id" | "label" | "tag" => "only materials have names; write the name as a comment",
+        "visible" | "hidden" | "enabled" | "hide" | "visibility" | "cast_shadow" | "cast_shadows" | "double_sided" => {
+            "all that is written is seen: leave the object out, or make it a comment"
+        }
+        "units" | "unit" => "a scene has one unit, whichever it is: leave it out",
+        _ => return None,
+    })
 }

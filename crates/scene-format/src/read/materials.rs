@@ -98,6 +98,24 @@ impl Materials {
         }
     }
 
+    /// The name of a material that is, or is nearest to, a word.
+    pub fn nearest(&self, word: &str) -> Option<Arc<str>> {
+        if let Some(number) = self.find(word) {
+            return Some(Arc::clone(&self.name(number).value));
+        }
+        let few = (self.read.len() + self.unread.len()) * (self.unknown + 1) <= MAX_COMPARISONS;
+        let names = self.names().filter(|_| few).map(|name| &*name.value);
+        suggest::nearest(word, names).map(Arc::from)
+    }
+
+    /// Remembers that a name is used.
+    pub fn use_name(&mut self, name: &str) {
+        self.unknown += 1;
+        if let Some(number) = self.find(name) {
+            self.mark(number);
+        }
+    }
+
     fn mark(&mut self, number: u32) {
         let at = match (number as usize) < self.read.len() {
             true => number as usize,
@@ -154,7 +172,8 @@ impl Reader<'_> {
                     .label(first, "the first one is here"),
                 );
             }
-            let material = Material::read(self, value, at);
+            let elsewhere = self.material_elsewhere(value);
+            let material = if elsewhere { None } else { Material::read(self, value, at) };
             if first.is_none() {
                 make_room(&mut self.materials.read, item, key);
                 self.materials.insert(Spanned { value: (*name).into(), span: key.span() }, material);
@@ -162,6 +181,11 @@ impl Reader<'_> {
             self.path.pop();
         }
         Some(())
+    }
+
+    /// Whether there is a material of this name.
+    pub(crate) fn knows_material(&self, name: &str) -> bool {
+        self.materials.find(name).is_some()
     }
 
     /// The name of a material, which an object uses.

@@ -4,6 +4,7 @@
 //! wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said twice.
 
 mod check;
+mod elsewhere;
 mod hints;
 mod materials;
 mod repeat;
@@ -26,7 +27,7 @@ use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
 use crate::words::Words;
-use hints::{other_way, right_place, synonym};
+use hints::{field_of_others, other_way, right_place, synonym};
 use materials::Materials;
 use std::fmt::Write;
 use std::path::Path;
@@ -49,6 +50,8 @@ pub(crate) struct Reader<'r> {
     path: Vec<Step>,
     materials: Materials,
     vars: vars::Table,
+    /// The item whose kind was told to be another.
+    renamed: u32,
     /// Items that repetitions have made.
     repeated: u64,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
@@ -107,6 +110,7 @@ impl<'r> Reader<'r> {
             path: Vec::new(),
             materials: Materials::default(),
             vars: vars::Table::default(),
+            renamed: NOWHERE,
             repeated: 0,
             file: None,
         }
@@ -135,6 +139,7 @@ impl<'r> Reader<'r> {
     pub fn fields<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static StructDef) -> Option<Fields<'t, 's>> {
         if let Some(name) = item.name()
             && name != def.name
+            && self.renamed != item.index() as u32
         {
             self.wrong_name(item, name, def);
             suggest::nearest(name, [def.name])?;
@@ -162,6 +167,9 @@ impl<'r> Reader<'r> {
             Kind::Broken => return None,
             Kind::Struct | Kind::Map => {}
             Kind::Tuple if item.is_damaged() && def.bare.is_none() => return None,
+            _ if def.name == "Image" && elsewhere::image(item).is_some() => {
+                return self.wrong_kind(item, def.noun, "Image(width: .., height: ..)", elsewhere::image(item));
+            }
             Kind::Tuple => {
                 let mut children = item.solid_children();
                 match (children.next(), children.next(), def.bare) {
@@ -215,7 +223,7 @@ impl<'r> Reader<'r> {
                     // Where the schema is, for editors.
                     "$schema" if def.name == "Scene" => {}
                     name => {
-                        let meant = self.unknown_field(key, name, item, def);
+                        let meant = self.unknown_field(key, value, name, item, def);
                         mistyped.extend(meant.map(|field| (field, value)));
                     }
                 },
@@ -298,6 +306,7 @@ impl<'r> Reader<'r> {
     fn unknown_field(
         &mut self,
         key: Item<'_, '_>,
+        value: Item<'_, '_>,
         name: &str,
         item: Item<'_, '_>,
         def: &'static StructDef,
@@ -316,13 +325,33 @@ impl<'r> Reader<'r> {
         let mut fault =
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
+        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
+            fault.hint = format!("write `{mended}`");
+            fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
+            self.report(fault);
+            return meant;
+        }
+        if let Some(of_light) = hints::strength(name, def) {
+            fault.hint = of_light.to_owned();
+            self.report(fault);
+            // Whatever it stands for: that there is none need not be said too.
+            return def.exactly_one.first().copied();
+        }
         let quoted = key.lexeme().starts_with(['"', '\'']);
         let meant = meant(name, item, def);
+        // A word of other programs is no typo of ours: `dof` is no `fov`.
+        let of_others = field_of_others(name, def).filter(|_| synonym(name, def).is_none());
+        let meant = meant.filter(|_| of_others.is_none());
         fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
             && let Some(way) = other_way(name, def, item.syntax())
         {
             fault.hint = way.to_owned();
+        }
+        if fault.hint.is_empty()
+            && let Some(hint) = of_others
+        {
+            fault.hint = hint.to_owned();
         }
         if fault.hint.is_empty()
             && let Some(place) = right_place(name, def, item)
@@ -422,7 +451,8 @@ impl<'r> Reader<'r> {
         let lexeme = item.lexeme();
         let header = item.syntax() == Syntax::Toml && item.kind() == Kind::Map && lexeme.starts_with('[');
         let edit = match item.kind() {
-            _ if header => Some(format!("[{lexeme}]")),
+            // `[[objects.Sphere]]` is a list within a table, and cannot become one by more brackets.
+            _ if header => (!lexeme.starts_with("[[")).then(|| format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
                 Some(format!("[{lexeme}]"))
             }

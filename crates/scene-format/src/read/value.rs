@@ -1,6 +1,6 @@
 //! Numbers, texts, paths and lists.
 
-use super::{Reader, plain, shortened};
+use super::{Reader, elsewhere, plain, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::expression::Value;
@@ -97,11 +97,12 @@ impl Reader<'_> {
             if off && matches!(at.kind, Type::Optional(Type::Number)) {
                 edit = Some(none(item).to_owned());
             }
-        } else if let Kind::Tuple | Kind::List = item.kind() {
-            let mut children = item.children();
-            if let (Some(only), None) = (children.next(), children.next()) {
-                edit = only.number().map(|_| only.lexeme().to_owned());
+            // A name of `vars` without its quotes.
+            if item.kind() == Kind::Word && self.knows_var(&text) {
+                edit = Some(format!("\"={text}\""));
             }
+        } else if let Kind::Tuple | Kind::List = item.kind() {
+            edit = elsewhere::number_elsewhere(item, at);
         }
         self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
     }
@@ -231,7 +232,8 @@ impl Reader<'_> {
     /// A text that is not empty.
     pub(super) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {
-            let word = matches!(item.kind(), Kind::Word).then(|| format!("\"{}\"", item.lexeme()));
+            let word =
+                matches!(item.kind(), Kind::Word | Kind::Char).then(|| format!("\"{}\"", item.text().escape_default()));
             return self.wrong_kind(item, at.noun, &expected_for(at, item), word);
         }
         let text = item.text();
@@ -344,6 +346,18 @@ pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
 }
 
 impl Reader<'_> {
+    /// `0xd03a2b`: a colour as other languages write it.
+    pub(super) fn hexadecimal(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
+        let mended = format!("\"#{}\"", &item.lexeme()[2..]);
+        let mut fault =
+            Diagnostic::error(codes::BAD_COLOR, item.span(), format!("{} cannot be one whole number", plain(at.noun)))
+                .expected(expected_for(at, item))
+                .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        None
+    }
+
     pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
         let text = item.text();
         if let Some(color) = hex_color(&text) {
@@ -355,6 +369,12 @@ impl Reader<'_> {
             format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
         )
         .expected(expected_for(at, item));
+        if let Some(hex) = elsewhere::named_color(&text) {
+            fault.hint = format!("colours have no names here: write \"{hex}\"");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
+            self.report(fault);
+            return None;
+        }
         let digits = text.trim().trim_start_matches('#');
         let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
         let mended = match digits.len() {

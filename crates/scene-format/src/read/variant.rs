@@ -78,7 +78,12 @@ impl Reader<'_> {
             return self.no_variant(item, def);
         }
         // What is meant is read all the same, so that what is wrong inside is told in the same run.
-        let variant = self.unknown_variant(span, &name, def, item.syntax())?;
+        let inner = match body {
+            Body::None => None,
+            Body::Brackets(inner) | Body::Value(inner) => Some(inner),
+        };
+        let variant = self.unknown_variant(span, &name, def, item.syntax(), inner)?;
+        self.renamed = item.index() as u32;
         let readable = !matches!(body, Body::None) || matches!(variant.content, Content::Unit);
         readable.then_some(Chosen { variant, body, item })
     }
@@ -130,6 +135,7 @@ impl Reader<'_> {
         name: &str,
         def: &'static EnumDef,
         syntax: Syntax,
+        inner: Option<Item<'_, '_>>,
     ) -> Option<&'static VariantDef> {
         let mut fault = Diagnostic::error(
             codes::UNKNOWN_VARIANT,
@@ -139,7 +145,17 @@ impl Reader<'_> {
         .expected(choices(def, syntax));
         let quoted = syntax == Syntax::Toml && span.end - span.start == name.len() as u32 + 2;
         let names = def.variants.iter().map(|variant| variant.name);
-        let meant = kind_elsewhere(name, def).or_else(|| suggest::nearest(name, names));
+        let elsewhere = kind_elsewhere(name, def);
+        // The nearest kind of ours, with other fields than theirs: reading on would tell of every one of them.
+        if let Some(variant) = elsewhere.and_then(|word| def.variant(word))
+            && let Some(needs) = needs(variant, inner, syntax)
+        {
+            let more = other_kind(name, def).map_or(String::new(), |way| format!("; {way}"));
+            self.report(fault.hint(format!("the nearest here is {needs}{more}")));
+            return None;
+        }
+        let near = elsewhere.or_else(|| suggest::nearest(name, names));
+        let meant = near.filter(|_| elsewhere.is_some() || other_kind(name, def).is_none());
         fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
             && let Some(way) = other_kind(name, def)
@@ -278,6 +294,29 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// How a variant is written, where what stands in brackets does not fit it.
+fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Syntax) -> Option<String> {
+    let (Content::Struct(fields), Some(inner)) = (&variant.content, inner) else { return None };
+    let written = |name: &str| inner.fields().any(|(key, _)| key.text() == name);
+    let known = inner.fields().all(|(key, _)| fields.field(&key.text()).is_some());
+    let all = fields.fields.iter().all(|field| field.default.is_some() || written(field.name));
+    let one = fields.exactly_one.is_empty() || fields.exactly_one.iter().any(|name| written(name));
+    if known && all && one {
+        return None;
+    }
+    let mut words: Vec<String> = fields
+        .fields
+        .iter()
+        .filter(|field| field.default.is_none())
+        .map(|field| format!("{}: ..", field.name))
+        .collect();
+    words.extend(fields.exactly_one.last().map(|name| format!("{name}: ..")));
+    Some(match syntax {
+        Syntax::Ron => format!("`{}({})`", variant.name, words.join(", ")),
+        Syntax::Toml => format!("`{{ {} = {{ {} }} }}`", variant.name, words.join(", ").replace(": ..", " = ..")),
+    })
 }
 
 /// Stands for the field of a value that is not in one.

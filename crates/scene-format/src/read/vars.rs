@@ -244,6 +244,11 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether there is a var of this name.
+    pub(super) fn knows_var(&self, name: &str) -> bool {
+        self.vars.find(name).is_some()
+    }
+
     /// The value of an expression; `None` where the item is none, `Some(None)` where it is a wrong one, which has been reported.
     pub(crate) fn expression(&mut self, item: Item<'_, '_>) -> Option<Option<Value>> {
         if !is_expression(item) {

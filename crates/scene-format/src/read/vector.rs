@@ -1,7 +1,7 @@
 //! Vectors, colours and factors: three numbers, or what stands for three.
 
 use super::value::expected_for;
-use super::{Reader, plain};
+use super::{Reader, elsewhere, plain};
 use crate::codes;
 use crate::desc::Vec3;
 use crate::diagnostic::{Diagnostic, Edit};
@@ -41,7 +41,8 @@ impl Reader<'_> {
         }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
-            return self.wrong_type(item, at, &expected_for(at, item));
+            let edit = elsewhere::vector_elsewhere(item, at, N);
+            return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }
         let mut children = item.children();
         let first: [Option<Item<'_, '_>>; N] = std::array::from_fn(|_| children.next());
@@ -164,6 +165,9 @@ impl Words for Vec3 {
         // Colours and points are the same Rust type; what they are in the language stands in the rule.
         if at.rule.color {
             return match item.kind() {
+                Kind::Integer if item.lexeme().starts_with("0x") && item.lexeme().len() == 8 => {
+                    reader.hexadecimal(item, at)
+                }
                 Kind::Integer | Kind::Float => {
                     let grey = reader.number(item, at)?;
                     Some([reader.check(grey, item, at, "")?; 3])

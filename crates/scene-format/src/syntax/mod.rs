@@ -1,8 +1,10 @@
 //! The two syntaxes and how they become a [`Tree`](crate::tree::Tree).
 
+mod arithmetic;
 mod bare_numbers;
 mod brackets;
 pub(crate) mod decode;
+pub(crate) mod foreign;
 pub(crate) mod ron;
 mod ron_extensions;
 mod ron_literal;

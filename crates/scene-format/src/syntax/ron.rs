@@ -4,6 +4,7 @@ use super::brackets::{self, Fate, Open};
 use super::{MAX_DEPTH, Sink};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::expression;
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind};
 
@@ -157,8 +158,12 @@ impl<'p> Parser<'p> {
                     return self.unexpected();
                 }
                 let word = &self.text[start..start + length];
+                if expression::is_known(word) && self.arithmetic(start) {
+                    return;
+                }
                 self.at += length;
                 match word {
+                    _ if self.peek() == Some(b'<') && self.angle_brackets(start) => {}
                     "true" | "false" => self.builder.leaf(Kind::Bool, start, self.at),
                     "inf" | "NaN" | "nan" | "infinity" => self.builder.leaf(Kind::Float, start, self.at),
                     _ => {
@@ -223,6 +228,9 @@ impl<'p> Parser<'p> {
 
     fn unexpected(&mut self) {
         let start = self.at;
+        if self.angle_brackets(start) {
+            return;
+        }
         let character = self.rest().chars().next().unwrap_or(' ');
         let found = self.span(start, start + character.len_utf8());
         let mut fault = Diagnostic::error(
@@ -241,6 +249,11 @@ impl<'p> Parser<'p> {
                 fault.span = self.span(start, end);
                 fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &inner[..length]) });
             }
+        } else if character == '#' && self.is_hex_color() {
+            let end = start + 7;
+            fault.span = self.span(start, end);
+            fault = fault.hint(format!("write \"{}\"", &self.text[start..end]));
+            fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &self.text[start..end]) });
         } else if character == '#' {
             fault = fault.hint("comments begin with `//`; colours are texts: \"#rrggbb\"");
         } else if matches!(character, '=' | ':' | ';') {
@@ -405,15 +418,23 @@ impl<'p> Parser<'p> {
                     let opened = self.open.last().map_or(self.at, |open| open.at + 1);
                     let first = self.text[opened..].trim_start();
                     let first = self.text.len() - first.len();
-                    self.sink.push(
-                        Diagnostic::error(
-                            codes::MIXED_FIELDS,
-                            found,
-                            "named and unnamed values stand in one pair of brackets",
-                        )
-                        .hint("write the name of each value, `name: value`, or of none")
-                        .label(self.span(first, first + 1), "this has no name"),
-                    );
+                    let mut fault = Diagnostic::error(
+                        codes::MIXED_FIELDS,
+                        found,
+                        "named and unnamed values stand in one pair of brackets",
+                    )
+                    .hint("write the name of each value, `name: value`, or of none")
+                    .label(self.span(first, first + 1), "this has no name");
+                    // The two kinds whose first value may stand alone.
+                    let name = self.text[..opened - 1].trim_end();
+                    let bare =
+                        [("Scale", "factor"), ("DropTo", "y")].into_iter().find(|(kind, _)| name.ends_with(kind));
+                    if let Some((_, field)) = bare {
+                        let replacement = format!("{field}: ");
+                        fault.hint = format!("write `{replacement}` before the first value");
+                        fault.edit = Some(Edit { span: self.span(first, first), replacement });
+                    }
+                    self.sink.push(fault);
                     self.builder.leaf(Kind::Broken, self.at, self.at);
                     self.skip_broken();
                 } else {
@@ -472,6 +493,15 @@ impl<'p> Parser<'p> {
                 self.separator();
             }
             Some(_) => {
+                if let Some(sign) = self.rest().chars().next().filter(|c| c.is_control()) {
+                    let found = self.span(self.at, self.at + sign.len_utf8());
+                    let message = format!("the character {} means nothing here", sign.escape_unicode());
+                    let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
+                    fault.edit = Some(Edit { span: found, replacement: String::new() });
+                    self.sink.push(fault);
+                    self.at += sign.len_utf8();
+                    return self.separator();
+                }
                 let found = self.span(end, end);
                 let semicolon = self.peek() == Some(b';');
                 let mut fault = if semicolon {

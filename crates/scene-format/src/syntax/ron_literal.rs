@@ -1,7 +1,7 @@
 //! Numbers, texts and characters of RON.
 
-use super::decode;
 use super::ron::Parser;
+use super::{arithmetic, decode};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
@@ -11,10 +11,17 @@ impl Parser<'_> {
         let start = self.at;
         let bytes = self.text.as_bytes();
         if let Some((length, kind)) = plain_number(&bytes[start..])
-            && matches!(bytes.get(start + length), Some(b',' | b')' | b']' | b'}' | b' ' | b'\r' | b'\n'))
+            && match bytes.get(start + length) {
+                Some(b',' | b')' | b']' | b'}' | b'\r' | b'\n') => true,
+                Some(b' ') => !bytes.get(start + length + 1).is_some_and(|next| arithmetic::OPERATORS.contains(next)),
+                _ => false,
+            }
         {
             self.at = start + length;
             return self.builder.leaf(kind, start, self.at);
+        }
+        if self.arithmetic(start) {
+            return;
         }
         let mut at = start;
         if matches!(bytes[at], b'+' | b'-') {
@@ -43,8 +50,20 @@ impl Parser<'_> {
                 mended = Some(format!("{}{}", &self.text[start..start + 1], &rest[space..space + digits]));
             }
         }
-        self.at = at;
         let lexeme = &self.text[start..at];
+        let percent = bytes.get(at) == Some(&b'%');
+        let (number, sign) = match (lexeme.strip_suffix('°'), percent) {
+            (Some(number), _) => (number, Some('°')),
+            (None, true) => (lexeme, Some('%')),
+            (None, false) => (lexeme, None),
+        };
+        let end = at + usize::from(percent);
+        if let Some(fault) = sign.and_then(|sign| arithmetic::with_sign(number, sign, self.span(start, end))) {
+            self.at = end;
+            self.sink.push(fault);
+            return self.builder.leaf(Kind::Broken, start, end);
+        }
+        self.at = at;
         match number_kind(lexeme) {
             Some(kind) => self.builder.leaf(kind, start, at),
             None => {
@@ -65,6 +84,31 @@ impl Parser<'_> {
                 self.builder.leaf(Kind::Broken, start, at);
             }
         }
+    }
+
+    /// Arithmetic without quotes that begins here, which is reported.
+    pub(super) fn arithmetic(&mut self, start: usize) -> bool {
+        let Some(length) = arithmetic::ahead(self.text, start) else { return false };
+        self.at = start + length;
+        let fault = arithmetic::fault(self.text, &self.text[start..self.at], self.span(start, self.at));
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
+        true
+    }
+
+    /// `<0, 1, 6>` and `rgb<0.8, 0.2, 0.1>`, the name beginning at `start`, which is reported.
+    pub(super) fn angle_brackets(&mut self, start: usize) -> bool {
+        let Some((length, numbers)) = arithmetic::angle_brackets(self.rest()) else { return false };
+        let mended = format!("({numbers})");
+        self.at += length;
+        let found = self.span(start, self.at);
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "vectors stand in round brackets")
+            .expected("(x, y, z)")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
+        true
     }
 
     pub(super) fn is_raw_text(&self) -> bool {

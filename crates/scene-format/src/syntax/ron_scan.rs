@@ -136,7 +136,7 @@ impl Parser<'_> {
     }
 
     /// `#ff8800` without quotes.
-    fn is_hex_color(&self) -> bool {
+    pub(super) fn is_hex_color(&self) -> bool {
         let digits = self.rest().bytes().skip(1).take_while(u8::is_ascii_hexdigit).count();
         digits == 6
     }

@@ -1,8 +1,8 @@
 //! Numbers, words, dates and texts of TOML.
 
-use super::decode;
 use super::ron_literal::{number_kind, plain_number};
 use super::toml::Parser;
+use super::{arithmetic, decode};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
@@ -20,7 +20,7 @@ impl Parser<'_> {
         let ends = match bytes.get(end) {
             Some(b',' | b']' | b'}' | b'\r' | b'\n') => true,
             // `1 = 2` in a list is a name.
-            Some(b' ') => !matches!(bytes.get(end + 1), Some(b'=')),
+            Some(b' ') => !goes_on(bytes.get(end + 1)),
             _ => false,
         };
         if ends {
@@ -41,7 +41,7 @@ impl Parser<'_> {
             let ends = match bytes.get(end) {
                 Some(b',' | b']' | b'}' | b'\r' | b'\n') => true,
                 // `1 = 2` in a list is a name.
-                Some(b' ') => !matches!(bytes.get(end + 1), Some(b'=')),
+                Some(b' ') => !goes_on(bytes.get(end + 1)),
                 _ => false,
             };
             if !ends {
@@ -72,6 +72,15 @@ impl Parser<'_> {
             return;
         }
         let start = self.span.start();
+        if let Some(length) = arithmetic::ahead(self.text, start)
+            && scalar_kind(&self.text[start..start + length]).is_none()
+        {
+            let end = start + length;
+            let fault = arithmetic::fault(self.text, &self.text[start..end], self.range(start, end));
+            self.sink.push(fault);
+            self.values.leaf(Kind::Broken, start, end);
+            return self.resume(end);
+        }
         if self.lexeme().starts_with('(') {
             return self.round_brackets();
         }
@@ -99,6 +108,12 @@ impl Parser<'_> {
             return self.values.leaf(kind, start, end);
         }
         let found = self.range(start, end);
+        if let Some(sign) = lexeme.chars().next_back()
+            && let Some(fault) = arithmetic::with_sign(&lexeme[..lexeme.len() - sign.len_utf8()], sign, found)
+        {
+            self.sink.push(fault);
+            return self.values.leaf(Kind::Broken, start, end);
+        }
         let fault = if lexeme.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
                 .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
@@ -154,11 +169,24 @@ impl Parser<'_> {
         let Some((close, _)) = close else { return false };
         let end = start + close + 1;
         let found = self.range(start, end);
-        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "TOML has no round brackets")
-            .expected(format!("{{ {name} = {{ field = value }} }}"));
-        let inner = &line[open + 1..close];
-        if !inner.contains('(') {
-            let mended = format!("{{ {name} = {{ {} }} }}", inner.trim().replace(':', " ="));
+        let inner = line[open + 1..close].trim();
+        let kind = name.starts_with(|c: char| c.is_ascii_uppercase());
+        let vector = inner.split(',').all(|number| number_kind(number.trim()).is_some());
+        let mended = match (kind, vector) {
+            (true, true) => Some(format!("{{ {name} = [{inner}] }}")),
+            (true, false) if !inner.contains('(') && (inner.is_empty() || inner.contains([':', '='])) => {
+                Some(format!("{{ {name} = {{ {} }} }}", inner.replace(':', " =")))
+            }
+            (false, true) => Some(format!("[{inner}]")),
+            _ => None,
+        };
+        let expected = match kind {
+            true => format!("{{ {name} = {{ field = value }} }}"),
+            false => "[x, y, z] for vectors and lists, { name = value } for fields".to_owned(),
+        };
+        let mut fault =
+            Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "TOML has no round brackets").expected(expected);
+        if let Some(mended) = mended {
             fault = fault.hint(format!("write {mended}"));
             fault.edit = Some(Edit { span: found, replacement: mended });
         }
@@ -262,6 +290,7 @@ impl Parser<'_> {
             .expected("[x, y, z] for vectors and lists, { name = value } for fields");
         let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
         if let Some(inner) = inner.filter(|inner| !inner.contains(['(', ')', ':'])) {
+            fault = fault.hint(format!("write [{inner}]"));
             fault.edit = Some(Edit { span: found, replacement: format!("[{inner}]") });
         }
         self.sink.push(fault);
@@ -327,6 +356,11 @@ impl Parser<'_> {
             .hint(format!("write `{quote}` where the text ends"));
         self.sink.push(fault);
     }
+}
+
+/// Whether what stands after a number and a space belongs to it: `1 = 2`, `1 + 2`.
+fn goes_on(next: Option<&u8>) -> bool {
+    next.is_some_and(|next| *next == b'=' || arithmetic::OPERATORS.contains(next))
 }
 
 /// Whether a lexeme is a value in TOML, and of which kind.

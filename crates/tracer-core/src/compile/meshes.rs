@@ -28,6 +28,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// The mesh of an object of triangles, if it could be loaded.
+    pub fn file(&self, object: usize) -> Option<&MeshData> {
+        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file))
+    }
+
     /// The MTL files that were read.
     pub fn libraries(&self) -> impl Iterator<Item = &PathBuf> {
         self.files.iter().flat_map(|file| &file.libraries)
@@ -193,6 +198,16 @@ fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnosti
 }
 
 impl Placed {
+    /// Where the copies of an object of triangles are.
+    pub fn maps_of(&self, object: usize) -> &[DAffine3] {
+        self.maps.get(object).map_or(&[], Vec::as_slice)
+    }
+
+    /// The middle of its box, in the frame of its triangles.
+    pub fn middle_of(&self, object: usize) -> DVec3 {
+        self.boxes.get(object).map_or(DVec3::ZERO, |[low, high]| 0.5 * (*low + *high))
+    }
+
     /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per object.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         self.maps.iter().zip(&self.boxes).flat_map(move |(maps, corners)| {

@@ -9,6 +9,7 @@ mod nearby;
 mod placing;
 mod polygonal;
 mod radiances;
+mod unmeant;
 
 use crate::bvh;
 use crate::scene::{
@@ -90,6 +91,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         return Err(CompileError { diagnostics });
     }
 
+    unmeant::warn(desc, &loaded, &placed, &mut diagnostics);
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);

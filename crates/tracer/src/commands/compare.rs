@@ -3,6 +3,7 @@
 use crate::args::CompareArgs;
 use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
+use crate::loading::nearby;
 use crate::write::{Bits, Encoding, Place, Provenance, is_one_file, probe, write};
 use serde_json::json;
 use std::io::Write;
@@ -76,6 +77,18 @@ fn limit(text: &str) -> Result<Limit, Failure> {
 
 /// Whatever is wrong with a picture ends with 2: 1 says that both were compared.
 fn picture(path: &Path) -> Result<Picture, Failure> {
+    let shown = path.display();
+    if path.is_dir() {
+        return Err(Failure::wrong(format!("cannot read {shown}: it is a folder; name a picture in it")));
+    }
+    if !path.exists() {
+        let is_picture = |name: &Path| {
+            let extension = name.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+            matches!(extension.as_deref(), Some("png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm"))
+        };
+        let tip = nearby(path, is_picture).map_or(String::new(), |near| format!("; did you mean {near}?"));
+        return Err(Failure::wrong(format!("there is no picture {shown}{tip}")));
+    }
     Picture::load(path).map_err(|error| Failure::Wrong(error.into()))
 }
 

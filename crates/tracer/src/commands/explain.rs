@@ -1,8 +1,8 @@
-//! `tracer explain`: what a diagnostic's code means.
+//! `tracer explain`: what a diagnostic's code means, or a word of the language.
 
 use crate::args::ExplainArgs;
 use crate::failure::{Failure, exit};
-use scene_format::codes::{CODES, find};
+use scene_format::codes::{CODES, Entry, find};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -15,14 +15,31 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
             }
         }
         Some(asked) => {
-            let code = find(asked).ok_or_else(|| {
-                Failure::wrong(format!("there is no code `{asked}`; `tracer explain` lists all codes"))
-            })?;
-            writeln!(out, "{}: {}\n\n{}", code.code, code.title, unindented(code.text))?;
+            let number = asked.trim().parse::<u16>().ok();
+            let codes: Vec<&Entry> = match number {
+                Some(number) => ["E", "W"].iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),
+                None => find(asked).into_iter().collect(),
+            };
+            for (k, code) in codes.iter().enumerate() {
+                let apart = if k > 0 { "\n" } else { "" };
+                writeln!(out, "{apart}{}: {}\n\n{}", code.code, code.title, unindented(code.text))?;
+            }
+            let word = scene_format::explain_word(asked).filter(|_| codes.is_empty());
+            match word {
+                Some(text) => out.write_all(text.as_bytes())?,
+                None if codes.is_empty() => return Err(unknown(asked)),
+                None => {}
+            }
         }
     }
     out.flush()?;
     Ok(ExitCode::from(exit::DONE))
+}
+
+fn unknown(asked: &str) -> Failure {
+    let tip = scene_format::nearest(asked, scene_format::words().iter().map(String::as_str))
+        .map_or(String::new(), |near| format!(" did you mean {near}?"));
+    Failure::wrong(format!("there is no code and no word `{asked}`;{tip} `tracer explain` lists all codes"))
 }
 
 /// Doc comments begin each line with a space.

@@ -47,6 +47,39 @@ fn check_says_what_is_there() {
     assert_eq!(ran.out_text(), "");
 }
 
+/// Files and folders, all of them in one run.
+#[test]
+fn check_takes_many_scenes() {
+    let sandbox = Sandbox::new();
+    std::fs::create_dir_all(sandbox.path("scenes/deep")).expect("folders");
+    std::fs::create_dir(sandbox.path("empty")).expect("a folder");
+    sandbox.write("scenes/a.ron", SCENE);
+    sandbox.write("scenes/deep/b.toml", "background = 1\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1 }\n");
+    sandbox.write("scenes/Cargo.toml", "[package]\nname = 1\n");
+    let ran = sandbox.run(&["check", "scene.ron", "scenes"]).ends(0).silent().out_text();
+    assert_eq!(ran.lines().count(), 3, "{ran}");
+    sandbox.write("scenes/wrong.ron", "Scene(");
+    let ran = sandbox.run(&["check", "scenes", "scene.ron"]).ends(2).says(&["wrong.ron", "1 of 4 scenes are wrong"]);
+    assert_eq!(ran.out_text().lines().count(), 3);
+    sandbox.run(&["check", "empty"]).ends(2).says(&["there is no scene in the folder empty"]);
+    sandbox.write("odd.ron", SCENE.replace("materials: {", "materials: { \"spare\": Diffuse(albedo: 0.5),"));
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["W0401"]);
+    sandbox.run(&["check", "odd.ron", "--deny-warnings"]).ends(2).says(&["1 warning, denied by --deny-warnings"]);
+    sandbox.run(&["check", "scene.ron", "--deny-warnings"]).ends(0).silent();
+}
+
+#[test]
+fn help_is_a_command_too() {
+    let sandbox = Sandbox::new();
+    let help = |arguments: &[&str]| sandbox.run(arguments).ends(0).silent().out_text();
+    assert_eq!(help(&["help"]), help(&["--help"]));
+    assert_eq!(help(&["help", "render"]), help(&["render", "--help"]));
+    let render = help(&["render", "--help"]);
+    for word in ["<SCENE>", "--color", "--verbose"] {
+        assert!(render.contains(word), "{word}: {render}");
+    }
+}
+
 #[test]
 fn info_counts() {
     let sandbox = Sandbox::new();
@@ -152,6 +185,11 @@ fn codes_are_explained() {
     assert!(text.starts_with("E0201: "), "{text}");
     let all = sandbox.run(&["explain"]).ends(0).silent().out_text();
     assert!(all.lines().count() > 20 && all.contains("E0201"));
+    let both = sandbox.run(&["explain", "301"]).ends(0).silent().out_text();
+    assert!(both.starts_with("E0301: ") && both.contains("\nW0301: "), "{both}");
+    let word = sandbox.run(&["explain", "radius"]).ends(0).silent().out_text();
+    assert!(word.contains("radius of Sphere: "), "{word}");
+    sandbox.run(&["explain", "radus"]).ends(2).says(&["did you mean radius?"]);
     sandbox.run(&["explain", "E9999"]).ends(2).says(&["E9999", "lists all codes"]);
 }
 
@@ -186,7 +224,7 @@ fn the_table_of_figures() {
     let third = table(&["3", "--samples", "1000"]);
     assert!(third.contains("3       256x256, 10 samples, 5 bounces") && third.contains("7 s (with a tree)"), "{third}");
     sandbox.run(&["bench-figures", "10"]).ends(2).says(&["10", "1..=9"]);
-    sandbox.run(&["bench-figures", "--scenes", "nowhere"]).ends(1).says(&["there is no scene file nowhere/fig1.ron"]);
+    sandbox.run(&["bench-figures", "--scenes", "nowhere"]).ends(2).says(&["there is no scene file nowhere/fig1.ron"]);
 }
 
 #[test]

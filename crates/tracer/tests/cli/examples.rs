@@ -74,6 +74,13 @@ fn every_example_of_the_reference_renders() {
             }
             // How an editor finds the schema.
             "toml" => assert!(text.starts_with("#:schema "), "{text}"),
+            // A placements file, of all kinds of lines.
+            "text" => {
+                let folder = tempfile::tempdir().expect("a temporary folder");
+                fs::write(folder.path().join("copies.txt"), &text).expect("the folder can be written");
+                let scene = "Scene(background: 1, objects: [Box(size: 1, placements: \"copies.txt\")])";
+                picture("the placements of the reference", scene, Syntax::Ron, folder.path());
+            }
             other => panic!("a block in `{other}`"),
         }
     }

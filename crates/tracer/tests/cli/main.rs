@@ -13,3 +13,4 @@ mod render;
 mod report;
 mod support;
 mod tutorial;
+mod unmeant;

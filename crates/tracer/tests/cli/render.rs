@@ -178,3 +178,45 @@ fn a_small_picture_is_there_at_once() {
         .min();
     assert!(best < Some(std::time::Duration::from_millis(8 * 50)), "{best:?}");
 }
+
+/// Without `-o` the picture lies beside the scene, under its name.
+#[test]
+fn a_scene_alone_is_enough() {
+    let sandbox = Sandbox::new();
+    std::fs::create_dir(sandbox.path("folder")).expect("a folder");
+    sandbox.write("folder/a.ron", crate::support::SCENE);
+    for arguments in [&["render", "folder/a.ron"][..], &["folder/a.ron", "--samples", "1e0"]] {
+        sandbox.run(arguments).ends(0).says(&["folder/a.png in ", " samples/s"]);
+    }
+    assert!(sandbox.read("folder/a.png").starts_with(b"\x89PNG"));
+    sandbox.run(&["folder/a.ron", "--format", "pfm"]).ends(0);
+    assert!(sandbox.read("folder/a.pfm").starts_with(b"PF"));
+    sandbox.write("scene.png", "no picture");
+    sandbox.run(&["scene.ron"]).ends(2).says(&["scene.png is there already and is no picture"]);
+    assert_eq!(sandbox.text("scene.png"), "no picture");
+    sandbox.run(&["render", "-"]).ends(2).says(&["standard input has no name"]);
+}
+
+/// Where nobody watches the last line is said all the same, with the noise.
+#[test]
+fn the_last_line_tells_of_noise() {
+    let sandbox = Sandbox::new();
+    let ran = sandbox.run(&["render", "scene.ron", "-o", "a.png", "--report", "a.json"]).ends(0);
+    assert!(
+        ran.err.starts_with("a.png in ") && ran.err.contains("; noise ") && ran.err.contains(" samples for "),
+        "{}",
+        ran.err
+    );
+    assert_eq!(ran.err.lines().count(), 1);
+    sandbox.run(&["render", "scene.ron", "-o", "a.png", "-q"]).ends(0).silent();
+}
+
+/// What is hard to quote in a shell needs no quotes.
+#[test]
+fn set_takes_bare_words_colours_and_vectors() {
+    let sandbox = Sandbox::new();
+    let sets = ["objects[0].material=glass", "background=#ff0000", "camera.position=1,2,6"];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
+    sandbox.run(&[&["render", "scene.ron", "-o", "a.png"][..], &sets].concat()).ends(0);
+    sandbox.run(&["check", "scene.ron", "--set", "fov=3"]).ends(2).says(&["did you mean `camera.fov`?"]);
+}

@@ -114,8 +114,10 @@ impl Ran {
 
     /// Nothing on standard error.
     #[track_caller]
+    /// Nothing is said but that a picture is done, which every rendering says.
     pub fn silent(self) -> Self {
-        assert_eq!(self.err, "");
+        let said: Vec<&str> = self.err.lines().filter(|line| !is_done(line)).collect();
+        assert!(said.is_empty(), "{said:?}");
         self
     }
 
@@ -127,4 +129,9 @@ impl Ran {
 /// The top of the repository.
 pub fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// `a.png in 0.02 s, 3.4 M samples/s; noise 4 %, about 1000 samples for 1 %`
+pub fn is_done(line: &str) -> bool {
+    line.contains(" s, ") && line.contains(" samples/s") && line.contains(" in ")
 }

@@ -88,6 +88,9 @@ impl Words for Placements {
             Kind::List => {
                 let mut list = PlacementList::default();
                 reader.items(item, at, |reader, placement| {
+                    if reader.placement_elsewhere(placement) {
+                        return;
+                    }
                     let steps = reader.items(placement, at, |reader, step| {
                         let value = <Spanned<Transform>>::read(reader, step, at);
                         make_room(&mut list.steps, item, step);

@@ -44,10 +44,20 @@ scene_enum! {
     }
 }
 
+/// Whether a name before brackets is other languages' for a colour.
+fn is_color(name: &str) -> bool {
+    ["rgb", "srgb", "color", "colour", "vec3", "float3"].iter().any(|known| name.eq_ignore_ascii_case(known))
+}
+
 impl Words for Albedo {
     const TYPE: Type = Type::OneOf(&[Type::Color, Pattern::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        // `rgb(..)` and `red`: a colour, if not ours.
+        let bare = item.kind() == Kind::Word && item.lexeme().starts_with(char::is_lowercase);
+        if bare || item.name().is_some_and(|name| Pattern::DEF.variant(name).is_none() && is_color(name)) {
+            return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
+        }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
             return Some(match Pattern::read(reader, item, at)? {
                 Pattern::Texture(texture) => Albedo::Texture(texture),

@@ -69,6 +69,9 @@ pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result
             found.index_of_name.push(None);
             continue;
         };
+        if used.len() > 1 {
+            notes.current = name.to_owned();
+        }
         found.index_of_name.push(Some(found.materials.len() as u32));
         found.materials.push(NamedMaterial { name: name.to_owned().into(), material: turn(mtl, &mut notes) });
     }
@@ -114,21 +117,29 @@ struct Notes {
     missing: BTreeSet<String>,
     undefined: BTreeSet<String>,
     pictures: BTreeSet<String>,
-    unsupported: BTreeSet<String>,
+    /// What, and the materials that say it.
+    unsupported: BTreeMap<String, BTreeSet<String>>,
+    /// The material that is being turned; empty where the mesh has only one.
+    current: String,
 }
 
 impl Notes {
     fn unsupported(&mut self, what: &str) {
-        self.unsupported.insert(what.to_owned());
+        let of = self.unsupported.entry(what.to_owned()).or_default();
+        if !self.current.is_empty() {
+            of.insert(self.current.clone());
+        }
     }
 
     fn into_warning(self, path: &Path) -> Option<Diagnostic> {
         let mut parts: Vec<String> = Vec::new();
+        let unsupported: BTreeSet<String> =
+            self.unsupported.iter().map(|(what, materials)| of_materials(what, materials)).collect();
         for (names, what) in [
             (&self.missing, "MTL file not read"),
             (&self.undefined, "no such material (the default is taken)"),
             (&self.pictures, "no such picture (`Kd` is taken)"),
-            (&self.unsupported, "not supported"),
+            (&unsupported, "not supported"),
         ] {
             const SHOWN: usize = 8;
             let mut list: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
@@ -143,9 +154,23 @@ impl Notes {
         (!parts.is_empty()).then(|| {
             let message = format!("the mesh's own materials are taken only in part: {}", parts.join("; "));
             Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
-                .hint("a `material` in the scene replaces those of the file")
+                .hint(match self.unsupported.contains_key("`Ke`") {
+                    true => "what shines (`Ke`) is an object with `material: Emissive(radiance: ..)` in the scene",
+                    false => "a `material` in the scene replaces those of the file",
+                })
                 .at_line(path, 0)
         })
+    }
+}
+
+/// `Ke (in lamp, window)`: the first few by name.
+fn of_materials(what: &str, materials: &BTreeSet<String>) -> String {
+    const SHOWN: usize = 3;
+    let shown: Vec<&str> = materials.iter().take(SHOWN).map(String::as_str).collect();
+    match materials.len() {
+        0 => what.to_owned(),
+        count if count > SHOWN => format!("{what} (in {} and {} more)", shown.join(", "), count - SHOWN),
+        _ => format!("{what} (in {})", shown.join(", ")),
     }
 }
 

@@ -1,5 +1,7 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
+mod empty;
+mod goals;
 mod kept;
 mod outputs;
 mod repeat;
@@ -9,7 +11,7 @@ use crate::args::RenderArgs;
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
-use crate::progress::{Watch, rate};
+use crate::progress::{Watch, noise, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
     Seconds, Stats, Transport, Tree, VERSION,
@@ -30,6 +32,7 @@ use tracer_core::{Counters, Crop, Film, LayerSet, RenderOptions, Scene, develop,
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
+    let args = &outputs::named(args)?;
     let outputs = outputs::outputs(args)?;
     let level = lanes::from_environment()?;
     use_threads(args.threads)?;
@@ -54,11 +57,14 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let before = Before::of(begun.as_ref());
     let done = pixels * u64::from(before.samples);
-    let watch = Watch::new(shell, pixels * u64::from(scene.samples)).going_on(done, checkpoints.as_ref());
+    let all = pixels * u64::from(scene.samples);
+    let goals = goals::goals(&desc, crop, outputs.len(), started);
+    let watch = Watch::new(shell, all).going_on(done, all, checkpoints.as_ref()).until(goals);
     let options = RenderOptions {
         crop: Some(crop),
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
+        until: goals.until,
         statistics: args.stats,
         longest_pass: checkpoints.as_ref().map(Checkpoints::longest_pass),
         ..RenderOptions::default()
@@ -71,7 +77,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let rendered = clock.lap();
 
     let (fewest, most) = film.samples().into_inner();
-    let interrupted = fewest < scene.samples;
+    let interrupted = fewest < scene.samples && interrupt::requested().is_some();
+    goals::end(&mut desc, &film, interrupted, shell);
     if most == 0 {
         shell.say("interrupted before the first sample: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
@@ -108,12 +115,15 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     };
 
     tell_of(&film, args, &desc, shell);
+    shell.diagnostics(empty::warning(&film, &desc).as_slice(), &desc.sources, args.scene.diagnostics);
+    if shell.is_told() {
+        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
+        let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
+        shell.say(&format!("{names} in {:.2} s, {}{noise}", seconds.total, rate(samples)));
+    }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
         write_report(path, report)?;
-    } else if shell.is_watched() {
-        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
-        shell.say(&format!("{names} in {:.2} s, {}", seconds.total, rate(samples)));
     }
     if interrupted {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
@@ -188,6 +198,7 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     if let Some(samples) = args.samples {
         desc.render.samples = samples.into();
     }
+    goals::described(args, &mut desc);
     if let Some(seed) = args.seed {
         desc.render.seed = seed.into();
     }

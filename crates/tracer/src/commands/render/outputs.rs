@@ -7,7 +7,7 @@ use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use tracer_core::LayerSet;
 
@@ -23,6 +23,38 @@ pub(super) fn name(place: &Place) -> String {
         Place::File(path) => path.display().to_string(),
         Place::Stdout => "-".to_owned(),
     }
+}
+
+/// The same options with the picture's name, if there is none: the scene's own with the extension of a picture, beside it.
+///
+/// # Errors
+/// Where the scene has no name, or something that is no picture has that one.
+pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
+    let mut args = args.clone();
+    if !args.output.is_empty() {
+        return Ok(args);
+    }
+    let scene = &args.scene.scene;
+    if is_dash(scene) {
+        return Err(Failure::wrong("a scene from standard input has no name to make the picture's of; name it by -o"));
+    }
+    // Otherwise the option would be said to go with names that nobody has written.
+    let kind = args.format.take().unwrap_or_else(|| "png".to_owned());
+    let picture = scene.with_extension(&kind);
+    if Encoding::from_path(&picture, Bits::default()).is_ok() && picture.exists() && !is_picture(&picture) {
+        let shown = picture.display();
+        return Err(Failure::wrong(format!("{shown} is there already and is no picture; name another file by -o")));
+    }
+    args.output.push(picture);
+    Ok(args)
+}
+
+/// Whether a file begins as pictures do that are written here, or is empty.
+fn is_picture(path: &Path) -> bool {
+    const HEADS: [&[u8]; 5] = [b"\x89PNG", b"\x76\x2f\x31\x01", b"#?", b"PF", b"Pf"];
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| std::io::Read::take(file, 8).read_to_end(&mut head));
+    read.is_ok() && (head.is_empty() || HEADS.iter().any(|known| head.starts_with(known)))
 }
 
 /// The pictures that the command line asks for.

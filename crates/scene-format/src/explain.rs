@@ -1,0 +1,152 @@
+//! Words of the language, explained one by one: the pieces of the reference that tell of them.
+
+use crate::reference::reference;
+use std::fmt::Write;
+
+/// A heading of the reference with what stands below it.
+struct Piece<'r> {
+    name: &'r str,
+    /// The heading above it.
+    of: Option<&'r str>,
+    lines: Vec<&'r str>,
+}
+
+fn pieces(reference: &str) -> Vec<Piece<'_>> {
+    let mut pieces: Vec<Piece<'_>> = Vec::new();
+    let mut above = None;
+    for line in reference.lines() {
+        let heading =
+            line.strip_prefix("### ").map(|name| (name, above)).or(line.strip_prefix("## ").map(|name| (name, None)));
+        match (heading, pieces.last_mut()) {
+            (Some((name, of)), _) => {
+                if of.is_none() {
+                    above = Some(name);
+                }
+                pieces.push(Piece { name, of, lines: Vec::new() });
+            }
+            (None, Some(piece)) => piece.lines.push(line),
+            (None, None) => {}
+        }
+    }
+    // Chapters of prose have names of several words, or tell of no word.
+    pieces.retain(|piece| {
+        !piece.name.contains(' ') && piece.name.starts_with(char::is_uppercase) && piece.name != "Expressions"
+    });
+    pieces
+}
+
+/// The cells of a row about a field: its name, what it takes, its default, what it means.
+fn row(line: &str) -> Option<[String; 4]> {
+    let cells: Vec<String> = line.strip_prefix("| `")?.strip_suffix(" |")?.split(" | ").map(plain).collect();
+    let [name, takes, default, means] = <[String; 4]>::try_from(cells).ok()?;
+    Some([name.trim_end_matches('`').to_owned(), takes, default, means])
+}
+
+/// Text without Markdown's links.
+fn plain(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(open) = rest.find('[') {
+        let (before, link) = rest.split_at(open);
+        let target = link.find("](#").and_then(|middle| Some((middle, middle + link[middle..].find(')')?)));
+        out += before;
+        rest = match target {
+            Some((middle, end)) if !link[1..middle].contains('[') => {
+                out += &link[1..middle];
+                &link[end + 1..]
+            }
+            _ => {
+                out += "[";
+                &link[1..]
+            }
+        };
+    }
+    out + rest
+}
+
+/// All words of the language: structs, kinds and fields, each once.
+pub fn words() -> Vec<String> {
+    let reference = reference();
+    let mut words: Vec<String> = Vec::new();
+    for piece in pieces(&reference) {
+        words.push(piece.name.to_owned());
+        words.extend(piece.lines.iter().filter_map(|line| row(line)).map(|[name, ..]| name));
+    }
+    words.sort();
+    words.dedup();
+    words
+}
+
+/// What a word of the language means: `Sphere` with its fields, or `radius` wherever it stands. `None`: there is no such word.
+pub fn explain_word(word: &str) -> Option<String> {
+    let reference = reference();
+    let pieces = pieces(&reference);
+    let word = word.trim();
+    let mut out = String::new();
+    for piece in pieces.iter().filter(|piece| piece.name.eq_ignore_ascii_case(word)) {
+        let of = piece.of.map_or(String::new(), |of| format!(", a kind of {of}"));
+        let apart = if out.is_empty() { "" } else { "\n" };
+        let _ = writeln!(out, "{apart}{}{of}", piece.name);
+        let mut blank = true;
+        for line in &piece.lines {
+            let shown = match row(line) {
+                Some([name, takes, default, means]) => format!("  {name}: {takes}; {}. {means}", said(&default)),
+                None if line.starts_with('|') => continue,
+                None => plain(line),
+            };
+            if !(blank && shown.is_empty()) {
+                let _ = writeln!(out, "{shown}");
+            }
+            blank = shown.is_empty();
+        }
+        out.truncate(out.trim_end().len());
+        out.push('\n');
+    }
+    if out.is_empty() {
+        for piece in &pieces {
+            for [name, takes, default, means] in piece.lines.iter().filter_map(|line| row(line)) {
+                if name.eq_ignore_ascii_case(word) {
+                    let _ = writeln!(out, "{name} of {}: {takes}; {}.\n  {means}", piece.name, said(&default));
+                }
+            }
+        }
+    }
+    (!out.is_empty()).then_some(out)
+}
+
+fn said(default: &str) -> String {
+    let default = default.trim_matches('`');
+    if default == "see right" {
+        return "may be left out".to_owned();
+    }
+    if default.starts_with("must") || default.starts_with("one of") {
+        default.to_owned()
+    } else {
+        format!("default {default}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_and_fields_are_explained() {
+        let sphere = explain_word("sphere").expect("a word");
+        assert!(sphere.starts_with("Sphere, a kind of Object\n"), "{sphere}");
+        assert!(sphere.contains("  radius: a length > 0") && !sphere.contains("| "), "{sphere}");
+        let radius = explain_word("radius").expect("a word");
+        assert!(radius.contains("radius of Sphere: ") && radius.contains("radius of SphereLight: "), "{radius}");
+        assert!(explain_word("Camera").expect("a word").contains("fov: "));
+        assert!(explain_word("radus").is_none() && explain_word("").is_none());
+    }
+
+    #[test]
+    fn every_word_is_explained() {
+        let words = words();
+        assert!(words.len() > 60, "{words:?}");
+        for word in words {
+            assert!(explain_word(&word).is_some_and(|text| !text.contains("](#")), "{word}");
+        }
+    }
+}

@@ -1,0 +1,429 @@
+//! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`, `RotateY(30)`.
+
+use super::Reader;
+use super::value::hex_color;
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::schema::{FieldDef, StructDef};
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+
+/// Colours by their names in CSS, for hints.
+const COLORS: [(&str, &str); 26] = [
+    ("red", "#ff0000"),
+    ("green", "#008000"),
+    ("lime", "#00ff00"),
+    ("blue", "#0000ff"),
+    ("white", "#ffffff"),
+    ("black", "#000000"),
+    ("gray", "#808080"),
+    ("grey", "#808080"),
+    ("silver", "#c0c0c0"),
+    ("yellow", "#ffff00"),
+    ("orange", "#ffa500"),
+    ("gold", "#ffd700"),
+    ("brown", "#a52a2a"),
+    ("purple", "#800080"),
+    ("violet", "#ee82ee"),
+    ("magenta", "#ff00ff"),
+    ("pink", "#ffc0cb"),
+    ("cyan", "#00ffff"),
+    ("turquoise", "#40e0d0"),
+    ("teal", "#008080"),
+    ("navy", "#000080"),
+    ("olive", "#808000"),
+    ("maroon", "#800000"),
+    ("beige", "#f5f5dc"),
+    ("salmon", "#fa8072"),
+    ("tomato", "#ff6347"),
+];
+
+/// The hexadecimal value of a colour's name.
+pub(super) fn named_color(name: &str) -> Option<&'static str> {
+    COLORS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known)).map(|(_, hex)| *hex)
+}
+
+/// Numbers in the brackets of the syntax.
+fn vector(item: Item<'_, '_>, numbers: &[&str]) -> String {
+    match item.syntax() {
+        Syntax::Ron => format!("({})", numbers.join(", ")),
+        Syntax::Toml => format!("[{}]", numbers.join(", ")),
+    }
+}
+
+/// A number as it is best written: `90` for 90.00021045914971, who writes 1.5708 means it.
+fn rounded(value: f64) -> String {
+    let near = (value * 100.0).round() / 100.0;
+    if (value - near).abs() < 1e-3 * value.abs().max(1.0) { format!("{near}") } else { format!("{value}") }
+}
+
+/// The numbers within brackets as they are written; `None` where there is anything else.
+fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
+    let numbers: Option<Vec<&str>> =
+        item.children().take(20).map(|child| child.number().map(|_| child.lexeme())).collect();
+    numbers.filter(|numbers| !numbers.is_empty())
+}
+
+/// The values of these fields, all of them numbers and nothing else there.
+fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Option<[&'s str; N]> {
+    let mut values = [None; N];
+    for (key, value) in item.fields().take(N + 1) {
+        let at = names.iter().position(|name| key.text().eq_ignore_ascii_case(name))?;
+        values[at] = value.number().map(|_| value.lexeme());
+    }
+    let found: Vec<&str> = values.into_iter().flatten().collect();
+    found.try_into().ok()
+}
+
+/// The axis that a word names: `Y`, `-z`.
+fn axis(word: &str) -> Option<[&'static str; 3]> {
+    let (one, letter) = match word.strip_prefix('-') {
+        Some(letter) => ("-1", letter),
+        None => ("1", word.trim_start_matches('+')),
+    };
+    match letter {
+        "x" | "X" => Some([one, "0", "0"]),
+        "y" | "Y" => Some(["0", one, "0"]),
+        "z" | "Z" => Some(["0", "0", one]),
+        _ => None,
+    }
+}
+
+/// A vector or colour that is written in the way of another language: how it is written here.
+pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) -> Option<String> {
+    const WORDS: [&str; 18] = [
+        "vec3", "vec2", "vec", "vector", "vector3", "vector2", "float3", "float2", "double3", "point", "point3",
+        "normal", "rgb", "srgb", "color", "colour", "color3", "tuple",
+    ];
+    match item.kind() {
+        Kind::Tuple => {
+            let name = item.name()?.to_ascii_lowercase();
+            let inner = numbers(item).filter(|numbers| numbers.len() == count && WORDS.contains(&name.as_str()))?;
+            let values: Vec<f64> = inner.iter().map(|number| decode::number(number)).collect();
+            let bytes = values.iter().all(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value));
+            if at.rule.color && at.rule.range.high == 1.0 && bytes && values.iter().any(|value| *value > 1.0) {
+                let hex: String = values.iter().map(|value| format!("{:02x}", *value as u8)).collect();
+                return Some(format!("\"#{hex}\""));
+            }
+            Some(vector(item, &inner))
+        }
+        Kind::Struct | Kind::Map if item.syntax() == Syntax::Ron || item.lexeme().starts_with('{') => {
+            let found = match count {
+                2 => fields_named(item, ["x", "y"]).map(Vec::from),
+                _ if at.rule.color => fields_named(item, ["r", "g", "b"]).map(Vec::from),
+                _ => fields_named(item, ["x", "y", "z"]).map(Vec::from),
+            };
+            found.map(|found| vector(item, &found))
+        }
+        Kind::Word | Kind::Text | Kind::Char if at.rule.direction && count == 3 => {
+            axis(&item.text()).map(|axis| vector(item, &axis))
+        }
+        Kind::Word if at.rule.color => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
+        _ => None,
+    }
+}
+
+/// What may be written for a number: what stands in `Some(..)` or `float(..)`, and degrees for `radians(..)`.
+pub(super) fn number_elsewhere(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let mut children = item.children();
+    let (Some(only), None) = (children.next(), children.next()) else { return None };
+    let value = only.number()?;
+    match item.name() {
+        None | Some("Some" | "float" | "int" | "f32" | "f64" | "Number") => Some(only.lexeme().to_owned()),
+        Some("deg" | "degrees") if at.rule.unit == "in degrees" => Some(only.lexeme().to_owned()),
+        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(rounded(value.to_degrees())),
+        Some(_) => None,
+    }
+}
+
+/// A field that says by another quantity what one of ours says: ours, and what to write for both name and value.
+pub(super) fn field_elsewhere(
+    name: &str,
+    value: Item<'_, '_>,
+    def: &'static StructDef,
+) -> Option<(Option<&'static str>, String)> {
+    let sign = if value.syntax() == Syntax::Ron { ": " } else { " = " };
+    let convert = |field: &'static str, by: fn(f64) -> f64| {
+        let mended = value.number().map(|number| format!("{field}{sign}{}", rounded(by(number))));
+        def.field(field).and(mended).map(|mended| (Some(field), mended))
+    };
+    match name {
+        "diameter" => convert("radius", |d| d / 2.0),
+        "radians" => convert("degrees", f64::to_degrees),
+        "resolution" | "size" | "dimensions" if def.name == "Image" => {
+            let [width, height] = sides(value)?;
+            Some((None, format!("width{sign}{width}, height{sign}{height}")))
+        }
+        "resolution" | "size" if def.name == "Scene" => Some((None, format!("image{sign}{}", image(value)?))),
+        _ => None,
+    }
+}
+
+/// Two whole numbers, or `"160x100"`.
+fn sides(item: Item<'_, '_>) -> Option<[String; 2]> {
+    let text = item.text();
+    let found: Vec<&str> = match item.kind() {
+        Kind::Text => text.split(['x', 'X', '*']).map(str::trim).collect(),
+        Kind::Tuple | Kind::List => numbers(item)?,
+        _ => return None,
+    };
+    let whole = |side: &&str| side.parse::<u32>().is_ok();
+    let [width, height] = <[&str; 2]>::try_from(found).ok().filter(|sides| sides.iter().all(whole))?;
+    Some([width.to_owned(), height.to_owned()])
+}
+
+/// `Image(width: 160, height: 100)` for a value that is two sides.
+pub(super) fn image(item: Item<'_, '_>) -> Option<String> {
+    let [width, height] = sides(item)?;
+    Some(match item.syntax() {
+        Syntax::Ron => format!("Image(width: {width}, height: {height})"),
+        Syntax::Toml => format!("{{ width = {width}, height = {height} }}"),
+    })
+}
+
+impl Reader<'_> {
+    /// A colour, a picture or a bare name where a material stands: reports it, and says that it did.
+    pub(crate) fn material_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let lexeme = item.lexeme();
+        let diffuse = match item.syntax() {
+            Syntax::Ron => format!("Diffuse(albedo: {lexeme})"),
+            Syntax::Toml => format!("{{ Diffuse = {{ albedo = {lexeme} }} }}"),
+        };
+        let albedo = match item.kind() {
+            Kind::Tuple | Kind::Struct if matches!(item.name(), Some("Texture" | "Checkerboard")) => true,
+            Kind::Tuple | Kind::List if item.name().is_none() => {
+                numbers(item).is_some_and(|numbers| numbers.len() == 3)
+            }
+            Kind::Map if lexeme.starts_with('{') => {
+                let key = item.fields().next().map(|(key, _)| key.text());
+                matches!(key.as_deref(), Some("Texture" | "Checkerboard"))
+            }
+            Kind::Integer | Kind::Float if self.knows_material(lexeme) => false,
+            Kind::Integer | Kind::Float => item.number().is_some_and(|number| (0.0..=1.0).contains(&number)),
+            Kind::Text => hex_color(&item.text()).is_some(),
+            _ => false,
+        };
+        if albedo {
+            let message = format!("a material cannot be {}", super::describe(item));
+            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+                .expected("a material with this colour, or the name of one")
+                .hint(format!("write {}", super::shortened(&diffuse)));
+            fault.edit = Some(Edit { span: item.span(), replacement: diffuse });
+            self.report(fault);
+            return true;
+        }
+        let bare = match item.kind() {
+            Kind::Word => lexeme.starts_with(char::is_lowercase),
+            Kind::Char => true,
+            Kind::Integer | Kind::Float => self.knows_material(lexeme),
+            _ => false,
+        };
+        if !bare {
+            return false;
+        }
+        let name = item.text();
+        let known = self.materials.nearest(&name);
+        let meant = known.as_deref().unwrap_or(&name);
+        let mut fault =
+            Diagnostic::error(codes::WORD_NOT_QUOTED, item.span(), "names of materials stand between double quotes")
+                .expected("the name of a material between quotes, or a material written here")
+                .hint(format!("write \"{meant}\""));
+        match &known {
+            Some(known) => {
+                fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{}\"", known.escape_default()) });
+                self.materials.use_name(known);
+            }
+            None if !self.materials.damaged => fault.hint += ", and add it to `materials`",
+            None => {}
+        }
+        self.report(fault);
+        true
+    }
+
+    /// A transform as other programs write it, `RotateY(30)` or `Translate(x: 1)`: reports it, and says that it did.
+    pub(crate) fn transform_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let Some((name, body)) = kind_and_body(item) else { return false };
+        let Some(steps) = meant_transform(&name, body) else { return false };
+        let mended = match item.syntax() {
+            Syntax::Ron => format!("{}({})", steps.kind, steps.ron),
+            Syntax::Toml => format!("{{ {} = {} }}", steps.kind, steps.toml),
+        };
+        let mut fault =
+            Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("a {} is not written so", steps.noun)).expected(
+                match item.syntax() {
+                    Syntax::Ron => steps.form.to_owned(),
+                    Syntax::Toml => steps.form_of_toml.to_owned(),
+                },
+            );
+        if steps.certain {
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else {
+            fault = fault.hint(format!("one step turns about one axis, as in {mended}"));
+        }
+        self.report(fault);
+        true
+    }
+
+    /// Numbers where a placement stands, which is a list of transforms: reports it, and says that it did.
+    pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
+        let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
+        let (ron, toml) = ("[Translate((x, y, z))]", "[{ Translate = [x, y, z] }]");
+        let expected = if item.syntax() == Syntax::Ron { ron } else { toml };
+        let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+        if let [x, y, z] = numbers[..] {
+            let mended = match item.syntax() {
+                Syntax::Ron => format!("[Translate(({x}, {y}, {z}))]"),
+                Syntax::Toml => format!("[{{ Translate = [{x}, {y}, {z}] }}]"),
+            };
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else {
+            fault = fault.hint("rows of numbers stand in a placements file: `placements: \"copies.txt\"`");
+        }
+        self.report(fault);
+        true
+    }
+}
+
+/// The name of a kind and what stands in its brackets.
+fn kind_and_body<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
+    match item.kind() {
+        Kind::Tuple | Kind::Struct => Some((item.name()?.to_owned(), item)),
+        Kind::Map if item.lexeme().starts_with('{') => {
+            let mut fields = item.fields();
+            let (key, value) = fields.next().filter(|_| fields.clone().next().is_none())?;
+            Some((key.text().into_owned(), value))
+        }
+        _ => None,
+    }
+}
+
+/// A transform, written in our way.
+struct Meant {
+    kind: &'static str,
+    noun: &'static str,
+    form: &'static str,
+    form_of_toml: &'static str,
+    ron: String,
+    toml: String,
+    /// Whether it is all that was meant.
+    certain: bool,
+}
+
+fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
+    let lower = name.to_ascii_lowercase();
+    let list = matches!(body.kind(), Kind::Tuple | Kind::List).then(|| numbers(body)).flatten();
+    let named = matches!(body.kind(), Kind::Struct | Kind::Map);
+    let number = body.number().map(|_| body.lexeme()).or(match list.as_deref() {
+        Some([only]) => Some(*only),
+        _ => None,
+    });
+    if let Some(letter) = lower.strip_prefix("rotate").or(lower.strip_prefix("rot")).map(|rest| rest.trim_matches('_'))
+        && let (Some(axis), Some(degrees)) = (axis(letter), number)
+    {
+        return Some(rotation(axis, degrees, true));
+    }
+    match lower.as_str() {
+        "rotate" | "rotation" => {
+            for letter in ["x", "y", "z"] {
+                if let Some([degrees]) = fields_named(body, [letter]).filter(|_| named) {
+                    return Some(rotation(axis(letter)?, degrees, true));
+                }
+            }
+            match number {
+                Some(degrees) if !named => Some(rotation(["0", "1", "0"], degrees, false)),
+                _ => turned(body, list.as_deref()),
+            }
+        }
+        "translate" | "move" | "translation" if named => {
+            let mut by = ["0"; 3];
+            for (key, value) in body.fields().take(4) {
+                let at = ["x", "y", "z"].iter().position(|name| key.text() == **name)?;
+                by[at] = value.number().map(|_| value.lexeme())?;
+            }
+            body.fields().next()?;
+            Some(translation(by))
+        }
+        "scale" => {
+            let three = match list.as_deref() {
+                Some(&[x, y, z]) if body.name().is_some() => Some([x, y, z]),
+                _ => fields_named(body, ["x", "y", "z"]).filter(|_| named),
+            };
+            three.map(scaling)
+        }
+        _ => None,
+    }
+}
+
+/// `Rotate((0, 30, 0))`, an angle an axis, and `Rotate((0, 1, 0), 30)`.
+fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
+    if body.kind() != Kind::Tuple || body.name().is_none() {
+        return None;
+    }
+    let mut children = body.children();
+    let (first, second, third) = (children.next()?, children.next(), children.next());
+    if let Some(&[x, y, z]) = list {
+        return angles([x, y, z]);
+    }
+    let three: [&str; 3] = numbers(first).filter(|_| first.name().is_none())?.try_into().ok()?;
+    match (second, third) {
+        (None, _) => angles(three),
+        (Some(degrees), None) => degrees.number().map(|_| rotation(three, degrees.lexeme(), true)),
+        _ => None,
+    }
+}
+
+/// An angle for each axis: one step where only one is not zero.
+fn angles(degrees: [&str; 3]) -> Option<Meant> {
+    let turned = |degrees: &str| decode::number(degrees) != 0.0;
+    let count = degrees.iter().filter(|degrees| turned(degrees)).count();
+    let at = degrees.iter().position(|degrees| turned(degrees))?;
+    Some(rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1))
+}
+
+fn rotation(axis: [&str; 3], degrees: &str, certain: bool) -> Meant {
+    let axis = axis.join(", ");
+    Meant {
+        kind: "Rotate",
+        noun: "rotation",
+        form: "Rotate(axis: (x, y, z), degrees: ..)",
+        form_of_toml: "{ Rotate = { axis = [x, y, z], degrees = .. } }",
+        ron: format!("axis: ({axis}), degrees: {degrees}"),
+        toml: format!("{{ axis = [{axis}], degrees = {degrees} }}"),
+        certain,
+    }
+}
+
+fn translation(by: [&str; 3]) -> Meant {
+    let by = by.join(", ");
+    Meant {
+        kind: "Translate",
+        noun: "translation",
+        form: "Translate((x, y, z))",
+        form_of_toml: "{ Translate = [x, y, z] }",
+        ron: format!("({by})"),
+        toml: format!("[{by}]"),
+        certain: true,
+    }
+}
+
+fn scaling(factors: [&str; 3]) -> Meant {
+    let factors = factors.join(", ");
+    Meant {
+        kind: "Scale",
+        noun: "scaling",
+        form: "Scale(factor) or Scale((x, y, z))",
+        form_of_toml: "{ Scale = factor } or { Scale = [x, y, z] }",
+        ron: format!("({factors})"),
+        toml: format!("[{factors}]"),
+        certain: true,
+    }
+}
+
+/// A place from the beginning of a name to the end of its value.
+pub(super) fn whole_field(key: Item<'_, '_>, value: Item<'_, '_>) -> Span {
+    Span { end: value.span().end, ..key.span() }
+}

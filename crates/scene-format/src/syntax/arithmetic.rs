@@ -1,0 +1,98 @@
+//! Arithmetic without quotes, `1/3` or `sqrt(2)`, where an expression is a text: `"=1/3"`. And numbers with signs of other languages: `50%`.
+
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::expression::{self, Named, Value};
+use crate::syntax::ron_literal::number_kind;
+
+/// Signs that go on an expression after a number.
+pub(super) const OPERATORS: &[u8] = b"+-*/^%";
+
+/// The length of the arithmetic that begins at `start`, on the same line; `None` where there is none.
+pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
+    let line = super::line_ahead(text, start);
+    let bytes = line.as_bytes();
+    let word = line.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(line.len());
+    let known = expression::is_known(&line[..word]) && !matches!(&line[..word], "true" | "false");
+    if !known && !bytes.first().is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')) {
+        return None;
+    }
+    let (mut depth, mut end) = (0usize, line.len());
+    for (at, &byte) in bytes.iter().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' if depth > 0 => depth -= 1,
+            b',' if depth > 0 => {}
+            b')' | b',' | b']' | b'}' | b'#' | b'\r' => {
+                end = at;
+                break;
+            }
+            b'/' if matches!(bytes.get(at + 1), Some(b'/' | b'*')) => {
+                end = at;
+                break;
+            }
+            // `0 -1` is rather two numbers without their comma.
+            b'+' | b'-' if at > 0 && bytes[at - 1] == b' ' && bytes.get(at + 1).is_none_or(|next| *next != b' ') => {
+                return None;
+            }
+            b'+' | b'-' | b'*' | b'/' | b'^' | b'%' | b'.' | b'_' | b' ' => {}
+            byte if byte.is_ascii_alphanumeric() => {}
+            _ => return None,
+        }
+    }
+    let body = line[..end].trim_end();
+    let is_plain = number_kind(body).is_some() || !known && !body[1..].bytes().any(|byte| OPERATORS.contains(&byte));
+    (!is_plain && depth == 0 && is_expression(body)).then_some(body.len())
+}
+
+/// Whether a text is written as expressions are, whatever its names stand for.
+fn is_expression(body: &str) -> bool {
+    let value = expression::evaluate(body, &mut |_| Named::Value(Value::Number(1.0)));
+    !matches!(value, Err(Some(fault)) if fault.code == codes::EXPRESSION_SYNTAX)
+}
+
+/// What is said of arithmetic without quotes. An edit is offered where all its names are known.
+pub(super) fn fault(text: &str, body: &str, span: Span) -> Diagnostic {
+    let mended = format!("\"={body}\"");
+    let mut fault = Diagnostic::error(codes::BARE_EXPRESSION, span, "arithmetic stands between quotes here")
+        .expected("a number, or an expression: a text that begins with `=`")
+        .hint(format!("write {mended}"));
+    let mut known = true;
+    let value = expression::evaluate(body, &mut |name| {
+        known &= text.contains(&format!("\"{name}\"")) || text.contains(&format!("{name} ="));
+        Named::Value(Value::Number(1.0))
+    });
+    // What a name stands for may make it finite.
+    if known && !matches!(value, Err(Some(fault)) if fault.code != codes::EXPRESSION_NOT_FINITE) {
+        fault.edit = Some(Edit { span, replacement: mended });
+    }
+    fault
+}
+
+/// `50%` and `35°`, of which `number` is the number: what is said, and what is meant.
+pub(super) fn with_sign(number: &str, sign: char, span: Span) -> Option<Diagnostic> {
+    let value = super::decode::number(number);
+    if number_kind(number).is_none() || !value.is_finite() {
+        return None;
+    }
+    let (mended, why) = match sign {
+        // Shortest digits that read back: 0.07, where 7.0 / 100.0 gives 0.07 and 0.07 * 100 does not.
+        '%' => (format!("{}", value / 100.0), "shares go from 0 to 1"),
+        '°' => (number.to_owned(), "angles are in degrees without a sign"),
+        _ => return None,
+    };
+    let mut fault = Diagnostic::error(codes::BAD_NUMBER, span, format!("`{number}{sign}` is not a number"))
+        .expected("a number such as 3, -0.25, 1.5e3 or 1_000")
+        .hint(format!("write {mended}: {why}"));
+    fault.edit = Some(Edit { span, replacement: mended });
+    Some(fault)
+}
+
+/// `<0, 1, 6>` at the beginning of `rest`: its length and the numbers.
+pub(super) fn angle_brackets(rest: &str) -> Option<(usize, &str)> {
+    let line = super::line_ahead(rest, 0);
+    let close = line.strip_prefix('<')?.find('>')? + 1;
+    let inner = line[1..close].trim();
+    let numbers = inner.split(',').all(|number| number_kind(number.trim()).is_some());
+    numbers.then_some((close + 1, inner))
+}

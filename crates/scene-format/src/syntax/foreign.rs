@@ -1,0 +1,132 @@
+//! Whole files that are something else: a merge that was not finished, the other syntax, scenes of other programs.
+
+use super::Syntax;
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Span};
+
+/// What a wrong text is as a whole; asked only where it is wrong.
+pub(crate) fn whole(text: &str, syntax: Syntax) -> Option<Diagnostic> {
+    conflict(text).or_else(|| language(text, syntax))
+}
+
+/// The marks that `git merge` leaves.
+fn conflict(text: &str) -> Option<Diagnostic> {
+    let mut at = 0;
+    let mut marks: Vec<(&str, Span)> = Vec::new();
+    for line in text.split_inclusive('\n') {
+        let shown = line.trim_end();
+        let span = Span { source: 0, start: at as u32, end: (at + shown.len()) as u32 };
+        at += line.len();
+        let next = ["<<<<<<<", "=======", ">>>>>>>"].get(marks.len());
+        if let Some(next) = next.filter(|next| shown.strip_prefix(**next).is_some_and(|rest| !rest.starts_with('='))) {
+            marks.push((next, span));
+        }
+    }
+    let &[(_, first), (_, middle), (_, last)] = marks.as_slice() else { return None };
+    Some(
+        Diagnostic::error(codes::MERGE_CONFLICT, first, "a merge was not finished: these are its marks")
+            .expected("one of the two versions")
+            .hint("keep the lines of one version, and remove the three marks")
+            .label(middle, "the other version begins")
+            .label(last, "it ends here"),
+    )
+}
+
+/// Another language, told by the first line that says something.
+fn language(text: &str, syntax: Syntax) -> Option<Diagnostic> {
+    let mut at = text.len() - text.trim_start_matches('\u{feff}').len();
+    let mut lines = text[at..].split_inclusive('\n');
+    let comment = |line: &str| {
+        let pov = line.starts_with("#include") || line.starts_with("#declare") || line.starts_with("#version");
+        line.is_empty() || line.starts_with("//") || line.starts_with('#') && !line.starts_with("#!") && !pov
+    };
+    let first = loop {
+        let line = lines.next()?;
+        if !comment(line.trim()) {
+            break line.trim_end();
+        }
+        at += line.len();
+    };
+    let rest = &text[at + first.len()..];
+    let (name, hint) = match syntax {
+        Syntax::Ron if is_toml(first) => ("TOML", Some("name the file .toml, or give `--syntax toml`")),
+        Syntax::Toml if is_ron(first) => ("RON", Some("name the file .ron, or give `--syntax ron`")),
+        Syntax::Toml if first.starts_with('{') => ("JSON", Some("name the file .json, or give `--syntax ron`")),
+        _ => (of_others(first, rest)?, None),
+    };
+    let span = Span { source: 0, start: at as u32, end: (at + first.len()) as u32 };
+    let hint = hint.unwrap_or("scenes of other programs are not read; `tracer new scene.ron` starts one");
+    Some(
+        Diagnostic::error(codes::OTHER_LANGUAGE, span, format!("this looks like {name}, not {}", syntax.name()))
+            .expected("a scene in RON (.ron) or TOML (.toml)")
+            .hint(hint),
+    )
+}
+
+/// `[camera]`, `[[objects]]` or `fov = 40`.
+fn is_toml(line: &str) -> bool {
+    let line = line.split('#').next().unwrap_or("").trim_end();
+    let word = |text: &str| {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '_' | '.' | ' ');
+        text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(plain)
+    };
+    let header = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+    let header = header.map(|line| line.strip_prefix('[').and_then(|line| line.strip_suffix(']')).unwrap_or(line));
+    header.is_some_and(word) || line.split_once('=').is_some_and(|(key, value)| word(key) && !value.starts_with('='))
+}
+
+/// `Scene(`, `(` or `#![enable(..)]`.
+fn is_ron(line: &str) -> bool {
+    let line = line.trim_start();
+    line.strip_prefix("Scene").is_some_and(|rest| rest.trim_start().starts_with('(') || rest.trim().is_empty())
+        || line.starts_with('(')
+        || line.starts_with("#![")
+}
+
+/// The languages that scenes of other programs are written in.
+fn of_others(first: &str, rest: &str) -> Option<&'static str> {
+    const POV: [&str; 9] =
+        ["camera", "sphere", "box", "plane", "light_source", "background", "global_settings", "union", "mesh2"];
+    const PBRT: [&str; 11] = [
+        "LookAt",
+        "Camera",
+        "Film",
+        "Sampler",
+        "Integrator",
+        "WorldBegin",
+        "AttributeBegin",
+        "Shape",
+        "Scale",
+        "PixelFilter",
+        "Transform",
+    ];
+    let word = first.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).next().unwrap_or("");
+    let after = first[word.len()..].trim_start();
+    if first.starts_with("<?xml") || first.starts_with("<scene") {
+        return Some("XML, as Mitsuba has it");
+    }
+    if first.starts_with("<!DOCTYPE") || first.starts_with("<html") {
+        return Some("HTML");
+    }
+    let directive = ["#include", "#declare", "#version"].iter().any(|sign| first.starts_with(sign));
+    if directive
+        || POV.contains(&word) && (after.starts_with('{') || after.is_empty() && rest.trim_start().starts_with('{'))
+    {
+        return Some("POV-Ray");
+    }
+    let argument = after.is_empty() || after.starts_with(|c: char| c == '"' || c == '-' || c.is_ascii_digit());
+    if PBRT.contains(&word) && argument {
+        return Some("pbrt");
+    }
+    if first.starts_with("import ") || first.starts_with("from ") && first.contains(" import ") {
+        return Some("Python");
+    }
+    let next = rest.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
+    let key = after.strip_prefix(':').filter(|value| value.is_empty() || value.starts_with(' '));
+    let open = first.ends_with([',', '(', '[', '{']);
+    let goes_on = next.starts_with(' ') || next.starts_with("- ") || next.contains(':') && !next.ends_with(',');
+    if first == "---" || first.starts_with("%YAML") || !word.is_empty() && key.is_some() && !open && goes_on {
+        return Some("YAML");
+    }
+    None
+}

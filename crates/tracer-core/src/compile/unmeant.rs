@@ -1,0 +1,199 @@
+//! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside out, a camera or a lamp shut
+//! in an opaque object.
+
+use super::meshes::{Loaded, Placed};
+use super::polygonal::{Geometry, UnitShape, polygonal};
+use crate::mesh::MeshData;
+use glam::{DAffine3, DVec3};
+use scene_format::desc::{Albedo, Light, Material, MaterialRef, Object};
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use std::collections::BTreeMap;
+
+/// More copies of an object than this are not looked at: millions of them must not take their time twice.
+const MOST_COPIES: usize = 10_000;
+
+/// More pairs of a solid and a lamp than this neither.
+const MOST_PAIRS: usize = 10_000_000;
+
+/// Warns of all of it.
+pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, diagnostics: &mut Diagnostics) {
+    let materials: BTreeMap<&str, &Material> =
+        desc.materials.iter().map(|named| (&*named.name.value, &named.material)).collect();
+    for (k, object) in polygonal(desc).enumerate() {
+        let (Geometry::File(file), Some(data)) = (object.geometry, loaded.file(k)) else { continue };
+        let material = material_of(&materials, object.material);
+        let own = matches!(object.material, MaterialRef::Default);
+        let pictured =
+            material.is_some_and(has_pattern) || own && data.materials.iter().any(|named| has_pattern(&named.material));
+        if pictured && data.uvs.is_empty() {
+            diagnostics.push(
+                Diagnostic::warning(
+                    codes::NO_COORDINATES,
+                    file.span,
+                    "the mesh has a texture and no texture coordinates",
+                )
+                .expected("texture coordinates in the mesh file (`vt` in OBJ)")
+                .hint(
+                    "one colour of the texture is all that shows: export the mesh with UVs, or give it a plain colour",
+                ),
+            );
+        }
+        let mirrored = placed.maps_of(k).iter().any(|map| map.matrix3.determinant() < 0.0);
+        if matches!(material, Some(Material::Transparent { .. })) && !mirrored && is_inside_out(data) {
+            diagnostics.push(
+                Diagnostic::warning(
+                    codes::INSIDE_OUT,
+                    file.span,
+                    "this glass is inside out: its faces are wound the other way",
+                )
+                .expected("faces whose corners go round counterclockwise, seen from outside")
+                .hint("flip the normals and export it again, or mirror it: `Scale((-1, 1, 1))` in `transform`"),
+            );
+        }
+    }
+    shut_in(desc, placed, &materials, diagnostics);
+}
+
+/// The material that an object names or has; `None` for the default and those of its file.
+fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d MaterialRef) -> Option<&'d Material> {
+    match reference {
+        MaterialRef::Default => None,
+        MaterialRef::Named { name, .. } => materials.get(&**name).copied(),
+        MaterialRef::Inline(material) => Some(&material.value),
+    }
+}
+
+/// Whether a material has another colour at another place.
+fn has_pattern(material: &Material) -> bool {
+    let checkered = |albedo: &Albedo| matches!(albedo, Albedo::Checkerboard(_));
+    material.texture().is_some()
+        || match material {
+            Material::Diffuse { albedo } => checkered(albedo),
+            Material::BlinnPhong { albedo, .. } => checkered(albedo),
+            _ => false,
+        }
+}
+
+/// Whether a closed mesh has its inside outside: a negative volume.
+fn is_inside_out(data: &MeshData) -> bool {
+    let corner = |k: u32| data.positions.get(k as usize).map_or(DVec3::ZERO, |p| DVec3::from(*p));
+    let about = DVec3::from(data.barycentre());
+    let of_one = |&[a, b, c]: &[u32; 3]| (corner(a) - about).dot((corner(b) - about).cross(corner(c) - about));
+    let volume: f64 = data.triangles.iter().map(of_one).sum();
+    volume < 0.0 && is_closed(data)
+}
+
+/// Whether each edge is between two triangles that go along it in opposite ways; corners at one place are one.
+fn is_closed(data: &MeshData) -> bool {
+    let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+    let welded: Vec<u32> = data
+        .positions
+        .iter()
+        .enumerate()
+        // -0 and 0 are one place.
+        .map(|(k, p)| *places.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(k as u32))
+        .collect();
+    let mut edges: BTreeMap<[u32; 2], i32> = BTreeMap::new();
+    for &[a, b, c] in &data.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (Some(&from), Some(&to)) = (welded.get(from as usize), welded.get(to as usize)) else { return false };
+            let way = if from < to { 1 } else { -1 };
+            if from != to {
+                *edges.entry([from.min(to), from.max(to)]).or_insert(0) += way;
+            }
+        }
+    }
+    edges.values().all(|ways| *ways == 0)
+}
+
+/// An opaque solid that one can be in.
+enum Solid {
+    Ball {
+        center: DVec3,
+        radius: f64,
+    },
+    /// From the world to the cube of a size of one about the origin.
+    Cube(DAffine3),
+}
+
+impl Solid {
+    /// Whether a ball lies in it as a whole.
+    fn holds(&self, point: DVec3, radius: f64) -> bool {
+        match self {
+            Solid::Ball { center, radius: of_solid } => point.distance(*center) + radius < *of_solid,
+            Solid::Cube(to_unit) => {
+                let p = to_unit.transform_point3(point);
+                // The distance of a side is what is left to it in units over the length of its row.
+                (0..3).all(|axis| (0.5 - p[axis].abs()) > radius * to_unit.matrix3.row(axis).length())
+            }
+        }
+    }
+}
+
+/// The camera or lamps within opaque balls and boxes. One that holds the camera and a lamp is a room.
+fn shut_in(desc: &SceneDesc, placed: &Placed, materials: &BTreeMap<&str, &Material>, diagnostics: &mut Diagnostics) {
+    let mut solids: Vec<(Solid, usize)> = Vec::new();
+    let mut lamps: Vec<(DVec3, f64, Span, String)> = Vec::new();
+    let mut flat = polygonal(desc).enumerate();
+    for (index, object) in desc.objects.iter().enumerate() {
+        let material = material_of(materials, object.value.material());
+        let shines = matches!(material, Some(Material::Emissive(_)));
+        let opaque = !shines && !matches!(material, Some(Material::Transparent { .. }));
+        if let Object::Sphere(sphere) = &object.value {
+            let center = DVec3::from(sphere.center.value);
+            if shines {
+                lamps.push((center, sphere.radius.value, object.span, format!("objects[{index}], which shines,")));
+            } else if opaque {
+                solids.push((Solid::Ball { center, radius: sphere.radius.value }, index));
+            }
+            continue;
+        }
+        let Some((k, polygonal)) = flat.next() else { continue };
+        let maps = placed.maps_of(k).iter().take(MOST_COPIES);
+        if shines {
+            // Where the middle of it is tells enough of where it is.
+            let middle = placed.middle_of(k);
+            let lamp = |map: &DAffine3| {
+                (map.transform_point3(middle), 0.0, object.span, format!("objects[{index}], which shines,"))
+            };
+            lamps.extend(maps.map(lamp));
+        } else if opaque && polygonal.geometry == Geometry::Unit(UnitShape::Cube) {
+            solids.extend(maps.map(|map| (Solid::Cube(map.inverse()), index)));
+        }
+    }
+    for (index, light) in desc.lights.iter().enumerate() {
+        let Light::SphereLight(sphere) = &light.value;
+        lamps.push((DVec3::from(sphere.center.value), sphere.radius.value, light.span, format!("lights[{index}]")));
+    }
+    let eye = DVec3::from(desc.camera.position.value);
+    let few = solids.len().saturating_mul(lamps.len()) <= MOST_PAIRS;
+    for (solid, index) in &solids {
+        let camera = solid.holds(eye, 0.0);
+        let of_object = desc.objects[*index].span;
+        if camera && !lamps.iter().any(|(center, ..)| solid.holds(*center, 0.0)) {
+            diagnostics.push(
+                Diagnostic::warning(
+                    codes::CAMERA_SHUT_IN,
+                    desc.camera.position.span,
+                    format!("the camera stands inside objects[{index}], where there is no light"),
+                )
+                .hint("move the camera out of it, or make the object smaller")
+                .label(of_object, "this object is not seen through"),
+            );
+        }
+        for (center, radius, span, name) in lamps.iter().filter(|_| few && !camera) {
+            if solid.holds(*center, *radius) {
+                diagnostics.push(
+                    Diagnostic::warning(
+                        codes::LIGHT_SHUT_IN,
+                        *span,
+                        format!("{name} is shut in by objects[{index}]: its light gets nowhere"),
+                    )
+                    .hint("move it out, or make the object of Transparent(ior: 1.5)")
+                    .label(of_object, "this object is not seen through"),
+                );
+            }
+        }
+    }
+}

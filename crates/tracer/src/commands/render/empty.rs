@@ -1,0 +1,43 @@
+//! Pictures that show nothing.
+
+use scene_format::desc::Background;
+use scene_format::{Diagnostic, SceneDesc, codes};
+use tracer_core::{Crop, Film};
+
+/// What is said of a picture that is black, or nothing but background. A part of one (`--crop`) may well be.
+pub(super) fn warning(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+    if film.crop() != Crop::whole(film.size()) {
+        return None;
+    }
+    let [width, height] = film.size();
+    let first = film.radiance(0, 0);
+    let same = (0..height).all(|y| (0..width).all(|x| film.radiance(x, y) == first));
+    if !same {
+        return None;
+    }
+    let span = desc.camera.look_at.span;
+    let background = match &desc.background {
+        Background::Color(color) => *color,
+        // It has one colour only where the camera does not see it.
+        Background::Environment(_) => [0.0; 3],
+    };
+    if first == [0.0; 3] && background == [0.0; 3] {
+        // Whether a scene has light at all is told before.
+        return Some(
+            Diagnostic::warning(codes::ALL_BLACK, span, "the picture is black")
+                .expected("objects in view that light falls on")
+                .hint("look at where the camera stands and looks, and whether a light reaches what it sees"),
+        );
+    }
+    // What is as bright as the background may be an object in it: then rays went on from there.
+    if film.counters.scattered_rays + film.counters.shadow_rays + film.counters.segments > 0 {
+        return None;
+    }
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs();
+    let shown = std::array::from_fn::<_, 3, _>(|channel| near(first[channel], background[channel]));
+    (shown == [true; 3] && background != [0.0; 3]).then(|| {
+        Diagnostic::warning(codes::NOTHING_IN_VIEW, span, "nothing is in view: the picture is the background alone")
+            .expected("objects between the camera and where it looks")
+            .hint("set `look_at` to the middle of an object; `tracer info` tells where the objects are")
+    })
+}

@@ -1,0 +1,60 @@
+//! What ends a rendering before all samples are done, because it is good enough or has taken long enough.
+
+use crate::args::RenderArgs;
+use crate::progress::Goals;
+use crate::shell::Shell;
+use scene_format::SceneDesc;
+use std::time::{Duration, Instant};
+use tracer_core::{Crop, Film};
+
+/// The most samples where a goal is given on the command line and nothing else is said: the scene's own number is not for that.
+const MOST: u32 = 1_000_000;
+
+/// Seconds that a pixel takes to be developed, and to be written to each file: a guess on the long side.
+const AFTERWARDS: f64 = 8e-8;
+
+/// The scene with the goals of the command line.
+pub fn described(args: &RenderArgs, desc: &mut SceneDesc) {
+    if let Some(noise) = args.noise {
+        desc.render.noise = Some(noise.into());
+    }
+    if let Some(time) = args.time {
+        desc.render.time = Some(time.as_secs_f64().into());
+    }
+    if args.samples.is_none() && (args.noise.is_some() || args.time.is_some()) {
+        desc.render.samples = MOST.into();
+    }
+}
+
+/// The goals of a scene, of which these many pictures will be written; its time began with the program.
+pub fn goals(desc: &SceneDesc, crop: Crop, outputs: usize, started: Instant) -> Goals {
+    let pixels = f64::from(crop.width) * f64::from(crop.height);
+    let afterwards = pixels * AFTERWARDS * (outputs + 1) as f64;
+    let until = desc.render.time.as_ref().and_then(|time| {
+        // A time that no clock can hold is none.
+        let time = Duration::try_from_secs_f64((time.value - afterwards).max(0.0)).ok()?;
+        started.checked_add(time)
+    });
+    Goals { noise: desc.render.noise.as_ref().map(|goal| goal.value), until }
+}
+
+/// Says what became of the goals. Where one of them ended the rendering, the scene asks for the samples that the film has: so the report names a
+/// command that makes the picture anew.
+pub fn end(desc: &mut SceneDesc, film: &Film, interrupted: bool, shell: &Shell) {
+    let (fewest, most) = film.samples().into_inner();
+    let asked = desc.render.samples.value;
+    let goal = desc.render.noise.as_ref().map(|goal| goal.value);
+    if interrupted || fewest == 0 {
+        return;
+    }
+    let noise = film.relative_noise();
+    if fewest < asked {
+        let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
+        let why = if goal.is_some_and(|goal| noise <= goal) { "that is good enough" } else { "the time is up" };
+        shell.say(&format!("{held} samples per pixel: {why}"));
+        desc.render.samples = fewest.into();
+    } else if let Some(goal) = goal.filter(|goal| noise > *goal) {
+        let (noise, percent) = (100.0 * noise, 100.0 * goal);
+        shell.say(&format!("the noise is {noise:.2} %, not {percent} %: {asked} samples came first"));
+    }
+}

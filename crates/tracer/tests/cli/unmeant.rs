@@ -1,0 +1,134 @@
+//! What compiles and is surely not meant: warned of by `check` and `render`.
+
+use crate::support::Sandbox;
+
+const CUBE: [[i32; 3]; 12] = [
+    [1, 3, 2],
+    [1, 4, 3],
+    [5, 6, 7],
+    [5, 7, 8],
+    [1, 2, 6],
+    [1, 6, 5],
+    [2, 3, 7],
+    [2, 7, 6],
+    [3, 4, 8],
+    [3, 8, 7],
+    [4, 1, 5],
+    [4, 5, 8],
+];
+
+/// A cube in OBJ, its faces wound this way or the other.
+fn cube(outwards: bool) -> String {
+    let mut text = String::new();
+    for z in [0, 1] {
+        text += &format!("v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\n");
+    }
+    for [a, b, c] in CUBE {
+        let [b, c] = if outwards { [b, c] } else { [c, b] };
+        text += &format!("f {a} {b} {c}\n");
+    }
+    text
+}
+
+/// A scene of some objects, its camera at (0, 1, 6).
+fn scene(top: &str, objects: &str) -> String {
+    format!(
+        "Scene(camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0)), image: Image(width: 16, height: 16), \
+         render: Render(samples: 2), {top} objects: [{objects}])"
+    )
+}
+
+/// The codes of warnings that both commands give.
+fn codes(sandbox: &Sandbox, scene: &str) -> Vec<String> {
+    sandbox.write("odd.ron", scene);
+    let of = |arguments: &[&str]| -> Vec<String> {
+        let ran = sandbox.run(&[arguments, &["--diagnostics", "json"]].concat()).ends(0);
+        let lines = ran.err.lines().filter(|line| line.starts_with('{'));
+        let value = |line: &str| serde_json::from_str::<serde_json::Value>(line).expect("JSON");
+        lines.map(|line| value(line)["code"].as_str().expect("a code").to_owned()).collect()
+    };
+    let (checked, rendered) = (of(&["check", "odd.ron"]), of(&["render", "odd.ron", "-o", "a.png"]));
+    assert_eq!(rendered[..checked.len()], checked[..]);
+    rendered
+}
+
+#[test]
+fn a_texture_needs_coordinates() {
+    let sandbox = Sandbox::new();
+    sandbox.write("cube.obj", cube(true));
+    sandbox.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    let with = |file: &str| format!("Mesh(file: {file:?}, material: Diffuse(albedo: Checkerboard()))");
+    assert_eq!(codes(&sandbox, &scene("background: 1,", &with("cube.obj"))), ["W0521"]);
+    assert!(codes(&sandbox, &scene("background: 1,", &with("flat.obj"))).is_empty());
+    assert!(codes(&sandbox, &scene("background: 1,", "Mesh(file: \"cube.obj\")")).is_empty());
+}
+
+#[test]
+fn glass_inside_out_is_told() {
+    let sandbox = Sandbox::new();
+    sandbox.write("out.obj", cube(true));
+    sandbox.write("in.obj", cube(false));
+    // Not closed: it has no inside.
+    sandbox.write("open.obj", cube(false).lines().take(19).map(|line| format!("{line}\n")).collect::<String>());
+    let with = |file: &str, material: &str| {
+        scene(
+            "background: (1, 0.5, 0.2),",
+            &format!("Mesh(file: {file:?}, material: {material}), Sphere(center: (2, 0, 0), radius: 0.5)"),
+        )
+    };
+    assert_eq!(codes(&sandbox, &with("in.obj", "Transparent(ior: 1.5)")), ["W0305"]);
+    for (file, material) in
+        [("out.obj", "Transparent(ior: 1.5)"), ("open.obj", "Transparent(ior: 1.5)"), ("in.obj", "Diffuse()")]
+    {
+        assert!(codes(&sandbox, &with(file, material)).is_empty(), "{file} {material}");
+    }
+}
+
+#[test]
+fn who_is_shut_in_is_told() {
+    let sandbox = Sandbox::new();
+    let lamp = "lights: [SphereLight(center: (0, 3, 0), radius: 0.5, radiance: 10)],";
+    let ball = "Sphere(center: (0, 0, 0), radius: 1)";
+    let code = |top: &str, objects: &str| codes(&sandbox, &scene(top, objects));
+    // The camera in a ball, a box, a box that is turned, and then the picture is black, too.
+    for solid in [
+        "Sphere(center: (0, 1, 6), radius: 2)",
+        "Box(center: (0, 1, 6), size: 2)",
+        "Box(size: 2, transform: [Rotate(axis: (0, 1, 0), degrees: 30), Translate((0, 1, 6))])",
+    ] {
+        assert_eq!(code(lamp, &format!("{ball}, {solid}")), ["W0306", "W0308"], "{solid}");
+    }
+    // A lamp in a ball; in a box that is moved.
+    for solid in ["Sphere(center: (0, 3, 0), radius: 1)", "Box(size: 2, placements: [[Translate((0, 3, 0))]])"] {
+        assert_eq!(code(&format!("background: 0.5, {lamp}"), &format!("{ball}, {solid}")), ["W0307"], "{solid}");
+    }
+    // What shines in a ball.
+    let shining =
+        "Sphere(center: (0, 3, 0), radius: 0.5, material: Emissive(radiance: 5)), Sphere(center: (0, 3, 0), radius: 1)";
+    assert_eq!(code("background: 0.5,", &format!("{ball}, {shining}")), ["W0307"]);
+    // Glass lets light through, a room holds camera and lamp, and a lamp may stick out.
+    for solid in [
+        "Sphere(center: (0, 3, 0), radius: 1, material: Transparent(ior: 1.5))",
+        "Box(center: (0, 0, 0), size: 20)",
+        "Sphere(center: (0, 3, 0), radius: 0.4)",
+        "Box(center: (0, 3, 0), size: 0.9)",
+    ] {
+        assert!(code(lamp, &format!("{ball}, {solid}")).is_empty(), "{solid}");
+    }
+}
+
+#[test]
+fn empty_pictures_are_told() {
+    let sandbox = Sandbox::new();
+    let behind = "Sphere(center: (0, 1, 20), radius: 1)";
+    assert_eq!(codes(&sandbox, &scene("background: (0.2, 0.4, 0.8),", behind)), ["W0309"]);
+    let lamp = "lights: [SphereLight(center: (0, 1, 30), radius: 0.5, radiance: 10)],";
+    assert_eq!(codes(&sandbox, &scene(lamp, behind)), ["W0308"]);
+    assert!(codes(&sandbox, &scene(lamp, "Sphere(center: (0, 0, 0), radius: 1)")).is_empty());
+    // White under white light from everywhere is as bright as that.
+    let white = "Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: 1))";
+    assert!(codes(&sandbox, &scene("background: 1,", white)).is_empty());
+    // A part of a picture may be empty.
+    sandbox.write("some.ron", scene("background: (0.2, 0.4, 0.8),", "Sphere(center: (0, 0, 0), radius: 1)"));
+    sandbox.run(&["render", "some.ron", "-o", "a.png", "--crop", "0,0,2,2"]).ends(0).silent();
+}
