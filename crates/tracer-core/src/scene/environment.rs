@@ -22,13 +22,14 @@ pub struct Environment {
     pub(crate) density: Density,
 }
 
-/// Density of directions, constant within each of columns x rows equal cells of the picture: as the light in and beside it, with the area that
-/// the cell has among all directions.
+/// Density of directions, the same in all of the solid angle of each of columns x rows equal cells of the picture: as the light in and beside it.
 pub(crate) struct Density {
     pub columns: u32,
     pub rows: u32,
     /// The chance of all rows above each row; one at last.
     pub of_rows: Vec<f32>,
+    /// The cosine of the angle from `up` where each row begins; -1 at last.
+    pub heights: Vec<f32>,
     /// In each row, the chance of all cells left of each cell; one at last.
     pub of_columns: Vec<f32>,
 }
@@ -95,6 +96,8 @@ impl Density {
             let (k, of, size) = (u64::from(k), u64::from(of), u64::from(size));
             (k * size / of) as i64 - 1..=(((k + 1) * size).div_ceil(of)) as i64
         };
+        let cosine = |j: u32| libm::cos(std::f64::consts::PI * f64::from(j) / f64::from(rows)) as f32;
+        let heights: Vec<f32> = (0..=rows).map(cosine).collect();
         let mut of_rows = vec![0.0; rows as usize + 1];
         let mut of_columns = vec![0.0f32; rows as usize * (columns as usize + 1)];
         let mut sums = Vec::with_capacity(columns as usize);
@@ -119,8 +122,7 @@ impl Density {
             for (i, to) in own.iter_mut().enumerate().skip(1) {
                 *to = if sum > 0.0 { (sums[i - 1] / sum) as f32 } else { i as f32 / columns as f32 };
             }
-            let angle = |j: u32| std::f64::consts::PI * f64::from(j) / f64::from(rows);
-            total += sum * (libm::cos(angle(j)) - libm::cos(angle(j + 1)));
+            total += sum * f64::from(heights[j as usize] - heights[j as usize + 1]);
             above.push(total);
         }
         for (to, above) in of_rows.iter_mut().zip(&above) {
@@ -129,7 +131,7 @@ impl Density {
         if total > 0.0 {
             of_rows[rows as usize] = 1.0;
         }
-        Density { columns, rows, of_rows, of_columns }
+        Density { columns, rows, heights, of_rows, of_columns }
     }
 }
 

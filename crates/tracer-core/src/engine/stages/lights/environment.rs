@@ -3,8 +3,8 @@
 use super::LightSample;
 use crate::lanes::{Bits, Lanes};
 use crate::math::{V3, acos, atan2_turns, sincos_turns};
-use crate::scene::{Density, Environment, NONE};
-use std::f32::consts::PI;
+use crate::scene::{Environment, NONE};
+use std::f32::consts::{PI, TAU};
 
 /// Farther than everything: render space is about one in size.
 const FAR: f32 = 1e30;
@@ -19,15 +19,18 @@ pub fn sample<F: Lanes>(environment: &Environment, u: F, v: F) -> LightSample<F>
     let (column, in_column, of_column) = find(&density.of_columns, first, density.columns, u);
     let chance = of_row * of_column;
     let x = (F::from_int(column) + in_column) * c(1.0 / density.columns as f32);
-    let y = (F::from_int(row) + in_row) * c(1.0 / density.rows as f32);
-    let (sin, cos) = sincos_turns(y * c(0.5));
+    // Alike in all of the cell's solid angle.
+    let [above, below] = F::gather2(&density.heights, row);
+    let cos = in_row.fma(below - above, above);
+    let sin = cos.fnma(cos, c(1.0)).max(c(0.0)).sqrt();
+    let y = acos(cos) * c(1.0 / PI);
     let (sin_around, cos_around) = sincos_turns(x - c(0.5));
     let [right, up, front] = axes(environment);
     let wi = right.scale(sin * sin_around).add(up.scale(cos)).add(front.scale(sin * cos_around)).normalise();
     LightSample {
         wi,
         distance: c(FAR),
-        inverse_pdf: F::select(c(0.0).lt(chance), sin * c(area(density)) / chance, c(0.0)),
+        inverse_pdf: F::select(c(0.0).lt(chance), (above - below) * c(TAU / density.columns as f32) / chance, c(0.0)),
         radiance: at(environment, x, y),
         primitive: F::U::splat(NONE),
     }
@@ -46,8 +49,8 @@ pub fn pdf_and_radiance<F: Lanes>(environment: &Environment, direction: V3<F>) -
     let (row, column) = (cell(y, density.rows), cell(x, density.columns));
     let first = row * F::U::splat(density.columns + 1);
     let chance = chance_of::<F>(&density.of_rows, row).1 * chance_of::<F>(&density.of_columns, first + column).1;
-    let sin = along.fma(along, ahead * ahead).sqrt().max(c(1e-18));
-    (chance / (sin * c(area(density))), at(environment, x, y))
+    let [above, below] = F::gather2(&density.heights, row);
+    (chance / ((above - below) * c(TAU / density.columns as f32)), at(environment, x, y))
 }
 
 /// Which of so many equal parts a number from 0 to 1 lies in.
@@ -63,17 +66,6 @@ fn cell<F: Lanes>(x: F, count: u32) -> F::U {
 fn chance_of<F: Lanes>(table: &[f32], place: F::U) -> (F, F) {
     let [before, after] = F::gather2(table, place);
     (before, after - before)
-}
-
-/// Solid angle of a cell over the sine of its angle from `up`: all of the picture is 2 pi^2 sine.
-fn area(density: &Density) -> f32 {
-    2.0 * PI * PI / (density.columns as f32 * density.rows as f32)
-}
-
-#[inline(always)]
-fn axes<F: Lanes>(environment: &Environment) -> [V3<F>; 3] {
-    let [right, up, front] = environment.axes.map(|axis| axis.as_vec3().to_array());
-    [V3::splat(right), V3::splat(up), V3::splat(front)]
 }
 
 /// The cell of `count` whose chance a number in [0, 1) falls to, how far it lies in it, and its chance. `table`: from `first` on the chances of
@@ -211,7 +203,7 @@ mod tests {
                 light += vector(radiance).element_sum() * area;
                 expected[cell(d)] += scalar(pdf) * area;
             });
-            // The grid's steps against cells' borders: a thousandth.
+            // The grid's steps against the borders of cells: a thousandth.
             assert!((whole - if black { 0.0 } else { 1.0 }).abs() < 2e-3, "sky {k}: {whole}");
             let mut random = Random::new(100 + k as u64);
             const N: usize = 200_000;
