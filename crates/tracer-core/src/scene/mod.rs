@@ -17,7 +17,6 @@ mod table;
 mod texture;
 
 pub use camera::{Camera, Filter};
-pub(crate) use environment::Density;
 pub use environment::Environment;
 pub use frame::Frame;
 pub(crate) use light::LightTable;

@@ -68,6 +68,12 @@ fn chance_of<F: Lanes>(table: &[f32], place: F::U) -> (F, F) {
     (before, after - before)
 }
 
+#[inline(always)]
+fn axes<F: Lanes>(environment: &Environment) -> [V3<F>; 3] {
+    let [right, up, front] = environment.axes.map(|axis| axis.as_vec3().to_array());
+    [V3::splat(right), V3::splat(up), V3::splat(front)]
+}
+
 /// The cell of `count` whose chance a number in [0, 1) falls to, how far it lies in it, and its chance. `table`: from `first` on the chances of
 /// all before each, and one.
 #[inline(always)]

@@ -1,0 +1,62 @@
+//! Renderings that end because they are good enough, or because their time is up.
+
+use crate::support::Sandbox;
+use serde_json::Value;
+
+fn report(sandbox: &Sandbox, name: &str) -> Value {
+    serde_json::from_slice(&sandbox.read(name)).expect("a report")
+}
+
+#[test]
+fn a_noise_goal_ends_the_rendering_where_it_is_reached() {
+    let sandbox = Sandbox::new();
+    let line = ["render", "scene.ron", "-o", "a.png", "--noise", "5%", "--report", "a.json"];
+    sandbox.run(&line).ends(0).says(&["that is good enough"]);
+    let report = report(&sandbox, "a.json");
+    let samples = report["picture"]["samples_min"].as_u64().expect("a number");
+    assert_eq!(report["picture"]["samples_max"], samples);
+    assert!(report["noise"]["relative"].as_f64().is_some_and(|noise| noise <= 0.05), "{report}");
+    assert_eq!(report["interrupted"], false);
+    assert!(samples >= 16 && (samples.is_power_of_two() || samples % 64 == 0), "{samples}");
+    // As the report says, on one thread, and by the scene: the same bytes.
+    let samples = samples.to_string();
+    assert!(report["command"].as_str().is_some_and(|command| command.contains(&format!("--samples {samples}"))));
+    sandbox.run(&["render", "scene.ron", "-o", "b.png", "--samples", &samples, "-j", "1"]).ends(0);
+    let by_scene =
+        ["render", "scene.ron", "-o", "c.png", "--set", "render.noise=0.05", "--set", "render.samples=100000"];
+    sandbox.run(&by_scene).ends(0);
+    assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
+    assert_eq!(sandbox.read("a.png"), sandbox.read("c.png"));
+}
+
+#[test]
+fn samples_come_before_a_noise_that_is_not_reached() {
+    let sandbox = Sandbox::new();
+    let line = ["render", "scene.ron", "-o", "a.png", "--noise", "0.0001", "--samples", "17"];
+    sandbox.run(&line).ends(0).says(&["17 samples came first"]);
+    sandbox.run(&["render", "scene.ron", "-o", "b.png", "--samples", "17"]).ends(0);
+    assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
+    sandbox.run(&["render", "scene.ron", "-o", "a.png", "--noise", "2"]).ends(2).says(&["a relative error"]);
+}
+
+#[test]
+fn a_time_ends_the_rendering_with_all_written() {
+    let sandbox = Sandbox::new();
+    let line =
+        ["render", "scene.ron", "-o", "a.png", "--time", "500ms", "--report", "a.json", "--checkpoint", "a.tracer"];
+    sandbox.run(&line).ends(0).says(&["the time is up"]);
+    let first = report(&sandbox, "a.json");
+    assert!(first["picture"]["samples_min"].as_u64().is_some_and(|samples| samples > 0));
+    assert_eq!(first["interrupted"], false);
+    assert!(!sandbox.read("a.png").is_empty());
+    // What was rendered goes on.
+    sandbox
+        .run(&["render", "scene.ron", "-o", "a.png", "--time", "300ms", "--report", "b.json", "--resume", "a.tracer"])
+        .ends(0);
+    let second = report(&sandbox, "b.json");
+    assert!(second["samples"]["total"].as_u64() > first["samples"]["total"].as_u64());
+    // With samples to spare the time is not used.
+    sandbox.run(&["render", "scene.ron", "-o", "c.png", "--time", "1h", "--samples", "2"]).ends(0);
+    sandbox.run(&["render", "scene.ron", "-o", "d.png", "--samples", "2"]).ends(0);
+    assert_eq!(sandbox.read("c.png"), sandbox.read("d.png"));
+}
