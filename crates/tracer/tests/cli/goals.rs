@@ -10,7 +10,7 @@ fn report(sandbox: &Sandbox, name: &str) -> Value {
 #[test]
 fn a_noise_goal_ends_the_rendering_where_it_is_reached() {
     let sandbox = Sandbox::new();
-    let line = ["render", "scene.ron", "-o", "a.png", "--noise", "5%", "--report", "a.json"];
+    let line = ["render", "scene.ron", "-o", "a.pfm", "--noise", "5%", "--report", "a.json"];
     sandbox.run(&line).ends(0).says(&["that is good enough"]);
     let report = report(&sandbox, "a.json");
     let samples = report["picture"]["samples_min"].as_u64().expect("a number");
@@ -21,12 +21,12 @@ fn a_noise_goal_ends_the_rendering_where_it_is_reached() {
     // As the report says, on one thread, and by the scene: the same bytes.
     let samples = samples.to_string();
     assert!(report["command"].as_str().is_some_and(|command| command.contains(&format!("--samples {samples}"))));
-    sandbox.run(&["render", "scene.ron", "-o", "b.png", "--samples", &samples, "-j", "1"]).ends(0);
+    sandbox.run(&["render", "scene.ron", "-o", "b.pfm", "--samples", &samples, "-j", "1"]).ends(0);
     let by_scene =
-        ["render", "scene.ron", "-o", "c.png", "--set", "render.noise=0.05", "--set", "render.samples=100000"];
+        ["render", "scene.ron", "-o", "c.pfm", "--set", "render.noise=0.05", "--set", "render.samples=100000"];
     sandbox.run(&by_scene).ends(0);
-    assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
-    assert_eq!(sandbox.read("a.png"), sandbox.read("c.png"));
+    assert_eq!(sandbox.read("a.pfm"), sandbox.read("b.pfm"));
+    assert_eq!(sandbox.read("a.pfm"), sandbox.read("c.pfm"));
 }
 
 #[test]
@@ -36,6 +36,7 @@ fn samples_come_before_a_noise_that_is_not_reached() {
     sandbox.run(&line).ends(0).says(&["17 samples came first"]);
     sandbox.run(&["render", "scene.ron", "-o", "b.png", "--samples", "17"]).ends(0);
     assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
+    sandbox.run(&["render", "scene.ron", "-o", "a.png", "--noise", "5%", "--quiet"]).ends(0).silent();
     sandbox.run(&["render", "scene.ron", "-o", "a.png", "--noise", "2"]).ends(2).says(&["a relative error"]);
 }
 

@@ -4,6 +4,7 @@
 //! test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
 
 mod engine;
+mod environment;
 mod files;
 mod layers;
 mod photons;
@@ -53,7 +54,9 @@ const fn suite(program: &'static str, filters: &'static [&'static str]) -> Tests
 
 /// All faults.
 pub fn all() -> impl Iterator<Item = &'static Mutant> {
-    [engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS].into_iter().flatten()
+    [engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS, environment::MUTANTS]
+        .into_iter()
+        .flatten()
 }
 
 impl Mutant {

@@ -47,14 +47,19 @@ pub fn end(desc: &mut SceneDesc, film: &Film, interrupted: bool, shell: &Shell) 
     if interrupted || fewest == 0 {
         return;
     }
+    let say = |line: String| {
+        if shell.is_told() {
+            shell.say(&line);
+        }
+    };
     let noise = film.relative_noise();
     if fewest < asked {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
         let why = if goal.is_some_and(|goal| noise <= goal) { "that is good enough" } else { "the time is up" };
-        shell.say(&format!("{held} samples per pixel: {why}"));
+        say(format!("{held} samples per pixel: {why}"));
         desc.render.samples = fewest.into();
     } else if let Some(goal) = goal.filter(|goal| noise > *goal) {
         let (noise, percent) = (100.0 * noise, 100.0 * goal);
-        shell.say(&format!("the noise is {noise:.2} %, not {percent} %: {asked} samples came first"));
+        say(format!("the noise is {noise:.2} %, not {percent} %: {asked} samples came first"));
     }
 }

@@ -1,0 +1,53 @@
+//! Faults in pictures of all directions.
+
+use super::{Mutant, proofs, units};
+
+const LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/environment.rs";
+const PICTURE: &str = "crates/tracer-core/src/scene/environment.rs";
+const SELECTION: &str = "crates/tracer-core/src/engine/stages/lights/selection.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "environment-turned-the-other-way",
+        file: PICTURE,
+        find: "[right * cos + front * sin, up, front * cos - right * sin]",
+        replace: "[right * cos - front * sin, up, front * cos + right * sin]",
+        caught_by: proofs(&["environment::directions_see_their_texels"]),
+    },
+    Mutant {
+        name: "environment-half-a-texel-off",
+        file: LIGHT,
+        find: "(x * c(width as f32) + c(0.5), y * c(height as f32) + c(0.5))",
+        replace: "(x * c(width as f32) + c(1.0), y * c(height as f32) + c(0.5))",
+        caught_by: proofs(&["environment::directions_see_their_texels"]),
+    },
+    Mutant {
+        name: "environment-rows-alike",
+        file: PICTURE,
+        find: "total += sum * f64::from(heights[j as usize] - heights[j as usize + 1]);",
+        replace: "total += sum;",
+        caught_by: units(&["environment"]),
+    },
+    Mutant {
+        name: "environment-whose-neighbours-are-not-sampled",
+        file: PICTURE,
+        find: "(k * size / of) as i64 - 1..=(((k + 1) * size).div_ceil(of)) as i64",
+        replace: "(k * size / of) as i64..=(((k + 1) * size).div_ceil(of)) as i64 - 1",
+        caught_by: units(&["environment"]),
+    },
+    Mutant {
+        name: "environment-chosen-more-often-than-reckoned",
+        file: SELECTION,
+        find: "environment = u.lt(F::splat(ENVIRONMENT));",
+        replace: "environment = u.lt(F::splat(0.75));",
+        caught_by: proofs(&["environment::skies_as_the_reference_sees_them"]),
+    },
+    Mutant {
+        name: "environment-counts-twice",
+        file: "crates/tracer-core/src/engine/stages/shade.rs",
+        find: "seen = throughput.mul(radiance).scale(shown * weight);",
+        replace: "seen = throughput.mul(radiance).scale(shown * (weight * c(0.5) + c(0.5)));",
+        caught_by: proofs(&["environment::a_picture_of_one_colour_is_a_background_of_that_colour"]),
+    },
+];
