@@ -26,9 +26,8 @@ use bytemuck::allocation::zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
 use std::ops::Range;
 
-/// Pixels along a tile's side; see `engine::batch`.
-
-const PIXELS: usize = 256;
+/// Pixels of a tile.
+const PIXELS: usize = (TILE * TILE) as usize;
 
 /// A rectangle of pixels, from the upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

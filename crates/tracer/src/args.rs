@@ -46,7 +46,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene into pictures; Ctrl-C keeps what there is
-    Render(RenderArgs),
+    Render(Box<RenderArgs>),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
     /// Tell what is in a scene or a checkpoint

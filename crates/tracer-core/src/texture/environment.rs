@@ -55,7 +55,7 @@ pub fn load_environment(path: &Path) -> Result<Panorama, TextureError> {
         if *x == f32::INFINITY {
             *x = LARGEST_HALF;
             infinite += 1;
-        } else if !(*x >= 0.0) {
+        } else if *x < 0.0 || x.is_nan() {
             *x = 0.0;
             none += 1;
         }

@@ -17,7 +17,7 @@ fn a_noise_goal_ends_the_rendering_where_it_is_reached() {
     assert_eq!(report["picture"]["samples_max"], samples);
     assert!(report["noise"]["relative"].as_f64().is_some_and(|noise| noise <= 0.05), "{report}");
     assert_eq!(report["interrupted"], false);
-    assert!(samples >= 16 && (samples.is_power_of_two() || samples % 64 == 0), "{samples}");
+    assert!(samples >= 16 && (samples.is_power_of_two() || samples.is_multiple_of(64)), "{samples}");
     // As the report says, on one thread, and by the scene: the same bytes.
     let samples = samples.to_string();
     assert!(report["command"].as_str().is_some_and(|command| command.contains(&format!("--samples {samples}"))));
