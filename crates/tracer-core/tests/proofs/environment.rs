@@ -165,7 +165,7 @@ fn sharing_under_a_sky() {
 /// HDR, EXR and PNG give the same light; a black picture gives none.
 #[test]
 fn formats_are_alike() {
-    let color = |i: u32, j: u32| if (i + j) % 2 == 0 { [1.0, 1.0, 1.0] } else { [0.0, 0.0, 1.0] };
+    let color = |i: u32, j: u32| if (i + j).is_multiple_of(2) { [1.0, 1.0, 1.0] } else { [0.0, 0.0, 1.0] };
     let png = |color: &dyn Fn(u32, u32) -> [f32; 3]| {
         let bytes = (0..8).flat_map(|k| color(k % 4, k / 4)).map(|x| (255.0 * x) as u8).collect();
         let mut file = Cursor::new(Vec::new());
