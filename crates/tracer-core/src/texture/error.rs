@@ -73,7 +73,11 @@ impl TextureError {
         if diagnostic.code != codes::BROKEN_TEXTURE {
             return diagnostic;
         }
-        Diagnostic { code: codes::BROKEN_ENVIRONMENT, ..diagnostic }
+        let expected = match self {
+            TextureError::Broken { .. } | TextureError::Incomplete { .. } => "a whole HDR, EXR, PNG or JPEG file".into(),
+            _ => diagnostic.expected,
+        };
+        Diagnostic { code: codes::BROKEN_ENVIRONMENT, expected, ..diagnostic }
     }
 
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, or `E0520` (the picture is wrong).
@@ -95,7 +99,7 @@ impl TextureError {
                     _ => self.to_string(),
                 };
                 Diagnostic::error(codes::BROKEN_TEXTURE, span, message)
-                    .expected("a whole picture")
+                    .expected("a whole PNG or JPEG file")
                     .hint("open it in an image program and save it again")
             }
             TextureError::Size { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
