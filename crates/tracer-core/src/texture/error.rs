@@ -74,7 +74,9 @@ impl TextureError {
             return diagnostic;
         }
         let expected = match self {
-            TextureError::Broken { .. } | TextureError::Incomplete { .. } => "a whole HDR, EXR, PNG or JPEG file".into(),
+            TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
+                "a whole HDR, EXR, PNG or JPEG file".into()
+            }
             _ => diagnostic.expected,
         };
         Diagnostic { code: codes::BROKEN_ENVIRONMENT, expected, ..diagnostic }
