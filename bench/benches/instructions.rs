@@ -25,20 +25,22 @@ fn at_most(instructions: u64) -> LibraryBenchmarkConfig {
 // small spheres about their centre: 151 M then. Every segment between pixels that counts is tested now, a sixteenth was before; photons
 // guide rays instead of being gathered, and the map is gone: 209 M, the hills 422 M (221 M before), a hundred lamps 277 M (190 M), a thousand
 // copies 931 M (1196 M). Shafts tell what can be between a suffix and its group, and light paths come from the lights: 190, 386, 203 and 918 M.
+// Blocks are ragged and reach over 31 columns and rows instead of 16: more spheres can be between, a hundred lamps 219 M.
 #[library_benchmark]
 #[bench::balls(args = (balls(64, 4)), config = at_most(195_900_000))]
 #[bench::hills(args = (hills(20_000, 64, 4)), config = at_most(398_100_000))]
 #[bench::copies(args = (copies(1_000, 64, 4)), config = at_most(945_500_000))]
-#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(208_700_000))]
+#[bench::lamps(args = (lamps(100, 64, 4)), config = at_most(225_700_000))]
 fn sharing(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
 }
 
 // The plain path tracer. The balls were 41.5 M when this limit was first set. Since then their samples of pixel and lens are four dimensions of
 // one sequence, and gathers of eight have become permutations and transpositions: 52.9 M, and fewer cycles. With what is said above 39.5 M then.
-// The film's exact sums are whole numbers with a wider window, and the sampler's words are looked up by block: 44.4 M and 85.9 M now.
+// The film's exact sums are whole numbers with a wider window, and the sampler's words are looked up by block: 44.4 M and 85.9 M then.
+// Pixels of a block may lie anywhere in four tiles, and are sorted by these before they are added: 46.3 M and 87.7 M now.
 #[library_benchmark]
-#[bench::balls(args = (alone(balls(64, 4))), config = at_most(45_800_000))]
+#[bench::balls(args = (alone(balls(64, 4))), config = at_most(47_700_000))]
 #[bench::hills(args = (alone(hills(20_000, 64, 4))), config = at_most(88_500_000))]
 fn plain(scene: Scene) -> Film {
     black_box(rendered(black_box(&scene), 1))
@@ -61,9 +63,10 @@ fn developed(film: Film) -> Image {
     black_box(develop(black_box(&film), &Default::default()))
 }
 
-// Reading and checking a scene file of 1000 spheres.
+// Reading and checking a scene file of 1000 spheres. 10.0 M before arithmetic without quotes was looked for where values stand, 11.9 M then;
+// less, since kinds begin with a capital and functions do not: to be lowered when it is counted.
 #[library_benchmark]
-#[bench::ron(args = (many_spheres(1_000)), config = at_most(10_300_000))]
+#[bench::ron(args = (many_spheres(1_000)), config = at_most(12_200_000))]
 fn read(text: String) -> Loaded {
     black_box(load_str("many.ron", black_box(&text), Syntax::Ron, Path::new("."), &[]).expect("a scene that is right"))
 }

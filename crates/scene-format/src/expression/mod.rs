@@ -40,6 +40,10 @@ pub(crate) enum Named {
 
 /// Whether a name has a meaning of its own.
 pub(crate) fn is_known(name: &str) -> bool {
+    // Kinds, which most names are, begin with a capital: they are not held against all functions.
+    if !name.starts_with(|c: char| c.is_ascii_lowercase()) {
+        return false;
+    }
     let constant = functions::CONSTANTS.iter().any(|(constant, _)| *constant == name);
     constant || matches!(name, "true" | "false") || functions::FUNCTIONS.iter().any(|function| function.name == name)
 }
