@@ -84,7 +84,7 @@ pub fn explain_word(word: &str) -> Option<String> {
     let word = word.trim();
     let mut out = String::new();
     for piece in pieces.iter().filter(|piece| piece.name.eq_ignore_ascii_case(word)) {
-        let of = piece.of.map_or(String::new(), |of| format!(", a kind of {of}"));
+        let of = piece.of.map_or(String::new(), |of| format!(", a kind of {}", of.trim_end_matches("Words")));
         let apart = if out.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{apart}{}{of}", piece.name);
         let mut blank = true;
