@@ -63,10 +63,10 @@ fn developed(film: Film) -> Image {
     black_box(develop(black_box(&film), &Default::default()))
 }
 
-// Reading and checking a scene file of 1000 spheres. 10.0 M before arithmetic without quotes was looked for where values stand, 11.9 M then;
-// less, since kinds begin with a capital and functions do not: to be lowered when it is counted.
+// Reading and checking a scene file of 1000 spheres. 10.0 M before what other programs write was looked for where values stand, 11.9 M then.
+// Kinds are not held against the names of functions any more: 0.36 M less (callgrind on the same text), 11.5 M. Where the rest is, is not known yet.
 #[library_benchmark]
-#[bench::ron(args = (many_spheres(1_000)), config = at_most(12_200_000))]
+#[bench::ron(args = (many_spheres(1_000)), config = at_most(11_900_000))]
 fn read(text: String) -> Loaded {
     black_box(load_str("many.ron", black_box(&text), Syntax::Ron, Path::new("."), &[]).expect("a scene that is right"))
 }
