@@ -1,8 +1,8 @@
-//! From one syntax to the other on the tree, so that comments, the order of fields and the form of values stay as the person
-//! wrote them.
+//! From one syntax to the other, or tidied up in the same one, on the tree: so comments, the order of fields and the form of values
+//! stay as the person wrote them.
 
 use crate::desc::Scene;
-use crate::form::{Entry, Form};
+use crate::form::{BLANK_LINE, Entry, Form};
 use crate::load::{LoadError, load_str, parse};
 use crate::print;
 use crate::read::{REPEAT, is_expression, repeat_body};
@@ -12,23 +12,37 @@ use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
 use std::path::Path;
 
-/// Writes a scene in another syntax (or tidies it up in the same one). `name` is shown in diagnostics.
+/// Writes a scene in another syntax. `name` is shown in diagnostics.
 ///
 /// # Errors
 /// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write.
 pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, LoadError> {
+    write(name, text, from, to, false)
+}
+
+/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with the person's
+/// comments, order and empty lines (one of several). What it gives it leaves as it is. `name` is shown in diagnostics.
+///
+/// # Errors
+/// As [`convert`].
+pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadError> {
+    write(name, text, syntax, syntax, true)
+}
+
+fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -> Result<String, LoadError> {
     load_str(name, text, from, Path::new(""), &[])?;
     let mut sink = Sink::default();
     let tree = parse(text, from, &mut sink);
     let Some(root) = tree.root() else { return Ok(String::new()) };
-    let mut converter = Converter { tree: &tree, next_comment: 0, to };
+    let mut converter = Converter { tree: &tree, next_comment: 0, to, blanks: keeps_blanks.then_some(0) };
     // What stands at the file's top stays there: a headline, a licence, how to render it.
     let before = match from {
         Syntax::Ron => converter.comments_before(root.span().start),
         Syntax::Toml => converter.comments_of_the_file(),
     };
     let form = converter.form(root, Scene::TYPE);
-    let after = converter.comments_before(u32::MAX);
+    let mut after = converter.comments_before(u32::MAX);
+    after.pop_if(|last| last == BLANK_LINE);
     Ok(match to {
         Syntax::Ron => print::ron(&form, &before, &after),
         Syntax::Toml => print::toml(&form, &before, &after),
@@ -39,6 +53,8 @@ struct Converter<'t, 's> {
     tree: &'t Tree<'s>,
     next_comment: usize,
     to: Syntax,
+    /// Where the last thing ended that has been taken, if empty lines are kept.
+    blanks: Option<u32>,
 }
 
 impl Converter<'_, '_> {
@@ -52,11 +68,32 @@ impl Converter<'_, '_> {
         while let Some(span) = self.tree.comments.get(self.next_comment)
             && span.start < byte
         {
+            taken.extend(self.blank_before(span.start));
             let text = self.text().get(span.start as usize..span.end as usize).unwrap_or("");
             taken.extend(comment_lines(text));
             self.next_comment += 1;
+            self.ended(span.end);
         }
+        taken.extend(self.blank_before(byte));
         taken
+    }
+
+    /// [`BLANK_LINE`] where one stands between the last thing that was taken and a byte.
+    fn blank_before(&mut self, byte: u32) -> Option<String> {
+        let from = self.blanks?;
+        let between = self.text().get(from as usize..(byte as usize).min(self.text().len()))?;
+        let mut lines = between.split('\n');
+        // What stands before the first and behind the last line's end are no whole lines.
+        lines.next();
+        lines.next_back();
+        let blank = lines.any(|line| line.trim().is_empty());
+        self.ended(byte);
+        blank.then(|| BLANK_LINE.to_owned())
+    }
+
+    /// All up to this byte has been taken.
+    fn ended(&mut self, byte: u32) {
+        self.blanks = self.blanks.map(|last| last.max(byte));
     }
 
     /// The comments at the head of a TOML file, up to an empty line or the first entry: those are the file's.
@@ -82,7 +119,9 @@ impl Converter<'_, '_> {
         }
         let lines = comment_lines(text.get(span.start as usize..span.end as usize)?);
         let [line] = lines.as_slice() else { return None };
+        let end = span.end;
         self.next_comment += 1;
+        self.ended(end);
         Some(line.clone())
     }
 
@@ -105,6 +144,7 @@ impl Converter<'_, '_> {
         let header = item.children().next().is_some_and(|child| child.span().start >= end);
         let early = if header { self.comment_after(end) } else { None };
         let value = value(self);
+        self.ended(end);
         let after = if header { early } else { self.comment_after(end) };
         Entry { name, value, before, after }
     }

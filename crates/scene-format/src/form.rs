@@ -26,6 +26,9 @@ pub(crate) enum Form {
     },
 }
 
+/// Among comments: an empty line. No comment has an end of a line in it.
+pub(crate) const BLANK_LINE: &str = "\n";
+
 /// A value with its name (in lists: none) and the comments that belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {

@@ -7,6 +7,7 @@
 //! [`Diagnostic`]s, which [`render`] turns into text.
 #![forbid(unsafe_code)]
 
+pub mod analysis;
 pub mod codes;
 mod convert;
 pub mod desc;
@@ -33,7 +34,7 @@ mod words;
 mod write;
 
 pub use codes::explain;
-pub use convert::convert;
+pub use convert::{convert, format};
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use examples::{Example, ExampleFile, examples};

@@ -129,6 +129,8 @@ are inside out).
 
 ## In an editor
 
+`tracer lsp` is a language server for scenes in both syntaxes ([how](editors.md)). Without it:
+
 `tracer schema > scene.schema.json` writes a JSON Schema (draft-07) with all descriptions, defaults and ranges. With
 [taplo](https://taplo.tamasfe.dev) (the extension Even Better TOML in VS Code; its language server in others) an editor completes the
 words of a TOML scene, explains them and marks what is wrong, if the scene's first line names the schema:

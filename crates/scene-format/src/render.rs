@@ -399,6 +399,41 @@ pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
     out
 }
 
+/// All diagnostics as annotations that GitHub's Actions show in the changed lines of a pull request: one workflow command a line.
+pub fn github_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
+    // As the runner decodes them.
+    let escaped = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
+    let property = |text: &str| escaped(text).replace(':', "%3A").replace(',', "%2C");
+    let lines = lines(sources);
+    let mut out = String::new();
+    for diagnostic in diagnostics {
+        let command = match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        out.push_str(&format!("::{command} title={}", property(diagnostic.code.as_str())));
+        if let Some(elsewhere) = &diagnostic.elsewhere {
+            let file = property(&elsewhere.path.display().to_string());
+            out.push_str(&format!(",file={file},line={}", elsewhere.line.max(1)));
+        } else if let Some(source) = lines.get(diagnostic.span.source as usize) {
+            let range = source.range(diagnostic.span);
+            let start = source.index.position(&source.source.text, range.start);
+            let end = source.index.position(&source.source.text, range.end);
+            let file = property(&source.source.name);
+            out.push_str(&format!(",file={file},line={},col={}", start.line, start.column));
+            out.push_str(&format!(",endLine={},endColumn={}", end.line, end.column));
+        }
+        let mut message = diagnostic.message.clone();
+        for (what, text) in [("expected", &diagnostic.expected), ("hint", &diagnostic.hint)] {
+            if !text.is_empty() {
+                message.push_str(&format!("\n{what}: {text}"));
+            }
+        }
+        out.push_str(&format!("::{}\n", escaped(&message)));
+    }
+    out
+}
+
 /// A text with edits made, those that overlap an earlier one left out. For editors that mend a file, and for tests.
 pub fn apply_edits(text: &str, edits: &[Edit]) -> String {
     let mut sorted: Vec<&Edit> = edits.iter().collect();

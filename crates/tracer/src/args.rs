@@ -53,6 +53,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Translate a scene between RON and TOML
     Convert(ConvertArgs),
+    /// Lay out scenes as everybody's are, comments kept
+    Fmt(FmtArgs),
     /// Start a small scene that renders well
     New(NewArgs),
     /// Measure how two pictures differ
@@ -63,6 +65,9 @@ pub enum Command {
     BenchFigures(BenchFiguresArgs),
     /// Explain a diagnostic's code, or a word of the language
     Explain(ExplainArgs),
+    /// Help an editor: a language server on standard input and output
+    #[command(after_help = LSP_EXAMPLES)]
+    Lsp,
     /// Print the JSON Schema of scene files
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema,
@@ -90,6 +95,8 @@ pub enum DiagnosticsForm {
     Text,
     /// One JSON object a line, for editors.
     Json,
+    /// Annotations of GitHub's Actions.
+    Github,
 }
 
 /// The syntax of a scene file.
@@ -122,7 +129,7 @@ pub struct SceneArgs {
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
-    /// How to print what is wrong: text or json
+    /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
@@ -134,6 +141,13 @@ impl SceneArgs {
         self.set.iter().cloned().map(Override::from).collect()
     }
 }
+
+const LSP_EXAMPLES: &str = "\
+Examples:
+  tracer lsp
+  tracer lsp 2> lsp.log
+
+docs/editors.md tells how editors start it.";
 
 const SCHEMA_EXAMPLES: &str = "\
 Examples:
@@ -211,7 +225,7 @@ pub struct RenderArgs {
 
 const CHECK_EXAMPLES: &str = "\
 Examples:
-  tracer check scenes/fig4.ron
+  tracer check room.ron --fix
   tracer check scenes ball.toml --deny-warnings
 
 Diagnostics go to standard error. Exit code 2 when there is an error.";
@@ -230,13 +244,16 @@ pub struct CheckArgs {
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
-    /// How to print what is wrong: text or json
+    /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
     /// Take warnings for errors
     #[arg(long)]
     pub deny_warnings: bool,
+    /// Mend in the files what can be mended for certain
+    #[arg(long, conflicts_with = "set")]
+    pub fix: bool,
 }
 
 impl CheckArgs {
@@ -289,7 +306,34 @@ pub struct ConvertArgs {
     /// Replace a file that is there
     #[arg(long)]
     pub force: bool,
-    /// How to print what is wrong: text or json
+    /// How to print what is wrong: text, json or github
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
+    pub diagnostics: DiagnosticsForm,
+}
+
+const FMT_EXAMPLES: &str = "\
+Examples:
+  tracer fmt room.ron scenes
+  tracer fmt scenes --check
+
+Exit codes: 0 done, 1 with --check when a scene would change, 2 a scene is wrong";
+
+/// `tracer fmt`
+#[derive(Debug, Args)]
+#[command(after_help = FMT_EXAMPLES)]
+pub struct FmtArgs {
+    /// Scene files, folders of them, or - for standard input to standard output
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+    /// Change nothing; name the scenes that would change
+    #[arg(long)]
+    pub check: bool,
+    /// Syntax of the scenes [default: by their names]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    pub syntax: Option<SyntaxName>,
+    /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,

@@ -2,7 +2,7 @@
 
 use crate::args::{DiagnosticsForm, When};
 use scene_format::diagnostic::Source;
-use scene_format::render::{Style, json_lines, text};
+use scene_format::render::{Style, github_lines, json_lines, text};
 use scene_format::{Diagnostic, Severity};
 use std::io::{IsTerminal, Write};
 
@@ -90,6 +90,7 @@ impl Shell {
         let printed = match form {
             DiagnosticsForm::Text => text(&shown, sources, Style { color: self.color, width: width() }),
             DiagnosticsForm::Json => json_lines(&shown, sources),
+            DiagnosticsForm::Github => github_lines(&shown, sources),
         };
         let _ = std::io::stderr().lock().write_all(printed.as_bytes());
         let errors = shown.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();

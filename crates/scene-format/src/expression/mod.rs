@@ -48,6 +48,11 @@ pub(crate) fn is_known(name: &str) -> bool {
     constant || matches!(name, "true" | "false") || functions::FUNCTIONS.iter().any(|function| function.name == name)
 }
 
+/// The functions, and how each is called.
+pub(crate) fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    functions::FUNCTIONS.iter().map(|function| (function.name, function.call))
+}
+
 /// Whether expressions can use a name: a plain word without a meaning of its own.
 pub(crate) fn is_name(name: &str) -> bool {
     let begins = name.starts_with(|c: char| c.is_alphabetic() || c == '_');

@@ -6,7 +6,7 @@ mod toml;
 pub(crate) use ron::{ron, ron_value};
 pub(crate) use toml::{toml, toml_value};
 
-use crate::form::{Entry, Form};
+use crate::form::{BLANK_LINE, Entry, Form};
 
 /// Lines are filled up to this many characters.
 const WIDTH: usize = 100;
@@ -36,10 +36,21 @@ fn quoted(text: &str, unicode: impl Fn(char) -> String) -> String {
     out
 }
 
-/// Whether comments stand inside a value.
+/// Comments without an empty line before the first.
+fn after_blank(comments: &[String]) -> &[String] {
+    match comments {
+        [first, rest @ ..] if first == BLANK_LINE => rest,
+        _ => comments,
+    }
+}
+
+/// Whether comments stand inside a value, or empty lines between its entries.
 fn has_comments(form: &Form) -> bool {
     let inside = |entries: &[Entry]| {
-        entries.iter().any(|entry| !entry.before.is_empty() || entry.after.is_some() || has_comments(&entry.value))
+        entries.iter().enumerate().any(|(index, entry)| {
+            let before = if index == 0 { after_blank(&entry.before) } else { &entry.before };
+            !before.is_empty() || entry.after.is_some() || has_comments(&entry.value)
+        })
     };
     match form {
         Form::List(entries) | Form::Map(entries) | Form::Struct { fields: entries, .. } => inside(entries),

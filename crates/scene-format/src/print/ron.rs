@@ -1,12 +1,12 @@
 //! RON.
 
-use super::{WIDTH, has_comments, number, quoted};
-use crate::form::{Entry, Form};
+use super::{WIDTH, after_blank, has_comments, number, quoted};
+use crate::form::{BLANK_LINE, Entry, Form};
 
 /// A whole scene, with the comments that stand before and after it.
 pub(crate) fn ron(scene: &Form, before: &[String], after: &[String]) -> String {
     let mut out = String::new();
-    for comment in before {
+    for comment in after_blank(before) {
         comment_line(&mut out, comment, 0);
     }
     // The scene itself is never squeezed into one line.
@@ -30,6 +30,9 @@ pub(crate) fn ron_value(form: &Form) -> String {
 }
 
 fn comment_line(out: &mut String, comment: &str, depth: usize) {
+    if comment == BLANK_LINE {
+        return out.push('\n');
+    }
     indent(out, depth);
     out.push_str("//");
     if !comment.is_empty() {
@@ -75,8 +78,9 @@ fn value(out: &mut String, form: &Form, depth: usize, column: usize) {
 fn block(out: &mut String, open: &str, entries: &[Entry], close: &str, depth: usize) {
     out.push_str(open);
     out.push('\n');
-    for entry in entries {
-        for comment in &entry.before {
+    for (index, entry) in entries.iter().enumerate() {
+        let before = if index == 0 { after_blank(&entry.before) } else { &entry.before };
+        for comment in before {
             comment_line(out, comment, depth + 1);
         }
         indent(out, depth + 1);

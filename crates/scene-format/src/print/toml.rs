@@ -1,7 +1,7 @@
 //! TOML: groups of fields as `[tables]`, objects and lights as `[[lists]]`, the rest on one line each.
 
-use super::{WIDTH, has_comments, number, quoted};
-use crate::form::{Entry, Form};
+use super::{WIDTH, after_blank, has_comments, number, quoted};
+use crate::form::{BLANK_LINE, Entry, Form};
 
 /// A whole scene, with the comments that stand before and after it.
 pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String {
@@ -19,8 +19,8 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
                 let mut before = entry.before.as_slice();
                 for item in items {
                     blank(&mut out);
-                    comments(&mut out, std::mem::take(&mut before));
-                    comments(&mut out, &item.before);
+                    comments(&mut out, after_blank(std::mem::take(&mut before)));
+                    comments(&mut out, after_blank(&item.before));
                     out.push_str(&format!("[[{}]]", entry.name));
                     end_line(&mut out, item.after.as_deref());
                     body(&mut out, &entry.name, &item.value);
@@ -31,7 +31,7 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
             }
             value => {
                 blank(&mut out);
-                comments(&mut out, &entry.before);
+                comments(&mut out, after_blank(&entry.before));
                 out.push_str(&format!("[{}]", entry.name));
                 end_line(&mut out, entry.after.as_deref());
                 body(&mut out, &entry.name, value);
@@ -40,7 +40,7 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
     }
     if !after.is_empty() {
         blank(&mut out);
-        comments(&mut out, after);
+        comments(&mut out, after_blank(after));
     }
     out
 }
@@ -91,7 +91,7 @@ fn body(out: &mut String, path: &str, form: &Form) {
 
 fn sub_table(out: &mut String, path: &str, entry: &Entry, content: &Form) {
     let Form::Struct { .. } = content else { return line(out, entry) };
-    comments(out, &entry.before);
+    comments(out, after_blank(&entry.before));
     out.push_str(&format!("[{path}]"));
     end_line(out, entry.after.as_deref());
     body(out, path, content);
@@ -105,7 +105,8 @@ fn fits(entry: &Entry) -> bool {
 /// `name = value`; lists that are long or hold comments take several lines. Tables in braces cannot, so that the comments in
 /// them move up before the line.
 fn line(out: &mut String, entry: &Entry) {
-    comments(out, &entry.before);
+    let at_head = out.is_empty() || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
+    comments(out, if at_head { after_blank(&entry.before) } else { &entry.before });
     let mut inner = Vec::new();
     hoisted(&entry.value, false, &mut inner);
     comments(out, &inner);
@@ -118,7 +119,7 @@ fn line(out: &mut String, entry: &Entry) {
                 let mut inner = item.before.clone();
                 hoisted(&item.value, true, &mut inner);
                 for comment in &inner {
-                    out.push_str("    ");
+                    out.push_str(if comment == BLANK_LINE { "" } else { "    " });
                     comments(out, std::slice::from_ref(comment));
                 }
                 out.push_str("    ");
@@ -142,7 +143,7 @@ fn hoisted(form: &Form, lists: bool, out: &mut Vec<String>) {
         _ => return,
     };
     for entry in entries {
-        out.extend(entry.before.iter().cloned());
+        out.extend(entry.before.iter().filter(|comment| *comment != BLANK_LINE).cloned());
         out.extend(entry.after.clone());
         hoisted(&entry.value, true, out);
     }
@@ -156,6 +157,10 @@ fn blank(out: &mut String) {
 
 fn comments(out: &mut String, comments: &[String]) {
     for comment in comments {
+        if comment == BLANK_LINE {
+            out.push('\n');
+            continue;
+        }
         out.push('#');
         if !comment.is_empty() {
             out.push(' ');

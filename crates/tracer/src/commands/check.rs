@@ -1,30 +1,23 @@
 //! `tracer check`: everything that is wrong with scenes, meshes and textures included.
 
+use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::loading::{compile, load_counting};
 use crate::shell::{Shell, counted};
 use scene_format::Syntax;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
-    let mut scenes = Vec::new();
-    for path in &args.scenes {
-        if path.is_dir() {
-            let before = scenes.len();
-            find(path, &mut scenes);
-            if scenes.len() == before {
-                return Err(Failure::wrong(format!("there is no scene in the folder {}", path.display())));
-            }
-        } else {
-            scenes.push(path.clone());
-        }
-    }
+    let scenes = scenes::named(&args.scenes)?;
     let mut wrong = 0;
     let many = scenes.len();
     for scene in scenes {
+        if args.fix {
+            fix::fix(&scene, args.syntax.map(Syntax::from), shell)?;
+        }
         match check(args, scene, shell) {
             Ok(()) => {}
             // The others are checked all the same.
@@ -59,29 +52,4 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
         writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}")?;
     }
     Ok(())
-}
-
-/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` that has objects. Hidden folders are left out.
-fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.sort();
-    for path in paths {
-        let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        // A link may lead back to where it stands.
-        if path.is_dir() && !path.is_symlink() && !hidden {
-            find(&path, scenes);
-        } else if path.is_file() && is_scene(&path) {
-            scenes.push(path);
-        }
-    }
-}
-
-/// TOML files are many things.
-fn is_scene(path: &Path) -> bool {
-    match Syntax::from_path(path) {
-        Some(Syntax::Ron) => true,
-        Some(Syntax::Toml) => std::fs::read(path).is_ok_and(|bytes| bytes.windows(7).any(|word| word == b"objects")),
-        None => false,
-    }
 }

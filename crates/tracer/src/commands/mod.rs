@@ -7,10 +7,14 @@ mod compare;
 mod completions;
 mod convert;
 mod explain;
+mod fix;
+mod fmt;
 mod info;
+mod lsp;
 mod man;
 mod new;
 mod render;
+mod scenes;
 mod schema;
 
 pub use new::Template;
@@ -31,6 +35,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),
+        Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),
         Command::Compare(args) => compare::run(args),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),
@@ -38,6 +43,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Explain(args) => explain::run(args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(args),
+        Command::Lsp => lsp::run(),
         Command::Man(args) => man::run(args),
     }
 }

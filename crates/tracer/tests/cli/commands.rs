@@ -3,16 +3,18 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 12] = [
+pub const COMMANDS: [&str; 14] = [
     "render",
     "check",
     "info",
     "convert",
+    "fmt",
     "new",
     "compare",
     "bench-acceleration",
     "bench-figures",
     "explain",
+    "lsp",
     "schema",
     "completions",
     "man",

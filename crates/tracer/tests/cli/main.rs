@@ -5,6 +5,7 @@ mod commands;
 mod compare;
 mod examples;
 mod faults;
+mod fmt;
 mod goals;
 mod habits;
 #[cfg(unix)]

@@ -1,0 +1,286 @@
+//! What the editor asks, and the answers: one function a request.
+
+use crate::diagnostics;
+use crate::documents::{Document, Documents};
+use lsp_types::request::{
+    CodeActionRequest, ColorPresentationRequest, Completion, DocumentColor, DocumentHighlightRequest,
+    DocumentSymbolRequest, Formatting, GotoDefinition, HoverRequest, PrepareRenameRequest, References, Rename, Request,
+};
+use lsp_types::{
+    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, Color, ColorInformation, ColorPresentation,
+    ColorPresentationParams, CompletionItem, CompletionItemKind, CompletionParams, CompletionResponse,
+    CompletionTextEdit, DocumentColorParams, DocumentFormattingParams, DocumentHighlight, DocumentHighlightParams,
+    DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, Documentation, GotoDefinitionParams,
+    GotoDefinitionResponse, Hover, HoverContents, HoverParams, InsertTextFormat, Location, MarkupContent, MarkupKind,
+    PrepareRenameResponse, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentPositionParams, TextEdit,
+    Uri, WorkspaceEdit,
+};
+use scene_format::FileKind;
+use scene_format::analysis::{self, CompletionKind, Symbol};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The answer to a request; `None` where nobody knows it.
+pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Result<Value, String>> {
+    Some(match method {
+        Completion::METHOD => asked(params, |params| completion(documents, params)),
+        HoverRequest::METHOD => asked(params, |params| hover(documents, params)),
+        GotoDefinition::METHOD => asked(params, |params| definition(documents, params)),
+        References::METHOD => asked(params, |params| references(documents, params)),
+        DocumentHighlightRequest::METHOD => asked(params, |params| highlights(documents, params)),
+        PrepareRenameRequest::METHOD => asked(params, |params| prepare_rename(documents, params)),
+        Rename::METHOD => parsed(params).and_then(|params| rename(documents, params)).and_then(value),
+        DocumentSymbolRequest::METHOD => asked(params, |params| symbols(documents, params)),
+        DocumentColor::METHOD => asked(params, |params| colors(documents, params)),
+        ColorPresentationRequest::METHOD => asked(params, |params| presentations(documents, params)),
+        CodeActionRequest::METHOD => asked(params, |params| actions(documents, params)),
+        Formatting::METHOD => asked(params, |params| formatting(documents, params)),
+        _ => return None,
+    })
+}
+
+fn parsed<P: DeserializeOwned>(params: Value) -> Result<P, String> {
+    serde_json::from_value(params).map_err(|error| error.to_string())
+}
+
+fn value(answer: impl serde::Serialize) -> Result<Value, String> {
+    serde_json::to_value(answer).map_err(|error| error.to_string())
+}
+
+/// An answer that may be nothing, which the protocol writes as null.
+fn asked<P: DeserializeOwned, A: serde::Serialize>(
+    params: Value,
+    answer: impl FnOnce(P) -> Option<A>,
+) -> Result<Value, String> {
+    value(answer(parsed(params)?))
+}
+
+/// The document at a place, and the place's byte.
+fn at<'d>(documents: &'d Documents, place: &TextDocumentPositionParams) -> Option<(&'d Document, usize)> {
+    let document = documents.get(&place.text_document.uri)?;
+    Some((document, document.lines.byte(&document.text, place.position)))
+}
+
+fn markdown(value: String) -> MarkupContent {
+    MarkupContent { kind: MarkupKind::Markdown, value }
+}
+
+fn completion(documents: &Documents, params: CompletionParams) -> Option<CompletionResponse> {
+    let (document, byte) = at(documents, &params.text_document_position)?;
+    let found = analysis::complete(&document.text, document.syntax, byte);
+    let range = document.lines.range(&document.text, found.range.clone());
+    let mut items: Vec<CompletionItem> = found
+        .items
+        .into_iter()
+        .enumerate()
+        .map(|(k, item)| CompletionItem {
+            kind: Some(match item.kind {
+                CompletionKind::Field => CompletionItemKind::FIELD,
+                CompletionKind::Kind => CompletionItemKind::CLASS,
+                CompletionKind::Name => CompletionItemKind::VARIABLE,
+                CompletionKind::Value => CompletionItemKind::VALUE,
+                CompletionKind::Function => CompletionItemKind::FUNCTION,
+            }),
+            detail: (!item.detail.is_empty()).then_some(item.detail),
+            documentation: (!item.documentation.is_empty())
+                .then(|| Documentation::MarkupContent(markdown(item.documentation))),
+            // Ours is the order that they have in the language.
+            sort_text: Some(format!("{k:04}")),
+            insert_text_format: Some(InsertTextFormat::SNIPPET),
+            text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text: item.snippet })),
+            label: item.label,
+            ..CompletionItem::default()
+        })
+        .collect();
+    if let Some((kind, begun)) = found.files {
+        items.extend(files(document.folder(), kind, &begun).into_iter().map(|(name, is_folder)| CompletionItem {
+            kind: Some(if is_folder { CompletionItemKind::FOLDER } else { CompletionItemKind::FILE }),
+            text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text: name.clone() })),
+            label: name,
+            ..CompletionItem::default()
+        }));
+    }
+    Some(CompletionResponse::Array(items))
+}
+
+/// So many names of a folder are offered.
+const MOST_FILES: usize = 1000;
+
+/// The files of a kind and the folders where a name has been begun, as they would be written; and which are folders.
+fn files(folder: &Path, kind: FileKind, begun: &str) -> Vec<(String, bool)> {
+    let inner = begun.rfind('/').map_or("", |end| &begun[..=end]);
+    let Ok(entries) = std::fs::read_dir(folder.join(inner)) else { return Vec::new() };
+    let mut names: Vec<(String, bool)> = entries
+        .take(MOST_FILES)
+        .filter_map(|entry| {
+            let entry = entry.ok()?;
+            let name = entry.file_name().into_string().ok()?;
+            let is_folder = entry.path().is_dir();
+            let fits = is_folder || is_kind(Path::new(&name), kind);
+            let shown = !name.starts_with('.') && fits;
+            shown.then(|| (format!("{inner}{name}{}", if is_folder { "/" } else { "" }), is_folder))
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+fn is_kind(path: &Path, kind: FileKind) -> bool {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+    match kind {
+        FileKind::Mesh => tracer_core::mesh::MeshFormat::of(path).is_some(),
+        FileKind::Placements => matches!(extension.as_str(), "txt" | "csv" | "dat"),
+        FileKind::Texture => matches!(extension.as_str(), "png" | "jpg" | "jpeg"),
+        FileKind::Environment => matches!(extension.as_str(), "hdr" | "exr" | "png" | "jpg" | "jpeg"),
+    }
+}
+
+fn hover(documents: &Documents, params: HoverParams) -> Option<Hover> {
+    let (document, byte) = at(documents, &params.text_document_position_params)?;
+    let found = analysis::hover(&document.text, document.syntax, byte)?;
+    let range = Some(document.lines.range(&document.text, found.range));
+    Some(Hover { contents: HoverContents::Markup(markdown(found.markdown)), range })
+}
+
+fn definition(documents: &Documents, params: GotoDefinitionParams) -> Option<GotoDefinitionResponse> {
+    let (document, byte) = at(documents, &params.text_document_position_params)?;
+    let found = analysis::definition(&document.text, document.syntax, byte)?;
+    let range = document.lines.range(&document.text, found);
+    Some(GotoDefinitionResponse::Scalar(Location { uri: document.uri.clone(), range }))
+}
+
+fn occurrences(document: &Document, byte: usize) -> Vec<Range> {
+    let found = analysis::occurrences(&document.text, document.syntax, byte);
+    found.into_iter().map(|range| document.lines.range(&document.text, range)).collect()
+}
+
+fn references(documents: &Documents, params: ReferenceParams) -> Option<Vec<Location>> {
+    let (document, byte) = at(documents, &params.text_document_position)?;
+    let uri = &document.uri;
+    Some(occurrences(document, byte).into_iter().map(|range| Location { uri: uri.clone(), range }).collect())
+}
+
+fn highlights(documents: &Documents, params: DocumentHighlightParams) -> Option<Vec<DocumentHighlight>> {
+    let (document, byte) = at(documents, &params.text_document_position_params)?;
+    Some(occurrences(document, byte).into_iter().map(|range| DocumentHighlight { range, kind: None }).collect())
+}
+
+fn prepare_rename(documents: &Documents, params: TextDocumentPositionParams) -> Option<PrepareRenameResponse> {
+    let (document, byte) = at(documents, &params)?;
+    let name = analysis::name_at(&document.text, document.syntax, byte)?;
+    Some(PrepareRenameResponse::Range(document.lines.range(&document.text, name)))
+}
+
+fn rename(documents: &Documents, params: RenameParams) -> Result<WorkspaceEdit, String> {
+    let Some((document, byte)) = at(documents, &params.text_document_position) else {
+        return Err("the document is not open".to_owned());
+    };
+    let edits = analysis::rename(&document.text, document.syntax, byte, &params.new_name)?;
+    Ok(in_document(document, edits.iter().map(|edit| diagnostics::edit(document, edit)).collect()))
+}
+
+// The protocol's own type; an address is compared by its text.
+#[allow(clippy::mutable_key_type)]
+fn in_document(document: &Document, edits: Vec<TextEdit>) -> WorkspaceEdit {
+    let changes: HashMap<Uri, Vec<TextEdit>> = HashMap::from([(document.uri.clone(), edits)]);
+    WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() }
+}
+
+fn symbols(documents: &Documents, params: DocumentSymbolParams) -> Option<DocumentSymbolResponse> {
+    let document = documents.get(&params.text_document.uri)?;
+    let outline = analysis::symbols(&document.text, document.syntax);
+    Some(DocumentSymbolResponse::Nested(outline.into_iter().map(|symbol| in_outline(document, symbol)).collect()))
+}
+
+fn in_outline(document: &Document, symbol: Symbol) -> DocumentSymbol {
+    let children: Vec<_> = symbol.children.into_iter().map(|child| in_outline(document, child)).collect();
+    #[allow(deprecated)] // A field of the protocol that nobody may leave out here.
+    DocumentSymbol {
+        name: symbol.name,
+        detail: (!symbol.detail.is_empty()).then_some(symbol.detail),
+        kind: match symbol.kind {
+            analysis::SymbolKind::Section => SymbolKind::NAMESPACE,
+            analysis::SymbolKind::Named => SymbolKind::VARIABLE,
+            analysis::SymbolKind::Item => SymbolKind::OBJECT,
+        },
+        tags: None,
+        deprecated: None,
+        range: document.lines.range(&document.text, symbol.range),
+        selection_range: document.lines.range(&document.text, symbol.head),
+        children: (!children.is_empty()).then_some(children),
+    }
+}
+
+/// sRGB from linear light, as editors' colours are, and back.
+fn encoded(x: f64) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    (if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }) as f32
+}
+
+fn decoded(x: f32) -> f64 {
+    let x = f64::from(x).clamp(0.0, 1.0);
+    if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
+}
+
+fn colors(documents: &Documents, params: DocumentColorParams) -> Option<Vec<ColorInformation>> {
+    let document = documents.get(&params.text_document.uri)?;
+    let found = analysis::colors(&document.text, document.syntax);
+    let swatch = |place: analysis::ColorPlace| {
+        let [red, green, blue] = place.linear.map(encoded);
+        let range = document.lines.range(&document.text, place.range);
+        ColorInformation { range, color: Color { red, green, blue, alpha: 1.0 } }
+    };
+    Some(found.into_iter().map(swatch).collect())
+}
+
+fn presentations(documents: &Documents, params: ColorPresentationParams) -> Option<Vec<ColorPresentation>> {
+    let document = documents.get(&params.text_document.uri)?;
+    let Color { red, green, blue, .. } = params.color;
+    let texts = analysis::color_texts([red, green, blue].map(decoded), document.syntax);
+    let written = |text: String| ColorPresentation {
+        text_edit: Some(TextEdit { range: params.range, new_text: text.clone() }),
+        label: text,
+        additional_text_edits: None,
+    };
+    Some(texts.into_iter().map(written).collect())
+}
+
+fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeActionOrCommand>> {
+    let document = documents.get(&params.text_document.uri)?;
+    let overlaps = |range: &Range| range.start <= params.range.end && params.range.start <= range.end;
+    let mut actions = Vec::new();
+    for fault in diagnostics::found(document) {
+        let Some(edit) = fault.edit.as_ref().filter(|edit| edit.span.source == 0) else { continue };
+        let range = diagnostics::range(document, fault.span);
+        let edit = diagnostics::edit(document, edit);
+        if !overlaps(&range) && !overlaps(&edit.range) {
+            continue;
+        }
+        let title = match edit.new_text.trim() {
+            "" => "Leave it out".to_owned(),
+            text => format!("Write {}", text.chars().take(60).collect::<String>()),
+        };
+        actions.push(CodeActionOrCommand::CodeAction(CodeAction {
+            title,
+            kind: Some(CodeActionKind::QUICKFIX),
+            diagnostics: Some(diagnostics::translated(document, std::slice::from_ref(&fault))),
+            edit: Some(in_document(document, vec![edit])),
+            is_preferred: Some(true),
+            ..CodeAction::default()
+        }));
+    }
+    Some(actions)
+}
+
+/// Nothing where the scene is wrong: what is wrong is marked already.
+fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Option<Vec<TextEdit>> {
+    let document = documents.get(&params.text_document.uri)?;
+    let tidy = scene_format::format(&document.name(), &document.text, document.syntax).ok()?;
+    if *tidy == *document.text {
+        return Some(Vec::new());
+    }
+    let range = document.lines.range(&document.text, 0..document.text.len());
+    Some(vec![TextEdit { range, new_text: tidy }])
+}

@@ -1,0 +1,93 @@
+//! What is wrong with a document, in the protocol's words.
+
+use crate::documents::Document;
+use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit};
+use scene_format::diagnostic::{Edit, Source, Span};
+use scene_format::{Diagnostic, Diagnostics, LoadError, Severity};
+
+/// What the text by itself tells.
+pub fn of(document: &Document) -> Vec<lsp_types::Diagnostic> {
+    translated(document, &found(document))
+}
+
+/// The same as scene-format tells it.
+pub fn found(document: &Document) -> Diagnostics {
+    match scene_format::load_str(&document.name(), &document.text, document.syntax, document.folder(), &[]) {
+        Ok(loaded) => loaded.warnings,
+        Err(LoadError::Invalid { diagnostics, .. }) => diagnostics,
+        Err(LoadError::Io { .. }) => Diagnostics::new(),
+    }
+}
+
+/// With what the files that it names tell: meshes and pictures are read, so this may take as long as they do.
+pub fn with_files(document: &Document) -> Diagnostics {
+    match scene_format::load_str(&document.name(), &document.text, document.syntax, document.folder(), &[]) {
+        Ok(loaded) => {
+            let mut all = loaded.warnings;
+            match tracer_core::compile(&loaded.scene) {
+                Ok(scene) => all.extend(scene.warnings.iter().cloned()),
+                Err(error) => all.extend(error.diagnostics),
+            }
+            all
+        }
+        Err(LoadError::Invalid { mut diagnostics, sources, files }) => {
+            let sources: &[Source] = &sources;
+            diagnostics.extend(tracer_core::check_files(&files, document.folder(), sources));
+            diagnostics
+        }
+        Err(LoadError::Io { .. }) => Diagnostics::new(),
+    }
+}
+
+/// Diagnostics in the protocol's words; those of other texts stand at the beginning.
+pub fn translated(document: &Document, diagnostics: &[Diagnostic]) -> Vec<lsp_types::Diagnostic> {
+    diagnostics.iter().map(|fault| one(document, fault)).collect()
+}
+
+fn one(document: &Document, fault: &Diagnostic) -> lsp_types::Diagnostic {
+    let mut message = fault.message.clone();
+    if let Some(elsewhere) = &fault.elsewhere {
+        let line = if elsewhere.line > 0 { format!(", line {}", elsewhere.line) } else { String::new() };
+        message += &format!("\n{}{line}", elsewhere.path.display());
+    }
+    for (what, text) in [("expected", &fault.expected), ("hint", &fault.hint)] {
+        if !text.is_empty() {
+            message += &format!("\n{what}: {text}");
+        }
+    }
+    let related: Vec<DiagnosticRelatedInformation> = fault
+        .labels
+        .iter()
+        .map(|label| DiagnosticRelatedInformation {
+            location: Location { uri: document.uri.clone(), range: range(document, label.span) },
+            message: label.text.clone(),
+        })
+        .collect();
+    lsp_types::Diagnostic {
+        range: range(document, fault.span),
+        severity: Some(match fault.severity {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+        }),
+        code: Some(NumberOrString::String(fault.code.as_str().to_owned())),
+        code_description: None,
+        source: Some("tracer".to_owned()),
+        message,
+        related_information: (!related.is_empty()).then_some(related),
+        tags: None,
+        data: None,
+    }
+}
+
+/// The place of a span of the document's own text.
+pub fn range(document: &Document, span: Span) -> Range {
+    if span.source != 0 {
+        return Range::default();
+    }
+    document.lines.range(&document.text, span.start as usize..span.end as usize)
+}
+
+/// An edit of the document's own text.
+pub fn edit(document: &Document, edit: &Edit) -> TextEdit {
+    TextEdit { range: range(document, edit.span), new_text: edit.replacement.clone() }
+}

@@ -1,0 +1,103 @@
+//! The texts that are open in the editor.
+
+use crate::positions::{Encoding, Lines};
+use lsp_types::Uri;
+use scene_format::Syntax;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// An open text.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// Its address.
+    pub uri: Uri,
+    /// What the editor counts its changes by.
+    pub version: i32,
+    /// All of it.
+    pub text: Arc<str>,
+    /// By its name, else by its looks.
+    pub syntax: Syntax,
+    /// Where it lies, if it lies on this machine.
+    pub path: Option<PathBuf>,
+    /// Its lines.
+    pub lines: Lines,
+}
+
+impl Document {
+    /// The folder that the names of files start from.
+    pub fn folder(&self) -> &Path {
+        self.path.as_deref().and_then(Path::parent).unwrap_or(Path::new(""))
+    }
+
+    /// The name to show in messages.
+    pub fn name(&self) -> String {
+        let name = self.path.as_deref().and_then(Path::file_name);
+        name.map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+}
+
+/// All of them.
+pub struct Documents {
+    open: HashMap<String, Document>,
+    /// What columns count.
+    pub encoding: Encoding,
+}
+
+impl Documents {
+    /// None yet.
+    pub fn new(encoding: Encoding) -> Self {
+        Documents { open: HashMap::new(), encoding }
+    }
+
+    /// A text as it is now.
+    pub fn put(&mut self, uri: Uri, version: i32, text: String) {
+        let path = path_of(&uri);
+        let syntax = path.as_deref().and_then(Syntax::from_path).unwrap_or_else(|| Syntax::guess(&text));
+        let lines = Lines::new(&text, self.encoding);
+        let key = uri.as_str().to_owned();
+        self.open.insert(key, Document { uri, version, text: text.into(), syntax, path, lines });
+    }
+
+    /// It is open no more.
+    pub fn remove(&mut self, uri: &Uri) {
+        self.open.remove(uri.as_str());
+    }
+
+    /// A text that is open.
+    pub fn get(&self, uri: &Uri) -> Option<&Document> {
+        self.open.get(uri.as_str())
+    }
+}
+
+/// The path of a `file:` address.
+fn path_of(uri: &Uri) -> Option<PathBuf> {
+    let rest = uri.as_str().strip_prefix("file://")?;
+    let path = rest.find('/').map(|at| &rest[at..])?;
+    let mut bytes = Vec::with_capacity(path.len());
+    let mut from = path.bytes();
+    while let Some(byte) = from.next() {
+        if byte == b'%' {
+            let digits = [from.next()?, from.next()?];
+            bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?);
+        } else {
+            bytes.push(byte);
+        }
+    }
+    let path = String::from_utf8(bytes).ok()?;
+    // On Windows: /c:/folder.
+    let drive = path.as_bytes().get(2) == Some(&b':') && cfg!(windows);
+    Some(PathBuf::from(if drive { &path[1..] } else { &path[..] }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_are_paths() {
+        let path = |uri: &str| path_of(&uri.parse::<Uri>().expect("an address"));
+        assert_eq!(path("file:///home/a%20b/%C3%A9.ron"), Some(PathBuf::from("/home/a b/é.ron")));
+        assert_eq!(path("untitled:Untitled-1"), None);
+    }
+}

@@ -1,0 +1,186 @@
+//! The language server of scenes: what an editor asks, answered by [`scene_format::analysis`] over the Language Server Protocol 3.17.
+//!
+//! One thread reads and answers; looking at the files that a scene names, which may take long, is done by another one. Documents
+//! are held whole, and are sent whole when they change: scenes are small texts, and answers come from the newest one.
+#![forbid(unsafe_code)]
+
+mod answers;
+mod diagnostics;
+mod documents;
+mod files;
+mod positions;
+
+use documents::Documents;
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
+use lsp_types::notification::{
+    DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Notification as _,
+    PublishDiagnostics,
+};
+use lsp_types::{
+    CodeActionKind, CodeActionOptions, CodeActionProviderCapability, ColorProviderCapability, CompletionOptions,
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, DidSaveTextDocumentParams,
+    HoverProviderCapability, InitializeParams, OneOf, PositionEncodingKind, PublishDiagnosticsParams, RenameOptions,
+    ServerCapabilities, TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions,
+    TextDocumentSyncSaveOptions, Uri, WorkDoneProgressOptions,
+};
+use positions::Encoding;
+use serde_json::json;
+
+/// Any error of the connection.
+type Error = Box<dyn std::error::Error + Send + Sync>;
+
+/// Speaks over standard input and output until the editor says goodbye.
+///
+/// # Errors
+/// The connection broke, or the other side does not speak the protocol.
+pub fn serve_stdio() -> Result<(), Error> {
+    let (connection, threads) = Connection::stdio();
+    serve(&connection)?;
+    // The writing thread ends when nobody can write any more.
+    drop(connection);
+    threads.join()?;
+    Ok(())
+}
+
+/// Serves one editor over a connection.
+///
+/// # Errors
+/// As [`serve_stdio`].
+pub fn serve(connection: &Connection) -> Result<(), Error> {
+    let (id, params) = match connection.initialize_start() {
+        Ok(started) => started,
+        // Nobody was there.
+        Err(error) if error.channel_is_disconnected() => return Ok(()),
+        Err(error) => return Err(error.into()),
+    };
+    let params: InitializeParams = serde_json::from_value(params)?;
+    let offered = params.capabilities.general.and_then(|general| general.position_encodings).unwrap_or_default();
+    let encoding = if offered.contains(&PositionEncodingKind::UTF8) { Encoding::Utf8 } else { Encoding::Utf16 };
+    let server = json!({ "name": "tracer", "version": env!("CARGO_PKG_VERSION") });
+    connection.initialize_finish(id, json!({ "capabilities": capabilities(encoding), "serverInfo": server }))?;
+    let mut documents = Documents::new(encoding);
+    let sender = connection.sender.clone();
+    let looker = files::Looker::start(move |message| sender.send(message).is_ok());
+    for message in &connection.receiver {
+        match message {
+            Message::Request(request) => {
+                if connection.handle_shutdown(&request)? {
+                    break;
+                }
+                connection.sender.send(Message::Response(answer(&documents, request)))?;
+            }
+            Message::Notification(notification) => heard(connection, &mut documents, &looker, notification)?,
+            Message::Response(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// What the server can do.
+fn capabilities(encoding: Encoding) -> ServerCapabilities {
+    let texts = TextDocumentSyncOptions {
+        open_close: Some(true),
+        change: Some(TextDocumentSyncKind::FULL),
+        save: Some(TextDocumentSyncSaveOptions::Supported(true)),
+        ..TextDocumentSyncOptions::default()
+    };
+    let triggers = ["(", "[", "{", "\"", "=", ":", ",", ".", "/", " "];
+    ServerCapabilities {
+        position_encoding: Some(encoding.kind()),
+        text_document_sync: Some(TextDocumentSyncCapability::Options(texts)),
+        completion_provider: Some(CompletionOptions {
+            trigger_characters: Some(triggers.map(str::to_owned).to_vec()),
+            ..CompletionOptions::default()
+        }),
+        hover_provider: Some(HoverProviderCapability::Simple(true)),
+        definition_provider: Some(OneOf::Left(true)),
+        references_provider: Some(OneOf::Left(true)),
+        document_highlight_provider: Some(OneOf::Left(true)),
+        rename_provider: Some(OneOf::Right(RenameOptions {
+            prepare_provider: Some(true),
+            work_done_progress_options: WorkDoneProgressOptions::default(),
+        })),
+        document_symbol_provider: Some(OneOf::Left(true)),
+        document_formatting_provider: Some(OneOf::Left(true)),
+        color_provider: Some(ColorProviderCapability::Simple(true)),
+        code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
+            code_action_kinds: Some(vec![CodeActionKind::QUICKFIX]),
+            ..CodeActionOptions::default()
+        })),
+        ..ServerCapabilities::default()
+    }
+}
+
+/// Answers a request. What nobody understands gets an error and ends nothing.
+fn answer(documents: &Documents, request: Request) -> Response {
+    let Request { id, method, params } = request;
+    match answers::answer(documents, &method, params) {
+        Some(Ok(value)) => Response::new_ok(id, value),
+        Some(Err(why)) => Response::new_err(id, ErrorCode::InvalidParams as i32, why),
+        None => Response::new_err(id, ErrorCode::MethodNotFound as i32, format!("{method} is not known here")),
+    }
+}
+
+/// Takes what the editor tells.
+fn heard(
+    connection: &Connection,
+    documents: &mut Documents,
+    looker: &files::Looker,
+    notification: Notification,
+) -> Result<(), Error> {
+    let Notification { method, params } = notification;
+    match method.as_str() {
+        DidOpenTextDocument::METHOD => {
+            let Ok(params) = serde_json::from_value::<DidOpenTextDocumentParams>(params) else { return Ok(()) };
+            let document = params.text_document;
+            documents.put(document.uri.clone(), document.version, document.text);
+            tell(connection, documents, looker, &document.uri, true)?;
+        }
+        DidChangeTextDocument::METHOD => {
+            let Ok(params) = serde_json::from_value::<DidChangeTextDocumentParams>(params) else { return Ok(()) };
+            let Some(text) = params.content_changes.into_iter().next_back().map(|change| change.text) else {
+                return Ok(());
+            };
+            documents.put(params.text_document.uri.clone(), params.text_document.version, text);
+            tell(connection, documents, looker, &params.text_document.uri, false)?;
+        }
+        DidSaveTextDocument::METHOD => {
+            let Ok(params) = serde_json::from_value::<DidSaveTextDocumentParams>(params) else { return Ok(()) };
+            tell(connection, documents, looker, &params.text_document.uri, true)?;
+        }
+        DidCloseTextDocument::METHOD => {
+            let Ok(params) = serde_json::from_value::<DidCloseTextDocumentParams>(params) else { return Ok(()) };
+            let uri = params.text_document.uri;
+            documents.remove(&uri);
+            looker.changed(&uri, None);
+            publish(connection, PublishDiagnosticsParams { uri, diagnostics: Vec::new(), version: None })?;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Tells what is wrong with a document; `files`: what it names is looked at, too, and told when that is done.
+fn tell(
+    connection: &Connection,
+    documents: &Documents,
+    looker: &files::Looker,
+    uri: &Uri,
+    files: bool,
+) -> Result<(), Error> {
+    let Some(document) = documents.get(uri) else { return Ok(()) };
+    looker.changed(uri, Some(document.version));
+    let diagnostics = diagnostics::of(document);
+    let version = Some(document.version);
+    publish(connection, PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version })?;
+    if files {
+        looker.look(document.clone());
+    }
+    Ok(())
+}
+
+fn publish(connection: &Connection, params: PublishDiagnosticsParams) -> Result<(), Error> {
+    let notification = Notification::new(PublishDiagnostics::METHOD.to_owned(), params);
+    connection.sender.send(Message::Notification(notification))?;
+    Ok(())
+}

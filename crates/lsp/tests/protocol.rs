@@ -1,0 +1,195 @@
+//! The real protocol, spoken by a client of our own over the connection that an editor has.
+
+use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
+use serde_json::{Value, json};
+use std::time::Duration;
+
+/// An editor with a scene open.
+struct Editor {
+    connection: Connection,
+    server: Option<std::thread::JoinHandle<()>>,
+    next: i32,
+    version: i32,
+    uri: String,
+}
+
+const LONG: Duration = Duration::from_secs(60);
+
+impl Editor {
+    fn open(uri: &str, text: &str) -> Self {
+        let (server, client) = Connection::memory();
+        let thread = std::thread::spawn(move || tracer_lsp::serve(&server).expect("a whole conversation"));
+        let mut editor = Editor { connection: client, server: Some(thread), next: 0, version: 0, uri: uri.to_owned() };
+        let answer = editor.ask("initialize", json!({ "processId": null, "rootUri": null, "capabilities": {} }));
+        assert_eq!(answer["serverInfo"]["name"], "tracer");
+        assert_eq!(answer["capabilities"]["positionEncoding"], "utf-16");
+        editor.tell("initialized", json!({}));
+        let document = json!({ "uri": uri, "languageId": "ron", "version": 0, "text": text });
+        editor.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        editor
+    }
+
+    fn tell(&self, method: &str, params: Value) {
+        let notification = Notification { method: method.to_owned(), params };
+        self.connection.sender.send(Message::Notification(notification)).expect("a server");
+    }
+
+    fn response(&mut self, method: &str, params: Value) -> Response {
+        self.next += 1;
+        let id = RequestId::from(self.next);
+        let request = Request { id: id.clone(), method: method.to_owned(), params };
+        self.connection.sender.send(Message::Request(request)).expect("a server");
+        loop {
+            match self.connection.receiver.recv_timeout(LONG).expect("an answer") {
+                Message::Response(response) if response.id == id => return response,
+                _ => {}
+            }
+        }
+    }
+
+    fn ask(&mut self, method: &str, params: Value) -> Value {
+        let response = self.response(method, params);
+        assert!(response.error.is_none(), "{method}: {:?}", response.error);
+        response.result.unwrap_or(Value::Null)
+    }
+
+    /// Asks about a place.
+    fn at(&mut self, method: &str, line: u32, character: u32) -> Value {
+        let uri = self.uri.clone();
+        self.ask(method, json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } }))
+    }
+
+    fn write(&mut self, text: &str) {
+        self.version += 1;
+        let document = json!({ "uri": self.uri, "version": self.version });
+        let changes = json!([{ "text": text }]);
+        self.tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": changes }));
+    }
+
+    /// The next diagnostics of this version.
+    fn diagnostics(&mut self) -> Vec<Value> {
+        loop {
+            if let Message::Notification(told) = self.connection.receiver.recv_timeout(LONG).expect("diagnostics")
+                && told.method == "textDocument/publishDiagnostics"
+                && told.params["version"] == self.version
+            {
+                return told.params["diagnostics"].as_array().expect("a list").clone();
+            }
+        }
+    }
+
+    fn close(mut self) {
+        self.ask("shutdown", Value::Null);
+        self.tell("exit", Value::Null);
+        self.server.take().expect("a server").join().expect("an orderly end");
+    }
+}
+
+const SCENE: &str = "\
+Scene(
+    background: 1,
+    materials: { \"red\": Diffuse(albedo: \"#ff0000\") },
+    objects: [Sphere(center: (0, 0, 0), radus: 1, material: \"red\")],
+)
+";
+
+#[test]
+fn a_scene_is_mended_and_laid_out() {
+    let mut editor = Editor::open("file:///scenes/a.ron", SCENE);
+    let told = editor.diagnostics();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert_eq!(told[0]["range"]["start"], json!({ "line": 3, "character": 40 }));
+    assert!(told[0]["message"].as_str().expect("text").contains("radus"));
+    let uri = editor.uri.clone();
+    let range = told[0]["range"].clone();
+    let context = json!({ "diagnostics": told });
+    let document = json!({ "uri": uri });
+    let actions = editor.ask(
+        "textDocument/codeAction",
+        json!({ "textDocument": document, "range": range, "context": context }),
+    );
+    assert_eq!(actions[0]["edit"]["changes"][&uri][0]["newText"], "radius");
+    editor.write(&SCENE.replace("radus", "radius"));
+    assert_eq!(editor.diagnostics(), Vec::<Value>::new());
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    let tidy = editor.ask("textDocument/formatting", json!({ "textDocument": document, "options": options }));
+    assert!(tidy[0]["newText"].as_str().expect("text").contains("        Sphere(center: (0, 0, 0), radius: 1"));
+    editor.close();
+}
+
+#[test]
+fn words_and_names_are_known() {
+    let text = SCENE.replace("radus: 1, ", "");
+    let mut editor = Editor::open("file:///scenes/a.ron", &text);
+    let column = text.lines().nth(3).expect("a line").find("material").expect("a word") as u32;
+    let items = editor.at("textDocument/completion", 3, column);
+    let labels: Vec<&str> =
+        items.as_array().expect("a list").iter().map(|item| item["label"].as_str().expect("text")).collect();
+    assert!(labels.contains(&"radius") && !labels.contains(&"center"), "{labels:?}");
+    let hover = editor.at("textDocument/hover", 3, column + 2);
+    assert!(hover["contents"]["value"].as_str().expect("text").contains("**material**"));
+    let name = column + "material: \"r".len() as u32;
+    let definition = editor.at("textDocument/definition", 3, name);
+    assert_eq!(definition["range"]["start"], json!({ "line": 2, "character": 18 }));
+    let uri = editor.uri.clone();
+    let place = json!({ "line": 3, "character": name });
+    let renamed = editor
+        .ask("textDocument/rename", json!({ "textDocument": { "uri": uri }, "position": place, "newName": "crimson" }));
+    assert_eq!(renamed["changes"][&uri].as_array().expect("edits").len(), 2);
+    let refused = editor
+        .response("textDocument/rename", json!({ "textDocument": { "uri": uri }, "position": place, "newName": "" }));
+    assert!(refused.error.expect("refused").message.contains("letter"));
+    let outline = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": uri } }));
+    assert_eq!(outline[1]["children"][0]["name"], "red");
+    let colors = editor.ask("textDocument/documentColor", json!({ "textDocument": { "uri": uri } }));
+    assert_eq!(colors[0]["color"], json!({ "red": 1.0, "green": 0.0, "blue": 0.0, "alpha": 1.0 }));
+    let blue = json!({ "red": 0.0, "green": 0.0, "blue": 1.0, "alpha": 1.0 });
+    let range = colors[0]["range"].clone();
+    let texts = editor
+        .ask("textDocument/colorPresentation", json!({ "textDocument": { "uri": uri }, "color": blue, "range": range }));
+    assert_eq!(texts[0]["label"], "\"#0000ff\"");
+    assert!(editor.response("textDocument/nothing", json!({})).error.is_some());
+    assert!(editor.response("textDocument/hover", json!({ "wrong": 1 })).error.is_some());
+    editor.close();
+}
+
+/// Files are looked at when a scene is opened and saved, and offered by name.
+#[test]
+fn files_are_looked_at() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("gem.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    std::fs::create_dir(folder.path().join("more")).expect("a folder");
+    let uri = format!("file://{}", folder.path().join("a b.ron").display()).replace(' ', "%20");
+    let text = "Scene(background: 1, objects: [Mesh(file: \"gen.obj\")])";
+    let mut editor = Editor::open(&uri, text);
+    assert!(editor.diagnostics().is_empty());
+    let told = editor.diagnostics();
+    assert!(told[0]["message"].as_str().expect("text").contains("gem.obj"), "{told:?}");
+    editor.write(&text.replace("gen.obj", ""));
+    let items = editor.at("textDocument/completion", 0, 43);
+    let labels: Vec<&Value> = items.as_array().expect("a list").iter().map(|item| &item["label"]).collect();
+    assert_eq!(labels, ["gem.obj", "more/"]);
+    editor.write(&text.replace("gen", "gem"));
+    assert!(editor.diagnostics().is_empty());
+    editor.tell("textDocument/didSave", json!({ "textDocument": { "uri": uri } }));
+    assert!(editor.diagnostics().is_empty() && editor.diagnostics().is_empty());
+    editor.close();
+}
+
+/// A hundred edits, one letter each, from nothing to a scene: the server answers between them all.
+#[test]
+fn a_scene_is_typed_letter_by_letter() {
+    let whole = SCENE.replace("radus", "radius");
+    let mut editor = Editor::open("untitled:Untitled-1", "");
+    for end in (0..=whole.len()).step_by(2) {
+        editor.write(&whole[..end]);
+        let last = whole[..end].lines().count().max(1) as u32 - 1;
+        let uri = editor.uri.clone();
+        editor.at("textDocument/completion", last, 1000);
+        editor.at("textDocument/hover", last, 3);
+        editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": uri } }));
+    }
+    editor.write(&whole);
+    assert!(editor.diagnostics().is_empty());
+    editor.close();
+}

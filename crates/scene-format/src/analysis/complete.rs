@@ -1,0 +1,249 @@
+//! What may stand at the cursor.
+
+use super::hover::{default_text, of_field};
+use super::names;
+use super::place::{Expected, expected, way};
+use crate::expression::functions;
+use crate::files::FileKind;
+use crate::read::{REPEAT, expected as takes};
+use crate::schema::{Content, EnumDef, FieldDef, StructDef, Type, prose};
+use crate::syntax::Syntax;
+use std::ops::Range;
+
+/// What a proposal is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompletionKind {
+    /// The name of a field.
+    Field,
+    /// A kind: `Sphere`, `Diffuse`.
+    Kind,
+    /// A name that the scene gives.
+    Name,
+    /// A value as it stands.
+    Value,
+    /// A function of expressions.
+    Function,
+}
+
+/// A proposal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// What is shown, and what is looked for.
+    pub label: String,
+    /// What it is.
+    pub kind: CompletionKind,
+    /// A few words beside it.
+    pub detail: String,
+    /// What it means, as Markdown.
+    pub documentation: String,
+    /// What is written, with places to fill in as `$1` and `${2:default}`, as editors know them.
+    pub snippet: String,
+}
+
+/// The proposals at a cursor.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Completions {
+    /// What they replace.
+    pub range: Range<usize>,
+    /// Best first.
+    pub items: Vec<Completion>,
+    /// Files of this kind may stand here, too: names relative to the scene's folder, of which this is begun.
+    pub files: Option<(FileKind, String)>,
+}
+
+/// What may stand at a byte.
+pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
+    let way = way(text, syntax, byte);
+    let mut out = Completions { range: way.word.clone(), ..Completions::default() };
+    if way.in_comment {
+        return out;
+    }
+    let begun = &text[way.word.clone()];
+    if way.quoted.is_some() && begun.trim_start().starts_with('=') {
+        return in_expression(text, syntax, byte, begun);
+    }
+    let Some(expected) = expected(&way, syntax) else { return out };
+    match expected {
+        Expected::Field(_) if way.quoted.is_some() => {}
+        Expected::Field(def) => {
+            let fields = def.fields.iter().filter(|field| !way.written.iter().any(|written| written == field.name));
+            out.items.extend(fields.map(|field| of_name(field, syntax)));
+        }
+        Expected::KindAsKey(kind) => kinds(kind, &mut |def| {
+            for variant in def.variants.iter().filter(|variant| !matches!(variant.content, Content::Unit)) {
+                out.items.push(of_variant(variant.name, prose(variant.doc), format!("{} = {{ $0 }}", variant.name)));
+            }
+        }),
+        Expected::Value(kind, field) => value(text, syntax, kind, field, &way, &mut out),
+    }
+    out
+}
+
+/// The proposal of a field's name.
+fn of_name(field: &'static FieldDef, syntax: Syntax) -> Completion {
+    let sign = if syntax == Syntax::Ron { ": " } else { " = " };
+    Completion {
+        label: field.name.to_owned(),
+        kind: CompletionKind::Field,
+        detail: takes(field),
+        documentation: of_field(field, syntax),
+        snippet: format!("{}{sign}{}", field.name, place(field, syntax, 0)),
+    }
+}
+
+fn of_variant(name: &str, documentation: String, snippet: String) -> Completion {
+    Completion { label: name.to_owned(), kind: CompletionKind::Kind, detail: String::new(), documentation, snippet }
+}
+
+/// Where a value is filled in, with the brackets that it has in any case.
+fn place(field: &FieldDef, syntax: Syntax, number: usize) -> String {
+    let inner = match default_text(field, syntax) {
+        Some(default) if number > 0 => format!("${{{number}:{}}}", escaped(&default)),
+        _ => format!("${number}"),
+    };
+    match field.kind {
+        Type::Vector if inner == format!("${number}") => match syntax {
+            Syntax::Ron => format!("({inner})"),
+            Syntax::Toml => format!("[{inner}]"),
+        },
+        Type::List(_) => format!("[{}]", if inner.contains('[') { format!("${number}") } else { inner }),
+        Type::Text | Type::File => format!("\"${number}\""),
+        _ => inner,
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
+}
+
+/// Calls for every choice that a type leaves.
+fn kinds(kind: Type, each: &mut dyn FnMut(&'static EnumDef)) {
+    match kind {
+        Type::Enum(def) => each(def),
+        Type::Optional(inner) | Type::List(inner) => kinds(*inner, each),
+        Type::OneOf(all) => all.iter().for_each(|kind| kinds(*kind, each)),
+        _ => {}
+    }
+}
+
+fn value(
+    text: &str,
+    syntax: Syntax,
+    kind: Type,
+    field: Option<&'static FieldDef>,
+    way: &super::place::Way,
+    out: &mut Completions,
+) {
+    let quoted = way.quoted.is_some();
+    if let Some(file) = field.and_then(|field| field.rule.file)
+        && quoted
+    {
+        out.files = Some((file, text[way.word.clone()].to_owned()));
+        return;
+    }
+    let in_list = matches!(way.steps.last(), Some(super::place::Step::Item));
+    match kind {
+        Type::Optional(inner) => {
+            if !quoted {
+                let none = if syntax == Syntax::Ron { "None" } else { "\"None\"" };
+                out.items.push(plain(none, "nothing"));
+            }
+            return value(text, syntax, *inner, field, way, out);
+        }
+        Type::OneOf(all) => {
+            let names = field.is_some_and(|field| field.name == "material") && matches!(all, [Type::Text, ..]);
+            if names {
+                let (materials, _) = names::defined(text, syntax);
+                let written = |name: &str| if quoted { name.to_owned() } else { format!("\"{name}\"") };
+                out.items.extend(materials.iter().map(|name| Completion {
+                    label: name.clone(),
+                    kind: CompletionKind::Name,
+                    detail: "a material of this scene".to_owned(),
+                    documentation: String::new(),
+                    snippet: escaped(&written(name)),
+                }));
+            }
+            all.iter().filter(|kind| !matches!(kind, Type::Text)).for_each(|kind| value(text, syntax, *kind, field, way, out));
+            return;
+        }
+        Type::Enum(def) if !quoted || syntax == Syntax::Toml => {
+            for variant in def.variants {
+                let (name, doc) = (variant.name, prose(variant.doc));
+                match (&variant.content, syntax) {
+                    (Content::Unit, Syntax::Ron) => out.items.push(of_variant(name, doc, name.to_owned())),
+                    (Content::Unit, Syntax::Toml) if quoted => out.items.push(of_variant(name, doc, name.to_owned())),
+                    (Content::Unit, Syntax::Toml) => out.items.push(of_variant(name, doc, format!("\"{name}\""))),
+                    (_, Syntax::Toml) if quoted => {}
+                    (Content::Value(_), Syntax::Ron) => out.items.push(of_variant(name, doc, format!("{name}($0)"))),
+                    (Content::Value(_), Syntax::Toml) => {
+                        out.items.push(of_variant(name, doc, format!("{{ {name} = $0 }}")));
+                    }
+                    (Content::Struct(fields), syntax) => {
+                        out.items.push(of_variant(name, doc, with_fields(name, fields, syntax)));
+                    }
+                }
+            }
+            if in_list && syntax == Syntax::Ron {
+                out.items.push(of_variant(REPEAT.name, prose(REPEAT.doc), with_fields(REPEAT.name, &REPEAT, syntax)));
+            }
+        }
+        Type::Struct(def) if !quoted && syntax == Syntax::Ron => {
+            out.items.push(of_variant(def.name, prose(def.doc), format!("{}($0)", def.name)));
+        }
+        Type::Bool if !quoted => out.items.extend(["true", "false"].map(|word| plain(word, ""))),
+        _ => {}
+    }
+    if let Some(field) = field.filter(|_| !quoted)
+        && !matches!(kind, Type::Bool | Type::Enum(_) | Type::Struct(_))
+        && let Some(default) = default_text(field, syntax)
+    {
+        let item = Completion { documentation: of_field(field, syntax), ..plain(&default, &format!("default; {}", takes(field))) };
+        if !out.items.iter().any(|other| other.label == item.label) {
+            out.items.push(item);
+        }
+    }
+}
+
+fn plain(label: &str, detail: &str) -> Completion {
+    Completion {
+        label: label.to_owned(),
+        kind: CompletionKind::Value,
+        detail: detail.to_owned(),
+        documentation: String::new(),
+        snippet: escaped(label),
+    }
+}
+
+/// A kind with the fields that must be written.
+fn with_fields(name: &str, def: &StructDef, syntax: Syntax) -> String {
+    let must = def.fields.iter().filter(|field| field.default.is_none());
+    let sign = if syntax == Syntax::Ron { ": " } else { " = " };
+    let fields: Vec<String> =
+        must.enumerate().map(|(k, field)| format!("{}{sign}{}", field.name, place(field, syntax, k + 1))).collect();
+    let inner = if fields.is_empty() { "$0".to_owned() } else { fields.join(", ") };
+    match syntax {
+        Syntax::Ron => format!("{name}({inner})"),
+        Syntax::Toml => format!("{{ {name} = {{ {inner} }} }}"),
+    }
+}
+
+/// Within a text that begins with `=`: values and functions.
+fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Completions {
+    let letters = begun.bytes().rev().take_while(|byte| *byte == b'_' || byte.is_ascii_alphanumeric()).count();
+    let (_, vars) = names::defined(text, syntax);
+    let mut items: Vec<Completion> = vars
+        .into_iter()
+        .map(|name| Completion {
+            kind: CompletionKind::Name,
+            detail: "a value of this scene".to_owned(),
+            ..plain(&name, "")
+        })
+        .collect();
+    items.extend(functions().map(|(name, call)| Completion {
+        kind: CompletionKind::Function,
+        detail: call.to_owned(),
+        snippet: format!("{name}($0)"),
+        ..plain(name, "")
+    }));
+    Completions { range: byte - letters..byte, items, files: None }
+}

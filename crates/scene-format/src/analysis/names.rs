@@ -1,0 +1,168 @@
+//! Names that a person gives: of materials, and of values in `vars`.
+
+use super::hover::range;
+use super::visit::{tree, visit};
+use crate::diagnostic::Edit;
+use crate::diagnostic::Span;
+use crate::expression::{is_known, is_name};
+use crate::read::is_expression;
+use crate::schema::Type;
+use crate::syntax::Syntax;
+use crate::tree::Kind;
+use std::ops::Range;
+
+/// What a name is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Of {
+    Material,
+    Var,
+}
+
+/// A place where a name stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Place {
+    of: Of,
+    name: String,
+    /// The name without quotes.
+    range: Range<usize>,
+    /// Quotes stand around it, or an expression does.
+    is_quoted: bool,
+    defines: bool,
+}
+
+/// The name that stands at a byte: its letters.
+pub fn name_at(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
+    places(text, syntax).into_iter().find(|place| holds_byte(&place.range, byte)).map(|place| place.range)
+}
+
+/// Where the name at a byte is defined.
+pub fn definition(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
+    let places = places(text, syntax);
+    let at = places.iter().find(|place| holds_byte(&place.range, byte))?;
+    let same = |place: &&Place| place.defines && place.of == at.of && place.name == at.name;
+    // Of several the last before it: names within hide those around.
+    let before = places.iter().filter(same).rfind(|place| place.range.start <= at.range.start);
+    before.or_else(|| places.iter().find(same)).map(|place| place.range.clone())
+}
+
+/// All places of the name at a byte.
+pub fn occurrences(text: &str, syntax: Syntax, byte: usize) -> Vec<Range<usize>> {
+    of_one_name(text, syntax, byte).into_iter().map(|place| place.range).collect()
+}
+
+/// The edits that give the thing at a byte another name.
+///
+/// # Errors
+/// Why it cannot have that name, in a sentence.
+pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec<Edit>, String> {
+    let found = of_one_name(text, syntax, byte);
+    let Some(first) = found.first() else { return Err("no name stands here".to_owned()) };
+    let of = first.of;
+    if of == Of::Var && is_known(name) {
+        return Err(format!("{name} means something in expressions"));
+    }
+    if of == Of::Var && !is_name(name) {
+        return Err("the name of a value has letters, digits and underscores, no digit first".to_owned());
+    }
+    if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
+        return Err("a name has at least one letter, no quotes and no backslash".to_owned());
+    }
+    if places(text, syntax).iter().any(|place| place.of == of && place.name == name && place.name != first.name) {
+        return Err(format!("there is another {name:?} already"));
+    }
+    let is_bare = name.bytes().all(|byte| matches!(byte, b'_' | b'-') || byte.is_ascii_alphanumeric());
+    let edit = |place: Place| {
+        let written = if place.is_quoted || is_bare { name.to_owned() } else { format!("\"{name}\"") };
+        let span = Span { source: 0, start: place.range.start as u32, end: place.range.end as u32 };
+        Edit { span, replacement: written }
+    };
+    Ok(found.into_iter().map(edit).collect())
+}
+
+/// The names of materials, and of values at the top of the scene, in order of writing.
+pub(super) fn defined(text: &str, syntax: Syntax) -> (Vec<String>, Vec<String>) {
+    let (mut materials, mut vars) = (Vec::new(), Vec::new());
+    for place in places(text, syntax).into_iter().filter(|place| place.defines) {
+        let list = if place.of == Of::Material { &mut materials } else { &mut vars };
+        if !list.contains(&place.name) {
+            list.push(place.name);
+        }
+    }
+    (materials, vars)
+}
+
+fn holds_byte(range: &Range<usize>, byte: usize) -> bool {
+    (range.start..=range.end).contains(&byte)
+}
+
+fn of_one_name(text: &str, syntax: Syntax, byte: usize) -> Vec<Place> {
+    let places = places(text, syntax);
+    let Some(at) = places.iter().find(|place| holds_byte(&place.range, byte)).cloned() else { return Vec::new() };
+    places.into_iter().filter(|place| place.of == at.of && place.name == at.name).collect()
+}
+
+/// All places of names, in order.
+fn places(text: &str, syntax: Syntax) -> Vec<Place> {
+    let tree = tree(text, syntax);
+    let mut found = Vec::new();
+    visit(&tree, &mut |visit| {
+        let field = visit.field.map(|(field, _)| field.name);
+        if let Some(key) = visit.name {
+            let of = match (visit.section, visit.kind) {
+                ("materials", _) => Some(Of::Material),
+                (_, Type::Value) => Some(Of::Var),
+                _ => None,
+            };
+            if let Some(of) = of {
+                found.push(of_text(of, key.lexeme(), key.span(), true, key.text().into_owned()));
+            }
+        }
+        if visit.item.kind() != Kind::Text {
+            return;
+        }
+        if is_expression(visit.item) {
+            in_expression(visit.item.lexeme(), visit.item.span().start as usize, &mut found);
+        } else if field == Some("material") && matches!(visit.kind, Type::Text) {
+            let item = visit.item;
+            found.push(of_text(Of::Material, item.lexeme(), item.span(), false, item.text().into_owned()));
+        } else if field == Some("index") && matches!(visit.kind, Type::Text) {
+            let item = visit.item;
+            found.push(of_text(Of::Var, item.lexeme(), item.span(), true, item.text().into_owned()));
+        }
+    });
+    found.sort_by_key(|place| place.range.start);
+    found.dedup();
+    found
+}
+
+fn of_text(of: Of, lexeme: &str, span: Span, defines: bool, name: String) -> Place {
+    let is_quoted = lexeme.len() >= 2 && lexeme.starts_with(['"', '\'']);
+    let inset = usize::from(is_quoted);
+    let whole = range(span);
+    Place { of, name, range: whole.start + inset..whole.end - inset, is_quoted, defines }
+}
+
+/// The names in an expression that are no functions and no parts.
+fn in_expression(lexeme: &str, start: usize, found: &mut Vec<Place>) {
+    let bytes = lexeme.as_bytes();
+    let is_word = |byte: u8| byte == b'_' || byte.is_ascii_alphanumeric();
+    let mut at = 0;
+    while at < bytes.len() {
+        let from = at;
+        while at < bytes.len() && is_word(bytes[at]) {
+            at += 1;
+        }
+        if at == from {
+            at += 1;
+            continue;
+        }
+        let before = lexeme[..from].trim_end().bytes().next_back();
+        let behind = lexeme[at..].trim_start().bytes().next();
+        let is_name = !bytes[from].is_ascii_digit() && !matches!(before, Some(b'.' | b'#')) && behind != Some(b'(');
+        let name = &lexeme[from..at];
+        if is_name && !is_known(name) {
+            let range = start + from..start + at;
+            found.push(Place { of: Of::Var, name: name.to_owned(), range, is_quoted: true, defines: false });
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Cursors are written as `|` in the texts.
+
+use super::*;
+use crate::diagnostic::Edit;
+use crate::files::FileKind;
+use crate::syntax::Syntax::{Ron, Toml};
+use crate::{Syntax, examples, load_str};
+use std::path::Path;
+
+/// A text and where its cursor stands.
+fn cursor(text: &str) -> (String, usize) {
+    (text.replacen('|', "", 1), text.find('|').expect("a cursor"))
+}
+
+fn labels(text: &str, syntax: Syntax) -> Vec<String> {
+    let (text, at) = cursor(text);
+    complete(&text, syntax, at).items.into_iter().map(|item| item.label).collect()
+}
+
+fn offers(text: &str, syntax: Syntax, wanted: &[&str], unwanted: &[&str]) {
+    let labels = labels(text, syntax);
+    for word in wanted {
+        assert!(labels.iter().any(|label| label == word), "{word} is not offered: {labels:?}\n{text}");
+    }
+    for word in unwanted {
+        assert!(!labels.iter().any(|label| label == word), "{word} is offered: {labels:?}\n{text}");
+    }
+}
+
+#[test]
+fn fields_are_offered_where_their_names_stand() {
+    offers("Scene(ba|", Ron, &["background", "camera", "objects"], &["radius", "Sphere"]);
+    offers("Scene(background: 1, |)", Ron, &["camera"], &["background"]);
+    offers("Scene(objects: [Sphere(center: (0, 0, 0), |", Ron, &["radius", "material"], &["center", "fov"]);
+    offers("Scene(objects: [Sphere(radius: 1), Box(size: 1, ma|", Ron, &["material", "center"], &["size", "radius"]);
+    offers("Scene(camera: Camera(fov: 4, |), objects: [", Ron, &["position"], &["fov"]);
+    offers("Scene(materials: { \"a\": Diffuse(|", Ron, &["albedo"], &["ior"]);
+    offers("Scene(effects: (|", Ron, &["exposure"], &[]);
+    offers("Scene(objects: [Repeat(count: 3, items: [Sphere(|", Ron, &["radius"], &["count"]);
+    offers("[[objects]]\nRepeat = { count = 2, |", Toml, &["items"], &["count"]);
+    offers("[[objects.Repeat.items]]\n|", Toml, &["Sphere"], &["count"]);
+    offers("Scene(objects: [Repeat(|", Ron, &["count", "items", "vars"], &["radius"]);
+    offers("// a ( [ {\n/* \"( */ Scene(|", Ron, &["camera"], &[]);
+    offers("|", Toml, &["camera", "background", "objects"], &["radius"]);
+    offers("background = 1\n[camera]\nfov = 40\n|", Toml, &["position"], &["fov", "background"]);
+    offers("[[objects]]\n|", Toml, &["Sphere", "Mesh"], &["radius"]);
+    offers("[[objects]]\nSphere = { center = [0, 0, 0], |", Toml, &["radius"], &["center"]);
+    offers("[objects.Sphere]\nra|", Toml, &["radius"], &[]);
+    offers("[materials]\nred = { Diffuse = { |", Toml, &["albedo"], &[]);
+    offers("[materials.red.Diffuse]\n|", Toml, &["albedo"], &[]);
+    offers("[cam|", Toml, &["camera"], &["fov"]);
+    offers("effects.|", Toml, &["exposure"], &[]);
+}
+
+#[test]
+fn values_are_offered_where_values_stand() {
+    offers("Scene(objects: [|", Ron, &["Sphere", "Mesh", "Repeat"], &["Diffuse", "center"]);
+    offers("Scene(objects: [Sphere(material: |", Ron, &["Diffuse", "Mirror"], &["Sphere"]);
+    offers("Scene(materials: { \"red\": |", Ron, &["Diffuse"], &["red"]);
+    offers("Scene(materials: { \"red\": Mirror() }, objects: [Sphere(material: \"|\")])", Ron, &["red"], &["Diffuse"]);
+    offers("Scene(effects: Effects(tone_map: |", Ron, &["Filmic", "None"], &[]);
+    offers("Scene(objects: [Box(transform: [|", Ron, &["Rotate", "Translate"], &["Sphere"]);
+    offers("Scene(vars: { \"high\": 2 }, objects: [Sphere(radius: \"=h|\")])", Ron, &["high", "sin"], &["Sphere"]);
+    offers("Scene(materials: { \"a\": Diffuse(albedo: |", Ron, &["Texture", "Checkerboard", "(0.8, 0.8, 0.8)"], &["Diffuse"]);
+    offers("[effects]\ntone_map = |", Toml, &["Filmic"], &[]);
+    offers("[effects]\ntone_map = \"|", Toml, &["Filmic"], &[]);
+    offers("[materials]\nred = |", Toml, &["Diffuse"], &["red"]);
+    offers("[materials]\nred = \"Mirror\"\n[[objects]]\nSphere = { material = \"|", Toml, &["red"], &[]);
+    offers("objects = [{ |", Toml, &["Sphere"], &[]);
+    assert!(labels("Scene( // |", Ron).is_empty() && labels("# |", Toml).is_empty());
+    let (text, at) = cursor("Scene(objects: [Mesh(file: \"assets/c|\")])");
+    assert_eq!(complete(&text, Ron, at).files, Some((FileKind::Mesh, "assets/c".to_owned())));
+}
+
+/// What is proposed for a kind loads, once its places are filled in.
+#[test]
+fn proposals_are_words_of_the_language() {
+    let (text, at) = cursor("Scene(background: 1, objects: [|])");
+    for item in complete(&text, Ron, at).items.iter().filter(|item| item.label == "Sphere" || item.label == "Box") {
+        let filled = item.snippet.replace("($1)", "(0, 0, 0)").replace("$2", "1").replace("$1", "1").replace("$0", "");
+        let scene = text.replace("[]", &format!("[{filled}]"));
+        assert!(load_str("s", &scene, Ron, Path::new(""), &[]).is_ok(), "{scene}");
+    }
+}
+
+#[test]
+fn words_are_explained() {
+    let (text, at) = cursor("Scene(objects: [Sphere(center: (0, 0, 0), rad|ius: 1)])");
+    let found = hover(&text, Ron, at).expect("a word");
+    assert_eq!(&text[found.range], "radius");
+    assert!(found.markdown.contains("a length > 0"), "{}", found.markdown);
+    let (text, at) = cursor("[[objects]]\nSph|ere = { radius = 1 }");
+    let found = hover(&text, Toml, at).expect("a word");
+    assert_eq!(&text[found.range], "Sphere");
+    assert!(found.markdown.contains("`radius`"), "{}", found.markdown);
+    let (text, at) = cursor("Scene(effects: Effects(tone_map: Fil|mic))");
+    assert!(hover(&text, Ron, at).expect("a word").markdown.contains("**Filmic**"));
+    assert_eq!(hover("Scene(background: 1)", Ron, 19), None);
+}
+
+const NAMES: &str = "\
+Scene(
+    vars: { \"h\": 2, \"d\": \"=2*h + sin(h)\" },
+    materials: { \"red\": Diffuse(albedo: \"#ff0000\") },
+    objects: [
+        Sphere(center: (0, \"=h\", 0), radius: 1, material: \"red\"),
+        Repeat(count: 3, items: [Sphere(center: \"=(i, h, d)\", radius: 1, material: \"red\")]),
+    ],
+)
+";
+
+#[test]
+fn names_are_found_and_renamed() {
+    let at = NAMES.rfind("\"red\"").expect("red") + 2;
+    let to = definition(NAMES, Ron, at).expect("defined");
+    assert_eq!((&NAMES[to.clone()], NAMES[..to.start].ends_with("materials: { \"")), ("red", true));
+    assert_eq!(occurrences(NAMES, Ron, at).len(), 3);
+    let at = NAMES.find("=h").expect("h") + 1;
+    assert_eq!(occurrences(NAMES, Ron, at).len(), 5);
+    assert_eq!(definition(NAMES, Ron, at).expect("defined").start, NAMES.find("\"h\"").expect("h") + 1);
+    let edits = rename(NAMES, Ron, at, "height").expect("a name");
+    let renamed = applied(NAMES, &edits);
+    assert!(renamed.contains("\"=2*height + sin(height)\"") && renamed.contains("=(i, height, d)"), "{renamed}");
+    load_str("s", &renamed, Ron, Path::new(""), &[]).expect("still right");
+    for bad in ["2h", "", "sin", "a b", "d"] {
+        assert!(rename(NAMES, Ron, at, bad).is_err(), "{bad}");
+    }
+    let toml = crate::convert("s", NAMES, Ron, Toml).expect("right");
+    let at = toml.find("red").expect("red");
+    let renamed = applied(&toml, &rename(&toml, Toml, at, "dark red").expect("a name"));
+    load_str("s", &renamed, Toml, Path::new(""), &[]).unwrap_or_else(|error| panic!("{error}\n{renamed}"));
+    assert_eq!(renamed.matches("dark red").count(), 3);
+}
+
+fn applied(text: &str, edits: &[Edit]) -> String {
+    let mut out = text.to_owned();
+    for edit in edits.iter().rev() {
+        out.replace_range(edit.span.start as usize..edit.span.end as usize, &edit.replacement);
+    }
+    out
+}
+
+#[test]
+fn colours_are_found_and_written() {
+    let found = colors(NAMES, Ron);
+    assert_eq!(found.len(), 1);
+    assert_eq!(&NAMES[found[0].range.clone()], "\"#ff0000\"");
+    assert_eq!(found[0].linear, [1.0, 0.0, 0.0]);
+    assert_eq!(color_texts([1.0, 0.0, 0.215_86], Ron), ["\"#ff0080\"".to_owned(), "(1, 0, 0.2159)".to_owned()]);
+    let three = "Scene(background: (0.1, 0.2, 0.3), lights: [SphereLight(radiance: (20, 1, 1))])";
+    let found = colors(three, Ron);
+    assert_eq!(found.iter().map(|color| &three[color.range.clone()]).collect::<Vec<_>>(), ["(0.1, 0.2, 0.3)"]);
+}
+
+#[test]
+fn the_outline_names_what_is_there() {
+    let outline = symbols(NAMES, Ron);
+    let sections: Vec<&str> = outline.iter().map(|symbol| symbol.name.as_str()).collect();
+    assert_eq!(sections, ["vars", "materials", "objects"]);
+    let names = |k: usize| outline[k].children.iter().map(|symbol| symbol.name.as_str()).collect::<Vec<_>>();
+    assert_eq!((names(0), names(1), names(2)), (vec!["h", "d"], vec!["red"], vec!["Sphere", "Sphere"]));
+    assert_eq!(outline[1].children[0].detail, "Diffuse");
+    for symbol in outline.iter().flat_map(|section| section.children.iter().chain([section])) {
+        assert!(symbol.range.start <= symbol.head.start && symbol.head.end <= symbol.range.end, "{symbol:?}");
+    }
+}
+
+/// Whatever stands in a text, and wherever the cursor: no panic, and ranges are of the text.
+#[test]
+fn half_written_texts_are_looked_at() {
+    for example in examples().into_iter().step_by(5) {
+        let toml = crate::convert("s", &example.ron, Ron, Toml).expect("right");
+        for (text, syntax) in [(example.ron, Ron), (toml, Toml)] {
+            for at in (0..text.len()).filter(|at| text.is_char_boundary(*at)).step_by(7) {
+                for half in [&text[..at], &text[at..]] {
+                    let end = half.len();
+                    let found = complete(half, syntax, end);
+                    assert!(half.get(found.range).is_some());
+                    hover(half, syntax, end);
+                    definition(half, syntax, end / 2);
+                    for color in colors(half, syntax) {
+                        assert!(half.get(color.range).is_some());
+                    }
+                    for symbol in symbols(half, syntax) {
+                        assert!(half.get(symbol.range).is_some() && half.get(symbol.head).is_some());
+                    }
+                }
+            }
+        }
+    }
+}

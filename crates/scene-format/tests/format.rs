@@ -1,0 +1,126 @@
+//! `format`: scenes as everybody's looks, with what a person put beside the words.
+
+mod common;
+
+use common::{FULL_RON, FULL_TOML};
+use scene_format::{Syntax, convert, examples, format, hash_hex, load_str};
+use std::path::Path;
+
+const MESSY_RON: &str = "\
+// Head
+
+
+
+Scene(  background:1, // sky
+
+
+    objects: [
+
+        // a ball
+
+        // on the floor
+        Sphere(center:(0,0,0),
+          radius: 1),
+
+
+        Sphere(center: (0, -1000, 0), radius: 999),
+    ],
+)
+
+
+// End
+
+";
+
+const TIDY_RON: &str = "\
+// Head
+
+Scene(
+    background: 1, // sky
+
+    objects: [
+        // a ball
+
+        // on the floor
+        Sphere(center: (0, 0, 0), radius: 1),
+
+        Sphere(center: (0, -1000, 0), radius: 999),
+    ],
+)
+
+// End
+";
+
+const MESSY_TOML: &str = "\
+# Head
+
+
+
+background = 1   # sky
+
+
+# much light
+effects = {exposure=1}
+[camera]
+
+position = [0,0,5]
+
+
+fov = 40
+[[objects]]
+# a ball
+Sphere = {center=[0,0,0],radius=1}
+
+
+
+";
+
+#[test]
+fn messy_scenes_become_tidy() {
+    assert_eq!(format("messy.ron", MESSY_RON, Syntax::Ron).expect("right"), TIDY_RON);
+    let tidy = format("messy.toml", MESSY_TOML, Syntax::Toml).expect("right");
+    let lines = ["# Head\n\nbackground = 1 # sky\n", "position = [0, 0, 5]\n\nfov = 40\n", "# a ball\ncenter = [0, 0, 0]\n"];
+    for line in lines {
+        assert!(tidy.contains(line), "{line:?} is not in\n{tidy}");
+    }
+    assert!(!tidy.contains("\n\n\n") && tidy.ends_with("radius = 1\n"), "{tidy}");
+}
+
+#[test]
+fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
+    let mut texts = vec![
+        (MESSY_RON.to_owned(), Syntax::Ron),
+        (MESSY_TOML.to_owned(), Syntax::Toml),
+        (FULL_RON.to_owned(), Syntax::Ron),
+        (FULL_TOML.to_owned(), Syntax::Toml),
+    ];
+    for example in examples() {
+        let toml = convert("example", &example.ron, Syntax::Ron, Syntax::Toml).expect("right");
+        texts.extend([(example.ron, Syntax::Ron), (toml, Syntax::Toml)]);
+    }
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    for folder in [folder.to_owned(), folder.join("gallery")] {
+        for entry in std::fs::read_dir(folder).expect("scenes") {
+            let path = entry.expect("a file").path();
+            let Some(syntax) = Syntax::from_path(&path) else { continue };
+            let text = std::fs::read_to_string(&path).expect("text");
+            let comments = |text: &str| text.lines().filter(|line| line.contains("// ")).count();
+            if syntax == Syntax::Ron {
+                let tidy = format("scene", &text, syntax).expect("right");
+                assert_eq!(comments(&tidy), comments(&text), "{tidy}");
+            }
+            texts.push((text, syntax));
+        }
+    }
+    let hash = |text: &str, syntax| hash_hex(&load_str("s", text, syntax, Path::new(""), &[]).expect("right").scene);
+    for (text, syntax) in texts {
+        let tidy = format("scene", &text, syntax).expect("right");
+        assert_eq!(hash(&tidy, syntax), hash(&text, syntax), "{tidy}");
+        assert_eq!(format("scene", &tidy, syntax).expect("right"), tidy, "{text}");
+    }
+}
+
+#[test]
+fn a_wrong_scene_is_not_touched() {
+    assert!(format("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron).is_err());
+}

@@ -1,0 +1,50 @@
+//! The scenes that a command line names: files, and folders of them.
+
+use crate::failure::Failure;
+use scene_format::Syntax;
+use std::path::{Path, PathBuf};
+
+/// The scenes of files and folders, those of a folder in order of their names.
+///
+/// # Errors
+/// A folder has none.
+pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut scenes = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            let before = scenes.len();
+            find(path, &mut scenes);
+            if scenes.len() == before {
+                return Err(Failure::wrong(format!("there is no scene in the folder {}", path.display())));
+            }
+        } else {
+            scenes.push(path.clone());
+        }
+    }
+    Ok(scenes)
+}
+
+/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` that has objects. Hidden folders are left out.
+fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        // A link may lead back to where it stands.
+        if path.is_dir() && !path.is_symlink() && !hidden {
+            find(&path, scenes);
+        } else if path.is_file() && is_scene(&path) {
+            scenes.push(path);
+        }
+    }
+}
+
+/// TOML files are many things.
+fn is_scene(path: &Path) -> bool {
+    match Syntax::from_path(path) {
+        Some(Syntax::Ron) => true,
+        Some(Syntax::Toml) => std::fs::read(path).is_ok_and(|bytes| bytes.windows(7).any(|word| word == b"objects")),
+        None => false,
+    }
+}
