@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 fn scenes() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let mut paths: Vec<PathBuf> = [root.clone(), root.join("gallery")]
+    let mut paths: Vec<PathBuf> = [root.clone(), root.join("gallery"), root.join("cookbook")]
         .iter()
         .flat_map(|folder| std::fs::read_dir(folder).unwrap())
         .map(|entry| entry.unwrap().path())
@@ -34,8 +34,8 @@ fn load(path: &Path) -> SceneDesc {
 #[test]
 fn all_scenes_compile() {
     let scenes = scenes();
-    // Nine figures, two of them in TOML too, and a gallery of eight.
-    assert_eq!(scenes.len(), 19);
+    // Nine figures, two of them in TOML too, a gallery, a cookbook.
+    assert!(scenes.len() >= 11 + 8 + 20, "{scenes:?}");
     for path in scenes {
         let scene = match tracer_core::compile(&load(&path)) {
             Ok(scene) => scene,
@@ -55,4 +55,22 @@ fn twins_in_toml_say_the_same() {
         let (toml, ron) = (load(path), load(&path.with_extension("ron")));
         assert_eq!(scene_format::hash_hex(&toml), scene_format::hash_hex(&ron), "{}", path.display());
     }
+}
+
+/// `docs/cookbook.md` has every recipe with its picture, and no others.
+#[test]
+fn the_cookbook_is_complete() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let page = std::fs::read_to_string(root.join("docs/cookbook.md")).unwrap();
+    let mut recipes = 0;
+    for path in scenes().iter().filter(|path| path.parent().is_some_and(|folder| folder.ends_with("cookbook"))) {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert!(page.contains(&format!("](cookbook/{name}.jpg)](../scenes/cookbook/{name}.ron)")), "{name}");
+        assert!(root.join(format!("docs/cookbook/{name}.jpg")).is_file(), "{name} has no picture");
+        let text = std::fs::read_to_string(path).unwrap();
+        let about = text.lines().next().and_then(|line| line.strip_prefix("// ")).unwrap_or_default();
+        assert!(!about.is_empty() && page.contains(about), "{name}: its first line is not in the page");
+        recipes += 1;
+    }
+    assert_eq!(page.matches("## ..").count(), recipes);
 }
