@@ -1,20 +1,18 @@
-//! Programs that make what the repository holds, and [`mutants`] and [`truth`], which try its tests and its pictures; but for these and [`golden`], each is a pure function from nothing to files: no randomness,
-//! no network.
+//! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`] its pictures,
+//! [`layers`] its source, [`prove`] all that takes longer. [`cat`] and [`gallery`] are pure functions from nothing to
+//! files: no randomness, no network.
 
 #![forbid(unsafe_code)]
 
 pub mod cat;
+mod file;
 pub mod gallery;
 pub mod golden;
+pub mod layers;
 pub mod mutants;
 pub mod noise;
 pub mod picture;
+pub mod prove;
 pub mod truth;
 
-/// A file to be written.
-pub struct File {
-    /// Where, from the root of the repository.
-    pub path: &'static str,
-    /// What it holds.
-    pub bytes: Vec<u8>,
-}
+pub use file::File;

@@ -16,6 +16,8 @@ enum Command {
     /// Golden pictures.
     #[command(subcommand)]
     Golden(Golden),
+    /// Shows which room of each crate uses which, and fails where an arrow points upward (crates/xtask/layers.toml).
+    Layers,
     /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not
     /// noticed.
     ///
@@ -29,6 +31,18 @@ enum Command {
         /// Seconds that the tests of one fault may run.
         #[arg(long, default_value_t = 300)]
         limit: u64,
+    },
+    /// Runs long proofs: those of CI, or those that are named. Installs what they need on Debian as root; else it says
+    /// what is missing.
+    Prove {
+        /// Proofs by name; those of CI when none is named.
+        names: Vec<String>,
+        /// All of them.
+        #[arg(long, conflicts_with = "names")]
+        all: bool,
+        /// Prints the names, what each proves and how long it takes, and ends.
+        #[arg(long)]
+        list: bool,
     },
     /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
     ///
@@ -86,6 +100,12 @@ fn main() -> anyhow::Result<()> {
         Command::Cat => xtask::cat::files()?,
         Command::Gallery => xtask::gallery::files()?,
         Command::Golden(Golden::Accept { cases, reason }) => return xtask::golden::accept(&root, &cases, &reason),
+        Command::Layers => {
+            let findings = xtask::layers::examine(&root, &xtask::layers::Rules::read(&root)?)?;
+            print!("{}", xtask::layers::table(&findings));
+            anyhow::ensure!(findings.faults.is_empty(), "{}", findings.faults.join("\n"));
+            return Ok(());
+        }
         Command::Mutants { list: true, .. } => {
             for mutant in xtask::mutants::all() {
                 println!("{:45} {}", mutant.name, mutant.file);
@@ -95,6 +115,11 @@ fn main() -> anyhow::Result<()> {
         Command::Mutants { names, limit, .. } => {
             return xtask::mutants::run(&root, &xtask::mutants::Options { names, limit });
         }
+        Command::Prove { list: true, .. } => {
+            print!("{}", xtask::prove::list());
+            return Ok(());
+        }
+        Command::Prove { names, all, .. } => return xtask::prove::run(&root, &xtask::prove::chosen(&names, all)?),
         Command::Truth { pairs: Some(pictures), kind, itself, .. } => {
             let failing = xtask::truth::pairs::run(pictures, &kind, itself)?;
             anyhow::ensure!(failing == 0, "{failing} pairs differ");

@@ -1,0 +1,46 @@
+//! The long proofs by name.
+
+use super::Need::{Cargo, File, Nightly, Program, Python};
+use super::When::{Always, Asked};
+use super::{Need, Proof, When};
+
+const fn proof(
+    name: &'static str,
+    when: When,
+    what: &'static str,
+    needs: &'static [Need],
+    commands: &'static [&'static str],
+) -> Proof {
+    Proof { name, when, what, needs, commands }
+}
+
+/// What the instructions are counted with.
+const GUNGRAUN: &[Need] = &[
+    Program("valgrind", "valgrind"),
+    Cargo("gungraun-runner", "gungraun-runner", "0.20.0"),
+    Program("cc", "gcc libc6-dev"),
+];
+
+/// What Mitsuba needs.
+const MITSUBA: &[Need] =
+    &[Python(&["mitsuba==3.9.1", "numpy"]), File("/usr/lib/x86_64-linux-gnu/libLLVM-19.so", "libllvm19")];
+
+/// All of them. A line each; CONTRIBUTING.md has a row for each.
+#[rustfmt::skip]
+pub const PROOFS: &[Proof] = &[
+    proof("instructions", Always, "the instructions of the hot paths stay below their limits; four minutes", GUNGRAUN, &["cd bench && cargo bench --locked --bench instructions"]),
+    proof("pairs", Asked, "the exact pairs of `xtask/tests/pairs.rs` with four times the pictures; ten minutes", &[], &["cargo xtask truth --pairs 40"]),
+    proof("truth", Asked, "random scenes, the default picture against the plain path tracer's or that of a scene that must look the same; an hour and a half", &[], &["cargo xtask truth --scenes 1000"]),
+    proof("statistics", Asked, "the statistical proofs with 16 times the samples; an hour", &[], &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"]),
+    proof("mutants", Asked, "faults seeded one at a time, of which a test must notice each; an hour", &[], &["cargo xtask mutants"]),
+    proof("watertight", Asked, "a hundred million rays at edges and vertices; minutes", &[], &["BVH_WATERTIGHT_RAYS=100000000 cargo test --locked -p tracer-core --test bvh_watertight"]),
+    proof("scene-mutants", Asked, "a hundred thousand broken scenes, read without a panic or a second's wait; minutes", &[], &["SCENE_MUTANTS=100000 cargo test --release --locked -p scene-format --test mutants"]),
+    proof("scene-mistakes", Asked, "sixty sorts of human mistakes at a thousand places of each scene; minutes", &[], &["SCENE_MISTAKES=1000 cargo test --release --locked -p scene-format --test mistakes"]),
+    proof("scene-memory", Asked, "the memory that reading takes, with files of 64 MB; minutes", &[], &["SCENE_MEMORY=64 cargo test --release --locked -p scene-format --test memory"]),
+    proof("mesh-mutants", Asked, "half a million broken meshes, read without a panic; minutes", &[], &["TRACER_MUTANTS=500000 cargo test --release --locked -p tracer-core --test mesh_mutations"]),
+    proof("goldens-release", Asked, "the goldens with all optimisations: the bytes are those of the profile `dev`; ten minutes", &[], &["cargo test --release --locked -p tracer --test goldens"]),
+    proof("address-sanitizer", Asked, "the engine's tests with the address sanitizer, vector code and all; an hour", &[Nightly(&["rust-src"])], &["RUSTFLAGS=-Zsanitizer=address CARGO_TARGET_DIR=target/asan cargo +nightly test -p tracer-core --target x86_64-unknown-linux-gnu"]),
+    proof("miri", Asked, "the smallest whole rendering under Miri; a quarter of an hour", &[Nightly(&["miri", "rust-src"])], &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance -Zmiri-disable-stacked-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core --test soundness"]),
+    proof("miri-borrows", Asked, "who may point where in the lanes' unsafe code, under Miri; half an hour", &[Nightly(&["miri", "rust-src"])], &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance -Zmiri-tree-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core --lib -- lanes"]),
+    proof("mitsuba", Asked, "eleven scenes against Mitsuba 3; half an hour", MITSUBA, &["cargo build --release --locked", "DRJIT_LIBLLVM_PATH=/usr/lib/x86_64-linux-gnu/libLLVM-19.so python bench/peers/compare.py"]),
+];
