@@ -4,7 +4,6 @@ use crate::world::World;
 use crate::{Ray, Smoothing, texture};
 use glam::DVec3;
 use tracer_core::Scene;
-use tracer_core::scene::Material;
 
 /// What is seen at a pixel's centre, in render space.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +43,8 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
     let s = world.surface(&ray, &hit, Smoothing::Naive);
     let light = world.light_of(&hit).map(|light| &scene.lights[light]);
     let albedo = match (light, scene.materials.get(s.material as usize)) {
-        (Some(_), _) | (_, None | Some(Material::Emissive)) => DVec3::ZERO,
-        (None, Some(&Material::Mirror { reflectance })) => DVec3::from(reflectance),
-        (None, Some(&Material::Transparent { transmittance, .. })) => DVec3::from(transmittance),
-        (None, Some(&Material::Diffuse { albedo } | &Material::BlinnPhong { albedo, .. })) => {
-            texture::albedo(scene, albedo, s.uv)
-        }
+        (Some(_), _) | (_, None) => DVec3::ZERO,
+        (None, Some(material)) => texture::albedo(scene, material.traits().color, s.uv),
     };
     let shines = light.filter(|light| light.two_sided() || s.outside);
     let emission = shines.map_or(DVec3::ZERO, |light| DVec3::from(light.radiance()) * scene.radiance_unit);

@@ -14,8 +14,8 @@ mod camera;
 mod environment;
 mod first_hit;
 mod light;
+mod materials;
 mod random;
-mod scatter;
 pub mod statistics;
 mod surface;
 mod texture;
@@ -23,9 +23,9 @@ mod world;
 
 pub use first_hit::{FirstHit, first_hits};
 use glam::DVec3;
+use materials::{Incident, Rough, Scattered};
 pub use random::Random;
 use tracer_core::Scene;
-use tracer_core::scene::Material;
 use world::World;
 
 /// Where rays start that leave a smooth mesh by diffuse or glossy scattering.
@@ -102,26 +102,12 @@ impl Tracer<'_> {
         }
         let s = self.world.surface(&ray, &hit, self.smoothing);
         let wo = -ray.direction;
-        match self.scene.materials[s.material as usize] {
-            // Its surface is a light's.
-            Material::Emissive => DVec3::ZERO,
-            Material::Mirror { reflectance } => {
-                let ray = Ray { origin: s.p, direction: scatter::reflect(&s, wo).direction };
-                DVec3::from(reflectance) * self.radiance(ray, scatterings + 1, random)
-            }
-            Material::Transparent { ior, transmittance } => {
-                let (direction, weight) = scatter::dielectric(&s, wo, ior, transmittance, random);
+        match materials::scatter(self.scene, &s, wo, random) {
+            Scattered::Nothing => DVec3::ZERO,
+            Scattered::Specular(Incident { direction, weight }) => {
                 weight * self.radiance(Ray { origin: s.p, direction }, scatterings + 1, random)
             }
-            Material::Diffuse { albedo } => {
-                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy: None };
-                self.rough(&s, wo, &lobes, scatterings, random)
-            }
-            Material::BlinnPhong { albedo, exponent, specular, energy_conserving } => {
-                let glossy = Some(scatter::Glossy { exponent, share: specular, energy_conserving });
-                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy };
-                self.rough(&s, wo, &lobes, scatterings, random)
-            }
+            Scattered::Rough(lobes) => self.rough(&s, wo, &*lobes, scatterings, random),
         }
     }
 
@@ -139,7 +125,7 @@ impl Tracer<'_> {
         &self,
         s: &surface::Surface,
         wo: DVec3,
-        lobes: &scatter::Rough,
+        lobes: &dyn Rough,
         scatterings: u32,
         random: &mut Random,
     ) -> DVec3 {

@@ -63,8 +63,9 @@ pub(crate) const CHOICES: [&EnumDef; 20] = [
     &TransformWords::DEF,
 ];
 
-/// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 59] = [
+/// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
+/// materials' own words.
+const SNIPPETS: [(&str, &str, &str); 54] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -96,11 +97,6 @@ const SNIPPETS: [(&str, &str, &str); 59] = [
     ("Indirect", "Map", "indirect: Map"),
     ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
     ("BackgroundWords", "Environment", "Environment(file: \"sky.hdr\", scale: 2, rotation: 40)"),
-    ("Material", "Diffuse", "Diffuse(albedo: (0.8, 0.3, 0.1))"),
-    ("Material", "Mirror", "Mirror(reflectance: 0.9)"),
-    ("Material", "Transparent", "Transparent(ior: 1.5)"),
-    ("Material", "BlinnPhong", "BlinnPhong(albedo: \"#3344dd\", exponent: 1000, specular: 0.05)"),
-    ("Material", "Emissive", "Emissive(radiance: 3)"),
     ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
     (
         "Pattern",
@@ -142,14 +138,22 @@ const SNIPPETS: [(&str, &str, &str); 59] = [
     ("Scene", "Scene", ""),
 ];
 
+/// All of them in the order of [`CHOICES`]: the materials' before the textures'.
+fn snippets() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    let textures = SNIPPETS.iter().position(|(choice, ..)| *choice == "Pattern").unwrap_or(SNIPPETS.len());
+    let (before, after) = SNIPPETS.split_at(textures);
+    let materials = Material::TOLD.iter().map(|&(kind, _, words)| (Material::DEF.name, kind, words));
+    before.iter().copied().chain(materials).chain(after.iter().copied())
+}
+
 /// The words that show a kind.
 pub(crate) fn snippet(choice: &str, kind: &str) -> Option<&'static str> {
-    SNIPPETS.iter().find(|(c, k, _)| *c == choice && *k == kind).map(|(_, _, words)| *words)
+    snippets().find(|(c, k, _)| *c == choice && *k == kind).map(|(_, _, words)| words)
 }
 
 /// An example for every kind of thing in the language, in the order of the reference.
 pub fn examples() -> Vec<Example> {
-    SNIPPETS.iter().map(|&(choice, kind, words)| example(choice, kind, words)).collect()
+    snippets().map(|(choice, kind, words)| example(choice, kind, words)).collect()
 }
 
 fn example(choice: &str, kind: &str, words: &'static str) -> Example {

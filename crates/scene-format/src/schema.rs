@@ -80,6 +80,16 @@ pub(crate) struct VariantDef {
     pub content: Content,
 }
 
+impl VariantDef {
+    /// The kind that is a struct of its own, which tells its name and what it is.
+    pub const fn of_struct(kind: Type) -> Self {
+        match kind {
+            Type::Struct(def) => VariantDef { name: def.name, doc: def.doc, content: Content::Struct(def) },
+            _ => panic!("a kind has fields"),
+        }
+    }
+}
+
 /// What stands in the brackets after a variant's name.
 #[derive(Debug)]
 pub(crate) enum Content {

@@ -20,6 +20,14 @@ pub(crate) trait Words: Sized {
     fn form(&self, all: bool) -> Form;
 }
 
+/// What is told of a kind beside its words.
+pub(crate) trait Told {
+    /// Names of other programs for it, in small letters.
+    const ALSO: &'static [&'static str];
+    /// An example of it.
+    const EXAMPLE: &'static str;
+}
+
 /// `FieldDef`s from field declarations.
 macro_rules! field_defs {
     ($noun:literal; $( $(#[doc = $doc:literal])+ $field:ident : $ty:ty $(= $default:expr)? $(=> $rule:expr)? ; )*) => {
@@ -200,6 +208,68 @@ macro_rules! scene_enum {
     };
 }
 
+/// A choice between kinds that are types of their own, one line each: what is told of a kind stands at its type. What is asked of all
+/// of them is a trait, which `words` gives.
+macro_rules! scene_kinds {
+    (
+        $(#[doc = $doc:literal])+
+        $vis:vis enum $Name:ident, $noun:literal, by $Trait:ident {
+            $( $Variant:ident($inner:ty); )+
+        }
+    ) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Debug, PartialEq)]
+        $vis enum $Name {
+            $( #[doc = concat!("[`", stringify!($Variant), "`].")] $Variant($inner), )+
+        }
+
+        impl $Name {
+            pub(crate) const DEF: $crate::schema::EnumDef = $crate::schema::EnumDef {
+                name: stringify!($Name),
+                noun: $noun,
+                doc: &[$($doc),+],
+                variants: &[$( $crate::schema::VariantDef::of_struct(<$inner as $crate::words::Words>::TYPE), )+],
+            };
+            /// By kind: names of other programs, an example.
+            pub(crate) const TOLD: &[(&str, &[&str], &str)] = &[$((
+                stringify!($Variant),
+                <$Variant as $crate::words::Told>::ALSO,
+                <$Variant as $crate::words::Told>::EXAMPLE,
+            ),)+];
+
+            fn words(&self) -> &dyn $Trait {
+                match self {$( $Name::$Variant(words) => std::borrow::Borrow::<$Variant>::borrow(words), )+}
+            }
+        }
+
+        impl $crate::words::Words for $Name {
+            const TYPE: $crate::schema::Type = $crate::schema::Type::Enum(&$Name::DEF);
+
+            fn read(
+                reader: &mut $crate::read::Reader<'_>,
+                item: $crate::tree::Item<'_, '_>,
+                _at: &'static $crate::schema::FieldDef,
+            ) -> Option<Self> {
+                let chosen = reader.variant(item, &Self::DEF)?;
+                $(
+                    if chosen.variant.name == stringify!($Variant) {
+                        return reader.content::<$inner>(&chosen).map($Name::$Variant);
+                    }
+                )+
+                None
+            }
+
+            fn form(&self, all: bool) -> $crate::form::Form {
+                match self {$(
+                    $Name::$Variant(content) => {
+                        $crate::words::write_content!(all, $Variant, content)
+                    }
+                )+}
+            }
+        }
+    };
+}
+
 macro_rules! content {
     ($Variant:ident [] $docs:tt []) => {
         $crate::schema::Content::Unit
@@ -352,5 +422,5 @@ macro_rules! scene_words {
 
 pub(crate) use {
     bare, binding, content, default_form, default_value, field_defs, is_default, read_content, rule, scene_enum,
-    scene_struct, scene_words, write_content,
+    scene_kinds, scene_struct, scene_words, write_content,
 };

@@ -66,23 +66,23 @@ fn albedo(random: &mut Random) -> Albedo {
 
 fn material(random: &mut Random) -> Material {
     match random.below(5) {
-        0 => Material::Diffuse { albedo: albedo(random) },
+        0 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
         4 => {
             let color = share(random).map(|channel| channel * 1e3);
             let amount = if random.below(2) == 0 { Amount::Radiance(color) } else { Amount::Power(color) };
             Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided: random.below(2) == 0 }))
         }
-        1 => Material::Mirror { reflectance: share(random).into() },
-        2 => Material::Transparent {
+        1 => Material::Mirror(Mirror { reflectance: share(random).into() }),
+        2 => Material::Transparent(Box::new(Transparent {
             ior: number(random, 1.0, 3.0).into(),
-            transmittance: Box::new(share(random).into()),
-        },
-        _ => Material::BlinnPhong {
-            albedo: Box::new(albedo(random)),
-            exponent: Box::new(number(random, 0.0, 1e5).into()),
-            specular: Box::new(random.unit().into()),
+            transmittance: share(random).into(),
+        })),
+        _ => Material::BlinnPhong(Box::new(BlinnPhong {
+            albedo: albedo(random),
+            exponent: number(random, 0.0, 1e5).into(),
+            specular: random.unit().into(),
             energy_conserving: random.below(2) == 0,
-        },
+        })),
     }
 }
 

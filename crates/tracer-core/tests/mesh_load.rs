@@ -1,6 +1,6 @@
 //! Loading from the file system: extensions, files that are not there, materials beside an OBJ file.
 
-use scene_format::desc::{Albedo, Material, TextureWrap};
+use scene_format::desc::{Albedo, BlinnPhong, Diffuse, Material, Mirror, TextureWrap, Transparent};
 use scene_format::diagnostic::Span;
 use std::fs;
 use std::path::Path;
@@ -110,16 +110,20 @@ fn material(mtl: &str) -> (Material, String) {
 }
 
 fn diffuse(color: [f64; 3]) -> Material {
-    Material::Diffuse { albedo: Albedo::Color(color.into()) }
+    Material::Diffuse(Diffuse { albedo: Albedo::Color(color.into()) })
 }
 
 fn blinn_phong(color: [f64; 3], specular: f64, exponent: f64) -> Material {
-    Material::BlinnPhong {
-        albedo: Box::new(Albedo::Color(color.into())),
-        exponent: Box::new(exponent.into()),
-        specular: Box::new(specular.into()),
+    Material::BlinnPhong(Box::new(BlinnPhong {
+        albedo: Albedo::Color(color.into()),
+        exponent: exponent.into(),
+        specular: specular.into(),
         energy_conserving: false,
-    }
+    }))
+}
+
+fn glass(ior: f64, transmittance: [f64; 3]) -> Material {
+    Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance: transmittance.into() }))
 }
 
 #[test]
@@ -137,28 +141,28 @@ fn materials_of_mtl_become_ours() {
             blinn_phong([1.0; 3], 0.5, 1e5),
             "not supported: `Kd` + `Ks` above 1 (both scaled down), `Ns` above 100000 (clipped)".into(),
         ),
-        ("Kd 0 0 0\nKs 0.9 0.8 0.7\nillum 3", Material::Mirror { reflectance: [0.9, 0.8, 0.7].into() }, silent()),
+        (
+            "Kd 0 0 0\nKs 0.9 0.8 0.7\nillum 3",
+            Material::Mirror(Mirror { reflectance: [0.9, 0.8, 0.7].into() }),
+            silent(),
+        ),
         (
             "Kd 1 0 0\nillum 5",
-            Material::Mirror { reflectance: [1.0; 3].into() },
+            Material::Mirror(Mirror { reflectance: [1.0; 3].into() }),
             "not supported: `Kd` and `map_Kd` of a mirror (`illum` 3 or 5)".into(),
         ),
         ("Kd 0.5 0.5 0.5\nKs 0 0 0\nillum 3", diffuse([0.5; 3]), silent()),
-        (
-            "Ni 1.33\nillum 7\nTf 0.9 1 1",
-            Material::Transparent { ior: 1.33.into(), transmittance: Box::new([0.9, 1.0, 1.0].into()) },
-            silent(),
-        ),
-        ("d 0", Material::Transparent { ior: 1.5.into(), transmittance: Box::new([1.0; 3].into()) }, silent()),
+        ("Ni 1.33\nillum 7\nTf 0.9 1 1", glass(1.33, [0.9, 1.0, 1.0]), silent()),
+        ("d 0", glass(1.5, [1.0; 3]), silent()),
         (
             "Tr 0.5\nNi 0",
-            Material::Transparent { ior: 1.5.into(), transmittance: Box::new([1.0; 3].into()) },
+            glass(1.5, [1.0; 3]),
             "not supported: `Ni` below 1 (1.5 is taken), `d` between 0 and 1 (taken as clear glass)".into(),
         ),
         ("d 1\nTr 1", diffuse([0.8; 3]), silent()),
         // `Tr` alone is transparency.
         ("Tr 0", diffuse([0.8; 3]), silent()),
-        ("Tr 1", Material::Transparent { ior: 1.5.into(), transmittance: Box::new([1.0; 3].into()) }, silent()),
+        ("Tr 1", glass(1.5, [1.0; 3]), silent()),
         (
             "Kd 2 0.5 -1\nmap_Bump -bm 2 b.png\nKe 1 0 0\nPr 0.5\nPm 0\nd -halo 1",
             diffuse([1.0, 0.5, 0.0]),
@@ -186,7 +190,7 @@ fn pictures_are_found_from_the_folder_of_the_mtl() {
         ),
     ] {
         let (material, found) = material(mtl);
-        let Material::Diffuse { albedo: Albedo::Texture(texture) } = material else { panic!("{material:?}") };
+        let Material::Diffuse(Diffuse { albedo: Albedo::Texture(texture) }) = material else { panic!("{material:?}") };
         assert!(texture.file.value.is_absolute() && texture.file.value.ends_with(file), "{:?}", texture.file.value);
         assert_eq!((texture.wrap, found.as_str()), (wrap, said));
     }
@@ -278,10 +282,7 @@ fn tobj_reads_the_same_materials() {
     let (oracle, _) = tobj::load_mtl_buf(&mut mtl.as_bytes()).expect("tobj");
     let color = |color: Option<[f32; 3]>| color.expect("a colour").map(f64::from);
     assert_eq!(mesh.materials[0].material, diffuse(color(oracle[0].diffuse)));
-    assert_eq!(mesh.materials[1].material, Material::Mirror { reflectance: color(oracle[1].specular).into() });
+    assert_eq!(mesh.materials[1].material, Material::Mirror(Mirror { reflectance: color(oracle[1].specular).into() }));
     let ior = f64::from(oracle[2].optical_density.expect("Ni"));
-    assert_eq!(
-        mesh.materials[2].material,
-        Material::Transparent { ior: ior.into(), transmittance: Box::new([1.0; 3].into()) }
-    );
+    assert_eq!(mesh.materials[2].material, glass(ior, [1.0; 3]));
 }

@@ -8,9 +8,8 @@
 
 mod background;
 mod effects;
-mod emissive;
 mod light;
-mod material;
+mod materials;
 mod object;
 mod output;
 mod per_axis;
@@ -23,9 +22,8 @@ pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
-pub use emissive::{Amount, Emissive};
 pub use light::{Emission, Light, SphereLight};
-pub use material::{Material, MaterialRef, NamedMaterial};
+pub use materials::{Amount, BlinnPhong, Diffuse, Emissive, Material, MaterialRef, Mirror, NamedMaterial, Transparent};
 pub use object::Object;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;

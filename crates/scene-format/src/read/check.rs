@@ -2,7 +2,7 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, Material, MaterialRef, Object, Scene, VERSION, Vec3};
+use crate::desc::{Camera, MaterialRef, Object, Scene, VERSION, Vec3};
 use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
@@ -68,7 +68,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
         let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
         let shines = |object: &Spanned<Object>| match object.value.material() {
-            MaterialRef::Inline(material) => matches!(material.value, Material::Emissive(_)),
+            MaterialRef::Inline(material) => material.value.shines().is_some(),
             MaterialRef::Named { .. } | MaterialRef::Default => false,
         };
         if dark && black && !reader.materials.any_shines() && !scene.objects.iter().any(shines) {

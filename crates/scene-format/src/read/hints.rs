@@ -1,6 +1,6 @@
 //! What was meant by a word that is not there: the words of other programs, and the right place.
 
-use crate::desc::Scene;
+use crate::desc::{Material, Scene};
 use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
 use crate::tree::Item;
@@ -81,22 +81,19 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 12] = [
-        ("Diffuse", &["lambertian", "lambert", "matte", "matt", "roughdiffuse"]),
-        ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
-        ("Transparent", &["glass", "dielectric", "refractive"]),
-        ("BlinnPhong", &["phong", "glossy", "plastic", "roughplastic"]),
+    const SYNONYMS: [(&str, &[&str]); 7] = [
         ("Mesh", &["obj", "off", "ply", "stl", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
         ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
         ("Box", &["cube", "cuboid", "brick"]),
-        ("Emissive", &["emitter", "light", "area", "emission", "arealight", "glow", "areasource"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
     let lower = name.to_ascii_lowercase();
-    let found = SYNONYMS.iter().find(|(kind, others)| def.variant(kind).is_some() && others.contains(&lower.as_str()));
+    let told = Material::TOLD.iter().map(|(kind, others, _)| (kind, others));
+    let mut all = SYNONYMS.iter().map(|(kind, others)| (kind, others)).chain(told);
+    let found = all.find(|(kind, others)| def.variant(kind).is_some() && others.contains(&lower.as_str()));
     found.map(|(kind, _)| *kind)
 }
 

@@ -44,7 +44,7 @@ impl Materials {
 
     /// Whether one of them shines.
     pub fn any_shines(&self) -> bool {
-        self.read.iter().any(|named| matches!(named.material, Material::Emissive(_)))
+        self.read.iter().any(|named| named.material.shines().is_some())
     }
 
     fn name(&self, number: u32) -> &Spanned<Arc<str>> {

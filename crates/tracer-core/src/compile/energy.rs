@@ -5,7 +5,7 @@
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
-use scene_format::desc::{Albedo, Material, MaterialRef};
+use scene_format::desc::{Albedo, BlinnPhong, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeSet;
@@ -45,8 +45,9 @@ pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>
     let mut known = BTreeSet::new();
     let mut loud: Vec<Loud<'_>> = Vec::new();
     for (name, material) in named.chain(inline) {
-        let Material::BlinnPhong { albedo, exponent, specular, energy_conserving: false } = material else { continue };
-        let (albedo, of_picture) = match &**albedo {
+        let Material::BlinnPhong(words) = material else { continue };
+        let BlinnPhong { albedo, exponent, specular, energy_conserving: false } = &**words else { continue };
+        let (albedo, of_picture) = match albedo {
             Albedo::Color(color) => (color.value.into_iter().fold(0.0, f64::max), false),
             Albedo::Checkerboard(t) => (t.a.value.into_iter().chain(t.b.value).fold(0.0, f64::max), true),
             Albedo::Texture(t) => (texture(&desc.base_dir.join(&t.file.value)).map_or(1.0, Texture::brightest), true),

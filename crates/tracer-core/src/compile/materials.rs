@@ -1,6 +1,6 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
-use crate::scene::{Albedo, Material, TextureUse};
+use crate::scene::{Albedo, Material, TextureUse, materials};
 use crate::texture::{self, Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -9,6 +9,17 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
+fn compiled(material: &desc::Material, color: Albedo) -> Material {
+    match material {
+        desc::Material::Diffuse(_) => Material::Diffuse(materials::Diffuse { albedo: color }),
+        desc::Material::Mirror(words) => Material::Mirror(words.into()),
+        desc::Material::Transparent(words) => Material::Transparent((&**words).into()),
+        desc::Material::BlinnPhong(words) => Material::BlinnPhong(materials::BlinnPhong::new(words, color)),
+        desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
+    }
+}
 
 /// Where a picture comes from.
 enum Image {
@@ -100,23 +111,11 @@ impl<'a> MaterialBuilder<'a> {
 
     /// Adds a material. Texture paths start from `base`; `None`: they are complete.
     pub fn add(&mut self, material: &desc::Material, base: Option<&Path>) -> u32 {
-        let compiled = match material {
-            desc::Material::Diffuse { albedo } => Material::Diffuse { albedo: self.albedo(albedo, base) },
-            desc::Material::Mirror { reflectance } => Material::Mirror { reflectance: reflectance.value },
-            desc::Material::Transparent { ior, transmittance } => {
-                Material::Transparent { ior: ior.value, transmittance: transmittance.value }
-            }
-            desc::Material::BlinnPhong { albedo, exponent, specular, energy_conserving } => Material::BlinnPhong {
-                albedo: self.albedo(albedo, base),
-                exponent: exponent.value,
-                specular: specular.value,
-                energy_conserving: *energy_conserving,
-            },
-            desc::Material::Emissive(emissive) => {
-                self.emissive.insert(self.materials.len() as u32, (**emissive).clone());
-                Material::Emissive
-            }
-        };
+        if let Some(emissive) = material.shines() {
+            self.emissive.insert(self.materials.len() as u32, emissive.clone());
+        }
+        let color = material.color().map(|albedo| self.albedo(albedo, base));
+        let compiled = compiled(material, color.unwrap_or(Albedo::Color([1.0; 3])));
         self.materials.push(compiled);
         self.materials.len() as u32 - 1
     }

@@ -40,7 +40,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, diagnostics: &mu
             );
         }
         let mirrored = placed.maps_of(k).iter().any(|map| map.matrix3.determinant() < 0.0);
-        if matches!(material, Some(Material::Transparent { .. })) && !mirrored && is_inside_out(data) {
+        if material.is_some_and(Material::transmits) && !mirrored && is_inside_out(data) {
             diagnostics.push(
                 Diagnostic::warning(
                     codes::INSIDE_OUT,
@@ -66,13 +66,7 @@ fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d Mate
 
 /// Whether a material has another colour at another place.
 fn has_pattern(material: &Material) -> bool {
-    let checkered = |albedo: &Albedo| matches!(albedo, Albedo::Checkerboard(_));
-    material.texture().is_some()
-        || match material {
-            Material::Diffuse { albedo } => checkered(albedo),
-            Material::BlinnPhong { albedo, .. } => checkered(albedo),
-            _ => false,
-        }
+    material.color().is_some_and(|color| !matches!(color, Albedo::Color(_)))
 }
 
 /// Whether a closed mesh has its inside outside: a negative volume.
@@ -138,8 +132,8 @@ fn shut_in(desc: &SceneDesc, placed: &Placed, materials: &BTreeMap<&str, &Materi
     let mut flat = polygonal(desc).enumerate();
     for (index, object) in desc.objects.iter().enumerate() {
         let material = material_of(materials, object.value.material());
-        let shines = matches!(material, Some(Material::Emissive(_)));
-        let opaque = !shines && !matches!(material, Some(Material::Transparent { .. }));
+        let shines = material.is_some_and(|material| material.shines().is_some());
+        let opaque = !shines && !material.is_some_and(Material::transmits);
         if let Object::Sphere(sphere) = &object.value {
             let center = DVec3::from(sphere.center.value);
             if shines {

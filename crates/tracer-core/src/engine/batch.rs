@@ -242,15 +242,13 @@ pub struct Members {
     pub wo: Columns,
     /// What the path carried to here times the material's colour.
     pub weight: Columns,
-    /// Blinn-Phong: alpha.
-    pub parameter: Column<f32>,
-    /// Blinn-Phong: s.
-    pub specular: Column<f32>,
+    /// How it scatters: `stages::materials::Packed`.
+    pub numbers: [Column<f32>; 2],
     /// Probability that the path went on from here; where rays are aimed, what [`Paths::eta2`] holds.
     pub survival: Column<f32>,
     /// Where rays are aimed: what [`Paths::film`] holds.
     pub film: Column<f32>,
-    /// One of [`member_kind`].
+    /// How it scatters: `stages::materials::Packed`; and [`RAISED`].
     pub kind: Column<u32>,
     /// Slot.
     pub slot: Column<u32>,
@@ -269,8 +267,7 @@ impl Members {
             geometric: columns(),
             wo: columns(),
             weight: columns(),
-            parameter: floats(),
-            specular: floats(),
+            numbers: [floats(), floats()],
             survival: floats(),
             film: floats(),
             kind: words(),
@@ -281,17 +278,8 @@ impl Members {
     }
 }
 
-/// How a member scatters.
-pub mod member_kind {
-    /// Lambert.
-    pub const DIFFUSE: u32 = 0;
-    /// Blinn-Phong by the report's formula.
-    pub const GLOSSY: u32 = 1;
-    /// Blinn-Phong, energy-conserving.
-    pub const CONSERVING: u32 = 2;
-    /// Added where `start` lies above the surface (see `Surface::start`), so that sinking rays may meet it.
-    pub const RAISED: u32 = 4;
-}
+/// Added to [`Members::kind`] where `start` lies above the surface (see `Surface::start`), so that sinking rays may meet it.
+pub const RAISED: u32 = 1 << 31;
 
 /// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items, pixels.
 pub struct Suffixes {

@@ -14,6 +14,7 @@ use super::{Worker, each};
 use crate::film::Crop;
 use crate::sampling::blocks::{Block, ITEM_PIXELS, Item, TILE};
 use crate::sampling::sampler::hash3;
+use crate::scene::materials::BxdfFlags;
 use crate::scene::{Material, Scene};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -50,7 +51,7 @@ impl Glints {
 /// Which tiles have chains: those where the camera ray of a pixel, of one in four, meets a mirror or glass. All tiles of the picture are
 /// asked that a block may touch which touches the crop.
 pub fn pilot(scene: &Scene, kernels: &Kernels, pass: Pass<'_>, crop: Crop, workers: &[Mutex<Worker>]) -> Glints {
-    let specular = |material: &Material| matches!(material, Material::Mirror { .. } | Material::Transparent { .. });
+    let specular = |material: &Material| material.traits().flags.has(BxdfFlags::SPECULAR);
     if !scene.materials.iter().any(specular) {
         return Glints::default();
     }

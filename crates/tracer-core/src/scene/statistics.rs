@@ -110,11 +110,9 @@ impl Scene {
 }
 
 fn texture(material: &Material) -> Option<u32> {
-    match material {
-        Material::Diffuse { albedo: Albedo::Texture(t) } | Material::BlinnPhong { albedo: Albedo::Texture(t), .. } => {
-            Some(*t)
-        }
-        _ => None,
+    match material.traits().color {
+        Albedo::Texture(t) => Some(t),
+        Albedo::Color(_) => None,
     }
 }
 

@@ -9,7 +9,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, icosphere, picture, torus};
 use crate::support::{compiled, film};
 use scene_format::desc::{
-    Albedo, Caustics, Light, Material, Object, PixelFilter, Shading, SphereLight, TextureFilter, TextureWrap, Transform,
+    Albedo, Caustics, Light, Material, Object, PixelFilter, Shading, SphereLight, TextureFilter, TextureWrap,
+    Transform, Transparent,
 };
 use scene_format::{Defaults, SceneDesc, Syntax, load_str, to_ron};
 use std::path::Path;
@@ -52,7 +53,8 @@ fn read_back(desc: &SceneDesc) -> SceneDesc {
 /// Water within glass, and a diamond of flat triangles.
 #[test]
 fn glass_of_several_surfaces() {
-    let tinted = Material::Transparent { ior: 1.5.into(), transmittance: Box::new([0.4, 0.8, 1.0].into()) };
+    let tinted =
+        Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [0.4, 0.8, 1.0].into() }));
     let nested = vec![ball(2.6, tinted), sphere([0.0, 2.6, 0.0], 2.2, glass(1.33 / 1.5))];
     assert_guiding_is_unbiased("nested", &read_back(&on_the_floor(nested)), 512, SCENES);
     let diamond = solid(&icosphere(1).obj("icosphere-1"), glass(2.42), Shading::Flat, 2.5);

@@ -7,14 +7,15 @@ use crate::support::compiled;
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, torus};
 use scene_format::SceneDesc;
-use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform};
+use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform, Transparent};
 use scene_format::diagnostic::Spanned;
 use tracer_core::Level;
 use tracer_core::{Crop, RenderOptions, Unobserved, develop};
 
 /// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map, clamping.
 fn plain(filter: PixelFilter, tone_map: ToneMap, clamp: Option<f64>) -> SceneDesc {
-    let tinted = Material::Transparent { ior: 1.4.into(), transmittance: Box::new([0.9, 0.6, 0.4].into()) };
+    let tinted =
+        Material::Transparent(Box::new(Transparent { ior: 1.4.into(), transmittance: [0.9, 0.6, 0.4].into() }));
     let objects = vec![
         sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.6; 3])),
         sphere([-1.2, 1.0, 0.0], 1.0, tinted.clone()),

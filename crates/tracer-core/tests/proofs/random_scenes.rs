@@ -5,8 +5,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, Material, Object, PixelFilter, Placements, Reuse, Shading, SphereLight, TextureFilter, TextureWrap,
-    Transform, Vec3,
+    Albedo, Diffuse, Material, Object, PixelFilter, Placements, Reuse, Shading, SphereLight, TextureFilter,
+    TextureWrap, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -36,12 +36,12 @@ fn albedo(random: &mut Random) -> Albedo {
 
 fn material(random: &mut Random) -> Material {
     match random.below(5) {
-        0 | 1 => Material::Diffuse { albedo: albedo(random) },
+        0 | 1 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
         2 => mirror(color(random)),
-        3 => Material::Transparent {
+        3 => Material::Transparent(Box::new(Transparent {
             ior: random.between(1.05, 2.4).into(),
-            transmittance: Box::new([0; 3].map(|_| random.between(0.7, 1.0)).into()),
-        },
+            transmittance: [0; 3].map(|_| random.between(0.7, 1.0)).into(),
+        })),
         _ => {
             let exponent = 10f64.powf(random.between(0.0, 3.5));
             // The report's lobe reflects up to four times its share.
@@ -107,7 +107,7 @@ pub fn random_scene(seed: u64) -> SceneDesc {
         objects.push(sphere(
             [0.0, -1000.0 - REACH, 0.0],
             1000.0,
-            Material::Diffuse { albedo: Albedo::Color(color(random).into()) },
+            Material::Diffuse(Diffuse { albedo: Albedo::Color(color(random).into()) }),
         ));
     }
     let lights: Vec<SphereLight> = (0..random.below(4)).map(|_| lamp(random)).collect();

@@ -2,7 +2,9 @@
 
 use super::{Mutant, proofs, units};
 
-const MATERIALS: &str = "crates/tracer-core/src/engine/stages/materials.rs";
+const BSDF: &str = "crates/tracer-core/src/engine/stages/materials/mod.rs";
+const BLINN_PHONG: &str = "crates/tracer-core/src/engine/stages/materials/blinn_phong.rs";
+const DIELECTRIC: &str = "crates/tracer-core/src/engine/stages/materials/dielectric.rs";
 const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
 const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights/mod.rs";
 const LIGHT_SELECTION: &str = "crates/tracer-core/src/engine/stages/lights/selection.rs";
@@ -29,63 +31,63 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "glossy-cosine-twice",
-        file: MATERIALS,
+        file: BSDF,
         find: "cos_i / F::select(usable, density, c(1.0))",
         replace: "cos_i * cos_i / F::select(usable, density, c(1.0))",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "glossy-pdf-without-jacobian",
-        file: MATERIALS,
-        find: "lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h, none)",
-        replace: "lobe * ((alpha + c(1.0)) * c(0.5 * FRAC_1_PI)), none)",
+        file: BLINN_PHONG,
+        find: "(f, lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h)",
+        replace: "(f, lobe * ((alpha + c(1.0)) * c(0.5 * FRAC_1_PI)))",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "glossy-norm-alpha-plus-one",
-        file: MATERIALS,
+        file: BLINN_PHONG,
         find: "(alpha + c(2.0)) * c(0.5 * FRAC_1_PI)",
         replace: "(alpha + c(1.0)) * c(0.5 * FRAC_1_PI)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "diffuse-share-not-lessened-by-glossy",
-        file: MATERIALS,
-        find: "(c(1.0) - s) * lobes.lambert, lobes.lambert)",
+        file: BSDF,
+        find: "(c(1.0) - self.share) * lobes.lambert, lobes.lambert)",
         replace: "lobes.lambert, lobes.lambert)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "fresnel-wrong-side",
-        file: MATERIALS,
+        file: DIELECTRIC,
         find: "F::select(s.outside, one / ior, ior)",
         replace: "F::select(s.outside, ior, one / ior)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "fresnel-cosines-swapped",
-        file: MATERIALS,
+        file: DIELECTRIC,
         find: "let (a, b) = (eta * cos_i, eta * cos_t);",
         replace: "let (a, b) = (eta * cos_t, eta * cos_i);",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "fresnel-one-polarisation",
-        file: MATERIALS,
+        file: DIELECTRIC,
         find: "rs.fma(rs, rp * rp) * F::splat(0.5)",
         replace: "rp.fma(rp, rp * rp) * F::splat(0.5)",
         caught_by: units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "radiance-not-scaled-in-glass",
-        file: MATERIALS,
+        file: DIELECTRIC,
         find: "reflectance, eta2: eta * eta }",
         replace: "reflectance, eta2: one }",
         caught_by: proofs(&["analytic::a_light_within_glass"]),
     },
     Mutant {
         name: "radiance-scaled-the-wrong-way",
-        file: MATERIALS,
+        file: DIELECTRIC,
         find: "reflectance, eta2: eta * eta }",
         replace: "reflectance, eta2: one / (eta * eta) }",
         caught_by: proofs(&["analytic::a_light_within_glass"]),

@@ -39,7 +39,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "chains-through-matt-surfaces",
         file: SHADE,
-        find: "surfaces = surfaces & (bsdf.mirror | bsdf.transparent);",
+        find: "surfaces = surfaces & bsdf.specular();",
         replace: "",
         caught_by: proofs(&["glints"]),
     },

@@ -5,9 +5,9 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Background, Checkerboard, Color, Emission, Environment, Instances, Light, Mapping, Material, MaterialRef,
-    Mesh, NamedMaterial, Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap,
-    Transform,
+    Albedo, Background, Checkerboard, Color, Diffuse, Emission, Environment, Instances, Light, Mapping, Material,
+    MaterialRef, Mesh, Mirror, NamedMaterial, Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap,
+    ThinLens, ToneMap, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -108,15 +108,15 @@ pub fn shiny(world: &mut World, low: f64, high: f64, random: &mut Random) -> Mat
 pub fn matt(world: &mut World, random: &mut Random) -> Material {
     match random.below(8) {
         0 => shiny(world, 1.0, 45.0, random),
-        _ => Material::Diffuse { albedo: albedo(world, random) },
+        _ => Material::Diffuse(Diffuse { albedo: albedo(world, random) }),
     }
 }
 
 /// What throws caustics: glass, mirrors, shiny lobes.
 pub fn caster(world: &mut World, random: &mut Random) -> Material {
     match random.below(5) {
-        0 => Material::Mirror { reflectance: color(random).map(|c| (c + 0.1).min(1.0)).into() },
-        1 => Material::Mirror { reflectance: [1.0; 3].into() },
+        0 => Material::Mirror(Mirror { reflectance: color(random).map(|c| (c + 0.1).min(1.0)).into() }),
+        1 => Material::Mirror(Mirror { reflectance: [1.0; 3].into() }),
         2 => shiny(world, 50.0, 5000.0, random),
         _ => clear(random),
     }
@@ -136,7 +136,7 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
     match random.below(5) {
         0 => return super::shining::cuboid(world, center, radius, material, random),
         // Glass without an inside is no glass.
-        1 if !matches!(material, Material::Transparent { .. }) => {
+        1 if !material.transmits() => {
             return super::shining::rectangle(world, center, radius, material, random);
         }
         _ => {}

@@ -84,12 +84,12 @@ impl Compiled {
         let theirs = relation.others(world).iter().map(World::compiled).collect::<Result<_, _>>()?;
         let gains = |object: &Object| {
             let material = super::draw::material_of(world, object);
-            matches!(material, Some(Material::BlinnPhong { energy_conserving: false, .. }))
+            matches!(material, Some(Material::BlinnPhong(words)) if !words.energy_conserving)
         };
         let narrow = |object: &Object| match super::draw::material_of(world, object) {
-            Some(Material::Diffuse { .. } | Material::Emissive(_)) | None => false,
-            Some(Material::BlinnPhong { exponent, .. }) => exponent.value > NARROW,
-            Some(Material::Mirror { .. } | Material::Transparent { .. }) => true,
+            Some(Material::Diffuse(_) | Material::Emissive(_)) | None => false,
+            Some(Material::BlinnPhong(words)) => words.exponent.value > NARROW,
+            Some(Material::Mirror(_) | Material::Transparent(_)) => true,
         };
         let objects = || world.desc.objects.iter().map(|object| &object.value);
         let by_chance = relation == Relation::Path && objects().any(narrow);

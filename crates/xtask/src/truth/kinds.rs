@@ -5,7 +5,7 @@ use super::meshes::{Point, Shape};
 use super::receivers;
 use super::relation::{PLANE_MIRROR, Relation};
 use super::world::{World, glass, matt, mirror};
-use scene_format::desc::{Albedo, Material, Object, Transform};
+use scene_format::desc::{Albedo, Material, Mirror, Object, Transform};
 use tracer_reference::Random;
 
 /// A scene and what it is held against.
@@ -217,7 +217,7 @@ fn mirrors(world: &mut World, random: &mut Random) {
         1 => [[-w, 0.2, -d + 0.02], [w, 0.2, -d + 0.02], [w, 0.9 * h, -d + 0.02], [-w, 0.9 * h, -d + 0.02]],
         _ => [[-w, 0.01, d], [w, 0.01, d], [w, 0.01, -d], [-w, 0.01, -d]],
     };
-    world.mesh("mirror", &Shape::quad(corners), Material::Mirror { reflectance: draw::color(random).into() });
+    world.mesh("mirror", &Shape::quad(corners), Material::Mirror(Mirror { reflectance: draw::color(random).into() }));
     if once_in(random, 2) {
         // The camera looks into it.
         world.desc.camera.look_at = corners[0].map(|x| 0.5 * x).into();
@@ -466,11 +466,7 @@ fn plain_spheres(world: &mut World) {
         .iter()
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
-            let plain = |material: &Material| match material {
-                Material::Diffuse { albedo } => matches!(albedo, Albedo::Color(_)),
-                Material::BlinnPhong { albedo, .. } => matches!(**albedo, Albedo::Color(_)),
-                _ => true,
-            };
+            let plain = |material: &Material| material.color().is_none_or(|color| matches!(color, Albedo::Color(_)));
             sphere && !draw::material_of(world, &object.value).is_none_or(plain)
         })
         .collect();

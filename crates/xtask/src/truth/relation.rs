@@ -49,8 +49,8 @@ impl Relation {
 
 fn without_shells(world: &World) -> World {
     let shell = |object: &Object| {
-        matches!(material_of(world, object), Some(Material::Transparent { ior, transmittance })
-            if ior.value == 1.0 && transmittance.value == [1.0; 3])
+        matches!(material_of(world, object), Some(Material::Transparent(glass))
+            if glass.ior.value == 1.0 && glass.transmittance.value == [1.0; 3])
     };
     let mut other = world.clone();
     other.desc.objects.retain(|object| !shell(&object.value));

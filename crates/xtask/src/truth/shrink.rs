@@ -99,7 +99,7 @@ fn drop_unused_materials(world: &mut World) {
 fn plainer(world: &World, other: &mut World, k: usize) {
     let Some(object) = other.desc.objects.get_mut(k) else { return };
     let material = material_of(world, &object.value);
-    if matches!(material, Some(Material::Diffuse { .. } | Material::BlinnPhong { .. })) {
+    if material.is_some_and(|material| material.color().is_some()) {
         set_material(&mut object.value, matt(0.5));
     }
     if let Object::Mesh(Mesh { instances, placements: Placements::One, .. }) = &mut object.value {

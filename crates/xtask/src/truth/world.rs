@@ -3,8 +3,8 @@
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
-    Albedo, Color, Emission, Image, Instances, Light, Material, MaterialRef, Mesh, Object, Placements, Shading, Sphere,
-    SphereLight, Transform,
+    Albedo, BlinnPhong, Color, Diffuse, Emission, Image, Instances, Light, Material, MaterialRef, Mesh, Mirror, Object,
+    Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
@@ -148,7 +148,7 @@ pub fn inline(material: Material) -> MaterialRef {
 
 /// Lambert.
 pub fn diffuse(albedo: Color) -> Material {
-    Material::Diffuse { albedo: Albedo::Color(albedo.into()) }
+    Material::Diffuse(Diffuse { albedo: Albedo::Color(albedo.into()) })
 }
 
 /// Lambert, grey.
@@ -158,7 +158,7 @@ pub fn matt(albedo: f64) -> Material {
 
 /// A mirror that loses nothing.
 pub fn mirror() -> Material {
-    Material::Mirror { reflectance: [1.0; 3].into() }
+    Material::Mirror(Mirror { reflectance: [1.0; 3].into() })
 }
 
 /// Clear glass.
@@ -168,11 +168,11 @@ pub fn glass(ior: f64) -> Material {
 
 /// Coloured glass.
 pub fn tinted(ior: f64, transmittance: Color) -> Material {
-    Material::Transparent { ior: ior.into(), transmittance: Box::new(transmittance.into()) }
+    Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance: transmittance.into() }))
 }
 
 /// Blinn-Phong.
 pub fn glossy(albedo: Albedo, exponent: f64, specular: f64, energy_conserving: bool) -> Material {
-    let [exponent, specular] = [exponent, specular].map(|number| Box::new(number.into()));
-    Material::BlinnPhong { albedo: Box::new(albedo), exponent, specular, energy_conserving }
+    let [exponent, specular] = [exponent, specular].map(f64::into);
+    Material::BlinnPhong(Box::new(BlinnPhong { albedo, exponent, specular, energy_conserving }))
 }

@@ -1,10 +1,7 @@
 //! Casters: objects with mirrors, glass or narrow glossy lobes on them, each within a sphere at which photons are aimed.
 
-use crate::scene::{Albedo, Material, NONE, Scene};
+use crate::scene::{NONE, Scene};
 use glam::{DMat3, DVec3};
-
-/// Glossy lobes cast from this exponent on; what wider ones reflect is found by light samples.
-pub const LEAST_EXPONENT: f32 = 50.0;
 
 /// A caster, or several that lie together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,22 +77,7 @@ impl Casters {
 
 /// The largest share of light that a material passes on to photons, about; 0: it is no caster.
 fn passes_on(scene: &Scene, material: u32) -> f64 {
-    let largest = |color: &[f64; 3]| color.iter().fold(0.0f64, |a, &b| a.max(b));
-    match scene.materials.get(material as usize) {
-        Some(Material::Mirror { reflectance }) => largest(reflectance),
-        // What it does not let through it reflects, and that is not coloured.
-        Some(Material::Transparent { .. }) => 1.0,
-        Some(Material::BlinnPhong { albedo, exponent, specular, energy_conserving }) => {
-            let color = match albedo {
-                Albedo::Color(color) => largest(color),
-                Albedo::Texture(_) => 1.0,
-            };
-            // At normal incidence.
-            let lobe = if *energy_conserving { *specular } else { 4.0 * specular };
-            if *exponent as f32 >= LEAST_EXPONENT { color * lobe } else { 0.0 }
-        }
-        _ => 0.0,
-    }
+    scene.materials.get(material as usize).map_or(0.0, |material| material.traits().casts)
 }
 
 /// The sphere around a placed sphere: the largest stretch of a matrix M is at most the root of the largest row sum of M^T M.

@@ -14,7 +14,7 @@
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
 use super::share::bsdf_of;
-use crate::engine::batch::{Batch, member_kind, path};
+use crate::engine::batch::{Batch, RAISED, path};
 use crate::engine::guide::cells::{SPHERES, SphereRows};
 use crate::engine::guide::{Guide, MOST_CASTERS};
 use crate::lanes::{Bits, Lanes, Mask};
@@ -226,7 +226,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let weight = by_itself / (by_itself + density);
         aimed = aimed & zero.lt(throughput.max_component());
         let kind = F::U::load(&aimers.kind[i..]);
-        let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
+        let raised = !(kind & F::U::splat(RAISED)).eq(F::U::splat(0));
         let sinks = raised & V3::<F>::load(&aimers.geometric, i).dot(wi).le(zero);
         let primitive = F::U::select(sinks, F::U::splat(NONE), F::U::load(&aimers.primitive[i..]));
         let sum = slot & F::U::splat(path::SUM);

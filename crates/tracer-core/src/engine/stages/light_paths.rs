@@ -22,7 +22,7 @@
 //! are not the same from both sides (bent normals of low-poly meshes); glossy lobes on the way.
 
 use super::aim;
-use super::materials::{Bsdf, Dielectric, TWO_PI, reflect_bent};
+use super::materials::{Bsdf, TWO_PI, reflect_bent};
 use super::photons::Numbers;
 use super::surface::{Surface, surface};
 use crate::engine::batch::Batch;
@@ -309,7 +309,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         let back = direction.neg();
         let numbers =
             Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, pair) };
-        let rough = (bsdf.diffuse | bsdf.glossy) & !s.smooth;
+        let rough = bsdf.rough() & !s.smooth;
         if event > 0 && rough.any() {
             let (u, v) = numbers.pair(lens_salt);
             let lens = film.lens(u, v);
@@ -352,7 +352,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
                 splats.len += falls.count();
             }
         }
-        let passes = bsdf.mirror | bsdf.transparent;
+        let passes = bsdf.specular();
         if !goes_on || !passes.any() {
             continue;
         }
@@ -362,7 +362,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         let (mut of_glass, mut refracted) = (one, F::M::from_bits(0));
         if bsdf.transparent.any() {
             let (lobe, _) = numbers.pair(salt);
-            let d = Dielectric::new(&s, back, bsdf.parameter).sample(lobe);
+            let d = bsdf.dielectric(&s, back).sample(lobe);
             refracted = bsdf.transparent & d.refracted;
             to_eye = V3::select(bsdf.transparent, d.wi, to_eye);
             start = V3::select(bsdf.transparent, s.ng.mad(F::select(d.refracted, -s.offset, s.offset), s.p), start);
@@ -370,7 +370,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
             // Seen from the light's side, so the other way round.
             of_glass = F::select(refracted, one / d.eta2, one);
         }
-        let ior = F::select(bsdf.transparent, bsdf.parameter, one);
+        let ior = bsdf.ior();
         let change = change(&s, Turn { wo: back, wi: to_eye, refracted, ior, eta2: of_glass }, false);
         let carried = carried.mul(weight);
         let alive = passes & zero.lt(carried.max_component()) & zero.lt(change);
@@ -391,6 +391,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
 
 #[cfg(test)]
 mod tests {
+    use super::super::materials::Dielectric;
     use super::*;
     use crate::lanes::ArrayF;
 

@@ -1,6 +1,6 @@
 //! Photons: from the lights, over mirrors, glass and narrow lobes, to rough surfaces (see `engine::guide`).
 
-use super::materials::{Bsdf, Dielectric, reflect_bent};
+use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
 use super::surface::surface;
 use crate::engine::batch::Batch;
@@ -156,7 +156,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let bsdf = Bsdf::<F>::at(tables, &s, surfaces);
         let wo = direction.neg();
         if event > 0 {
-            let stored = bsdf.diffuse | bsdf.glossy;
+            let stored = bsdf.rough();
             if stored.any() {
                 let k = photons.len;
                 s.p.compress(stored, &mut photons.point, k);
@@ -165,8 +165,8 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
                 photons.len += stored.count();
             }
         }
-        let narrow = bsdf.narrow() & zero.lt(bsdf.specular);
-        let passes = bsdf.mirror | bsdf.transparent | narrow;
+        let narrow = bsdf.narrow();
+        let passes = bsdf.specular() | narrow;
         if !goes_on || !passes.any() {
             continue;
         }
@@ -178,7 +178,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let mut weight = bsdf.color;
         if bsdf.transparent.any() {
             let (lobe, _) = numbers.pair(salt);
-            let d = Dielectric::new(&s, wo, bsdf.parameter).sample(lobe);
+            let d = bsdf.dielectric(&s, wo).sample(lobe);
             wi = V3::select(bsdf.transparent, d.wi, wi);
             let side = F::select(d.refracted, -s.offset, s.offset);
             start = V3::select(bsdf.transparent, s.ng.mad(side, s.p), start);
@@ -188,13 +188,9 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         if narrow.any() {
             // Always on by the lobe.
             let (u, v) = numbers.pair(salt ^ 0x6c0b_b1e5);
-            let in_lobe = bsdf.reflect_in_lobe(s.ns, wo, u, v);
-            let cos_i = s.ns.dot(in_lobe);
-            let lobes = bsdf.lobes(s.ns, wo, in_lobe, cos_i.max(zero));
-            let usable = zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
-            let scale = F::select(usable, lobes.glossy * cos_i / F::select(usable, lobes.glossy_pdf, one), zero);
+            let (in_lobe, carries) = bsdf.sample_narrow(s.ns, wo, u, v);
             wi = V3::select(narrow, in_lobe, wi);
-            weight = V3::select(narrow, bsdf.color.scale(scale), weight);
+            weight = V3::select(narrow, carries, weight);
             start = V3::select(narrow, s.start, start);
             leaving = F::U::select(narrow, leaves(&s, wi, primitive), leaving);
         }

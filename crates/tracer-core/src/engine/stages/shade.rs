@@ -6,7 +6,7 @@
 use super::aim;
 use super::light_paths::{Film, Turn, change, density_ratio};
 use super::lights::{self, LightHit, Receiver};
-use super::materials::{Bsdf, Dielectric, reflect_bent};
+use super::materials::{Bsdf, reflect_bent};
 use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
@@ -132,9 +132,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let mut bsdf = Bsdf::at(tables, &s, surfaces);
         if pass.task == Task::Chains {
             // Chains end at all other surfaces.
-            surfaces = surfaces & (bsdf.mirror | bsdf.transparent);
-            bsdf.diffuse = F::M::from_bits(0);
-            bsdf.glossy = F::M::from_bits(0);
+            surfaces = surfaces & bsdf.specular();
+            bsdf.keep_specular();
             if !surfaces.any() {
                 continue;
             }
@@ -146,9 +145,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             if vertex == 0 {
                 let distance = F::load(&batch.hits.t[i..]);
                 film = film * Film::new(&scene.camera, scene.size).area_of(direction, distance, &s);
-                film = F::select(bsdf.mirror | bsdf.transparent | s.smooth, zero, film);
+                film = F::select(bsdf.specular() | s.smooth, zero, film);
             } else {
-                film = F::select(bsdf.diffuse | bsdf.glossy, zero, film);
+                film = F::select(bsdf.rough(), zero, film);
             }
         }
         if let Some(guide) = guide
@@ -168,7 +167,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 film = F::select(both_find, film * normal.dot(direction) / (by_itself + by_aiming), film);
             }
         }
-        let rough = bsdf.diffuse | bsdf.glossy;
+        let rough = bsdf.rough();
         if pass.reuse && vertex > 0 {
             let found = surfaces & !(slot & F::U::splat(path::MAKER)).eq(F::U::splat(0));
             // Light leaves a diffuse vertex alike in all directions: what comes from here on is any member's.
@@ -202,10 +201,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let (u, v) = on_light;
             let l = lights::sample(&tables.lights, &choice, s.start, u, v);
             let cos_i = s.ns.dot(l.wi);
-            let lit = lit_here & zero.lt(cos_i) & zero.lt(l.distance);
+            let lit = lit_here & bsdf.reaches(cos_i) & zero.lt(l.distance);
             if lit.any() {
-                let lobes = bsdf.lobes(s.ns, wo, l.wi, cos_i);
-                let (f, pdf) = bsdf.both(&lobes);
+                let (f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
                 let weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), one);
                 let value = f.mul(throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * eta2));
                 let cast = lit & zero.lt(value.max_component());
@@ -244,7 +242,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             start = V3::select(bsdf.mirror, s.ng.mad(s.offset, s.p), start);
         }
         if bsdf.transparent.any() {
-            let d = Dielectric::new(&s, wo, bsdf.parameter);
+            let d = bsdf.dielectric(&s, wo);
             let mut refracted = d.reflectance.le(lobe);
             let mut share = one;
             if vertex < BRANCHING {
@@ -281,7 +279,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         if pass.light_paths.is_some() && vertex > 0 && zero.lt(film).any() {
             let refracted = bsdf.transparent & wi.dot(s.ng).lt(zero);
-            let ior = F::select(bsdf.transparent, bsdf.parameter, one);
+            let ior = bsdf.ior();
             let eta = F::select(s.outside, one / ior, ior);
             let eta2 = F::select(refracted, eta * eta, one);
             film = film * change(&s, Turn { wo, wi, refracted, ior, eta2 }, true);

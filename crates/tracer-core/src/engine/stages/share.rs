@@ -18,13 +18,13 @@
 //! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and glass behind x
 //! and the light that the ray itself meets stay with the path's own pixel.
 
-use super::materials::Bsdf;
+use super::materials::{Bsdf, Packed};
 use super::reach::Slabs;
 use super::shaft::{Ends, Left, Obstacles, Shaft};
 use super::spheres::{Ray, large_blocks, small_blocks};
 use super::surface::Surface;
 use crate::bvh::SecondBoxes;
-use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, Shadows, Suffixes, member_kind, path};
+use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, RAISED, Shadows, Suffixes, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{NONE, Scene};
@@ -54,20 +54,18 @@ pub fn add_members<F: Lanes>(
     instance: F::U,
     mask: F::M,
 ) {
-    let kind = F::U::splat;
     let raised = s.smooth & !s.start.sub(s.p).dot(s.ng).le(s.offset);
-    let glossy = F::U::select(bsdf.conserving, kind(member_kind::CONSERVING), kind(member_kind::GLOSSY));
-    let scatters = F::U::select(bsdf.glossy, glossy, kind(member_kind::DIFFUSE));
+    let Packed { kind, numbers } = bsdf.pack();
     let k = members.len;
     s.start.compress(mask, &mut members.start, k);
     s.ns.compress(mask, &mut members.normal, k);
     s.ng.compress(mask, &mut members.geometric, k);
     wo.compress(mask, &mut members.wo, k);
     weight.compress(mask, &mut members.weight, k);
-    bsdf.parameter.compress(mask, &mut members.parameter[k..]);
-    bsdf.specular.compress(mask, &mut members.specular[k..]);
+    numbers[0].compress(mask, &mut members.numbers[0][k..]);
+    numbers[1].compress(mask, &mut members.numbers[1][k..]);
     survival.compress(mask, &mut members.survival[k..]);
-    F::U::select(raised, scatters | kind(member_kind::RAISED), scatters).compress(mask, &mut members.kind[k..]);
+    F::U::select(raised, kind | F::U::splat(RAISED), kind).compress(mask, &mut members.kind[k..]);
     slot.compress(mask, &mut members.slot[k..]);
     primitive.compress(mask, &mut members.primitive[k..]);
     instance.compress(mask, &mut members.instance[k..]);
@@ -77,19 +75,9 @@ pub fn add_members<F: Lanes>(
 /// How members i .. i + N scatter, without colour.
 #[inline(always)]
 pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<F> {
-    let none = F::M::from_bits(0);
-    let kind = F::U::load(&members.kind[i..]) & F::U::splat(member_kind::GLOSSY | member_kind::CONSERVING);
-    let glossy = lanes & !kind.eq(F::U::splat(member_kind::DIFFUSE));
-    Bsdf {
-        color: V3::grey(F::splat(1.0)),
-        parameter: F::load(&members.parameter[i..]),
-        specular: F::load(&members.specular[i..]),
-        diffuse: lanes & !glossy,
-        mirror: none,
-        transparent: none,
-        glossy,
-        conserving: glossy & kind.eq(F::U::splat(member_kind::CONSERVING)),
-    }
+    let [first, second] = &members.numbers;
+    let numbers = [F::load(&first[i..]), F::load(&second[i..])];
+    Bsdf::unpack(Packed { kind: F::U::load(&members.kind[i..]), numbers }, lanes)
 }
 
 /// Adds the lanes of the mask to the suffixes.
@@ -209,7 +197,7 @@ impl Segments {
         }
         let start = V3::<F>::load(&members.start, i);
         let kind = F::U::load(&members.kind[i..]);
-        let raised = !(kind & F::U::splat(member_kind::RAISED)).eq(F::U::splat(0));
+        let raised = !(kind & F::U::splat(RAISED)).eq(F::U::splat(0));
         let sinks = raised & V3::<F>::load(&members.geometric, i).dot(p.to).le(zero);
         let from = F::U::select(sinks, F::U::splat(NONE), F::U::load(&members.primitive[i..]));
         let distance = p.distance2.sqrt();
@@ -413,8 +401,7 @@ impl PairTerms {
         let inverse = c(1.0) / p.distance2;
         let mut density = (cos_member * inverse) * (cos_suffix * inverse) * c(std::f32::consts::FRAC_1_PI);
         let mut value = density;
-        let kind = F::U::load(&members.kind[i..]) & F::U::splat(member_kind::GLOSSY | member_kind::CONSERVING);
-        let glossy = lanes & !kind.eq(F::U::splat(member_kind::DIFFUSE));
+        let glossy = Bsdf::<F>::packed_glossy(F::U::load(&members.kind[i..]), lanes);
         if glossy.any() {
             let bsdf = bsdf_of::<F>(members, i, lanes);
             let (ns, wo) = (V3::load(&members.normal, i), V3::load(&members.wo, i));

@@ -19,7 +19,10 @@ use super::{MeshError, read_regular_file};
 use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::codes;
-use scene_format::desc::{Albedo, Color, Mapping, Material, NamedMaterial, Texture, TextureFilter, TextureWrap};
+use scene_format::desc::{
+    Albedo, BlinnPhong, Color, Diffuse, Mapping, Material, Mirror, NamedMaterial, Texture, TextureFilter, TextureWrap,
+    Transparent,
+};
 use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -196,13 +199,14 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
         }
         let transmittance = mtl.transmission.map_or([1.0; 3], |color| clipped("Tf", color, notes));
         let ior = if ior < 1.0 { DEFAULT_IOR } else { ior };
-        return Material::Transparent { ior: ior.into(), transmittance: Box::new(transmittance.into()) };
+        let glass = Transparent { ior: ior.into(), transmittance: transmittance.into() };
+        return Material::Transparent(Box::new(glass));
     }
     if matches!(mtl.illumination, Some(3 | 5)) && is_specular {
         if mtl.picture.is_some() || diffuse.is_some_and(|color| color != [0.0; 3]) {
             notes.unsupported("`Kd` and `map_Kd` of a mirror (`illum` 3 or 5)");
         }
-        return Material::Mirror { reflectance: specular.unwrap_or([1.0; 3]).into() };
+        return Material::Mirror(Mirror { reflectance: specular.unwrap_or([1.0; 3]).into() });
     }
     let picture = picture_of(mtl, diffuse, notes);
     let glossy = specular.filter(|_| is_specular && !matches!(mtl.illumination, Some(0 | 1)));
@@ -219,15 +223,15 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
             notes.unsupported("`Kd` + `Ks` above 1 (both scaled down)");
         }
         let share = specular.iter().sum::<f64>() / sum.iter().sum::<f64>();
-        return Material::BlinnPhong {
-            albedo: Box::new(picture.unwrap_or(Albedo::Color(sum.map(|part| part / largest).into()))),
-            exponent: Box::new(exponent.clamp(*EXPONENTS.start(), *EXPONENTS.end()).into()),
-            specular: Box::new(share.into()),
+        return Material::BlinnPhong(Box::new(BlinnPhong {
+            albedo: picture.unwrap_or(Albedo::Color(sum.map(|part| part / largest).into())),
+            exponent: exponent.clamp(*EXPONENTS.start(), *EXPONENTS.end()).into(),
+            specular: share.into(),
             energy_conserving: false,
-        };
+        }));
     }
     let color = diffuse.unwrap_or(default_albedo());
-    Material::Diffuse { albedo: picture.unwrap_or(Albedo::Color(color.into())) }
+    Material::Diffuse(Diffuse { albedo: picture.unwrap_or(Albedo::Color(color.into())) })
 }
 
 fn default_albedo() -> Color {

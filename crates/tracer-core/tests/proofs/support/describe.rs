@@ -2,9 +2,9 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, Color, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef, Mesh, Object,
-    PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens,
-    Transform, Vec3,
+    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef,
+    Mesh, Mirror, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter,
+    TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
@@ -102,12 +102,12 @@ pub fn rotate(axis: Vec3, degrees: f64) -> Transform {
 
 /// Lambert.
 pub fn diffuse(albedo: Color) -> Material {
-    Material::Diffuse { albedo: Albedo::Color(albedo.into()) }
+    Material::Diffuse(Diffuse { albedo: Albedo::Color(albedo.into()) })
 }
 
 /// Lambert, from a picture.
 pub fn textured(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Material {
-    Material::Diffuse { albedo: picture(file, filter, wrap) }
+    Material::Diffuse(Diffuse { albedo: picture(file, filter, wrap) })
 }
 
 /// A picture as an albedo.
@@ -117,12 +117,12 @@ pub fn picture(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Albedo 
 
 /// A mirror.
 pub fn mirror(reflectance: Color) -> Material {
-    Material::Mirror { reflectance: reflectance.into() }
+    Material::Mirror(Mirror { reflectance: reflectance.into() })
 }
 
 /// A smooth dielectric.
 pub fn glass(ior: f64) -> Material {
-    Material::Transparent { ior: ior.into(), transmittance: Box::new([1.0; 3].into()) }
+    Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance: [1.0; 3].into() }))
 }
 
 /// Blinn-Phong by the report's formula.
@@ -137,8 +137,8 @@ pub fn conserving(albedo: Color, exponent: f64, specular: f64) -> Material {
 
 /// Blinn-Phong.
 pub fn glossy(albedo: Albedo, exponent: f64, specular: f64, energy_conserving: bool) -> Material {
-    let [exponent, specular] = [exponent, specular].map(|number| Box::new(number.into()));
-    Material::BlinnPhong { albedo: Box::new(albedo), exponent, specular, energy_conserving }
+    let [exponent, specular] = [exponent, specular].map(f64::into);
+    Material::BlinnPhong(Box::new(BlinnPhong { albedo, exponent, specular, energy_conserving }))
 }
 
 /// The room of the report: six diffuse spheres of radius 10000.

@@ -84,7 +84,7 @@ fn directions_have_the_density_that_is_reckoned_with() {
                 (0..3).for_each(|axis| batch.aimers.normal[axis][k] = UP[axis]);
                 (0..3).for_each(|axis| batch.aimers.weight[axis][k] = 1.0);
                 batch.aimers.survival[k] = 1.0;
-                batch.aimers.kind[k] = member_kind::DIFFUSE;
+                batch.aimers.kind[k] = 0;
                 batch.aimers.slot[k] = k as u32;
             }
             aim::<One>(&guide, 5, 0, &mut batch);

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::lanes::ArrayF;
-use crate::scene::{Albedo, Material};
+use crate::scene::{Albedo, Material, materials};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use tracer_reference::Random;
@@ -38,9 +38,10 @@ impl Rough {
     fn bsdf(&self) -> Bsdf<S> {
         let albedo = Albedo::Color([1.0, 0.5, 0.0]);
         let material = match self.glossy {
-            None => Material::Diffuse { albedo },
+            None => Material::Diffuse(materials::Diffuse { albedo }),
             Some((exponent, specular)) => {
-                Material::BlinnPhong { albedo, exponent, specular, energy_conserving: self.conserving }
+                let energy_conserving = self.conserving;
+                Material::BlinnPhong(materials::BlinnPhong { albedo, exponent, specular, energy_conserving })
             }
         };
         Bsdf::new(&MaterialTable::new(&[material]), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0

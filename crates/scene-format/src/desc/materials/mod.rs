@@ -1,12 +1,26 @@
-//! Materials and textures.
+//! Materials: one file each, with the material's words, and one line each in the registry below.
+//!
+//! Nobody else has a `match` on kinds of material: what others want to know is asked of [`MaterialWords`].
 
-use super::{Albedo, Color, Emissive, Texture};
+mod blinn_phong;
+mod diffuse;
+mod emissive;
+mod mirror;
+mod transparent;
+
+pub use blinn_phong::BlinnPhong;
+pub use diffuse::Diffuse;
+pub use emissive::{Amount, Emissive};
+pub use mirror::Mirror;
+pub use transparent::Transparent;
+
+use super::{Albedo, Texture};
 use crate::diagnostic::{Span, Spanned};
 use crate::form::{Entry, Form};
 use crate::read::Reader;
-use crate::schema::{FieldDef, Rule, Type};
+use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
-use crate::words::{Words, scene_enum};
+use crate::words::{Words, scene_kinds};
 use std::sync::Arc;
 
 /// A material with its name.
@@ -18,62 +32,64 @@ pub struct NamedMaterial {
     pub material: Material,
 }
 
-// What only the longer kinds have is in boxes: a file of millions of mirrors must not take many times its size.
-scene_enum! {
+/// What is asked of a material's words.
+pub(crate) trait MaterialWords {
+    /// The colour of it that may differ from place to place.
+    fn color(&self) -> Option<&Albedo> {
+        None
+    }
+
+    /// Whether light passes its surfaces: there may be something to be seen inside.
+    fn transmits(&self) -> bool {
+        false
+    }
+
+    /// How it shines, if it does.
+    fn shines(&self) -> Option<&Emissive> {
+        None
+    }
+}
+
+// A box around the longer kinds: a file of millions of mirrors must not take many times its size.
+scene_kinds! {
     /// How a surface scatters light.
-    pub enum Material, "material" {
-        /// Lambert: albedo / pi.
-        Diffuse as "a diffuse material" {
-            /// Reflected share per channel.
-            albedo: Albedo = Albedo::default() => Rule::share();
-        };
-        /// A perfect mirror.
-        Mirror as "a mirror" {
-            /// Reflected share per channel.
-            reflectance: Spanned<Color> = [1.0; 3] => Rule::share();
-        };
-        /// A smooth dielectric: exact Fresnel reflection and refraction.
-        Transparent as "a transparent material" {
-            /// Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air
-            /// bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
-            ior: Spanned<f64> => Rule::within("an index of refraction", 0.01, 100.0);
-            /// Share of refracted light that passes each surface, per channel.
-            transmittance: Box<Spanned<Color>> = Spanned::from([1.0; 3]) => Rule::share();
-        };
-        /// Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
-        BlinnPhong as "a Blinn-Phong material" {
-            /// Colour of both lobes.
-            albedo: Box<Albedo> = Albedo::default() => Rule::share();
-            /// alpha: 1 is dull, 100000 nearly a mirror.
-            exponent: Box<Spanned<f64>> => Rule::within("a number", 0.0, 10_000_000.0);
-            /// s: share of the glossy lobe, 0 to 1.
-            specular: Box<Spanned<f64>> => Rule::within("a share", 0.0, 1.0);
-            /// The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
-            energy_conserving: bool = false;
-        };
-        /// A surface that shines and reflects nothing: any object with it is a light.
+    pub enum Material, "material", by MaterialWords {
+        Diffuse(Diffuse);
+        Mirror(Mirror);
+        Transparent(Box<Transparent>);
+        BlinnPhong(Box<BlinnPhong>);
         Emissive(Box<Emissive>);
     }
 }
 
 impl Material {
+    /// The colour of it that may differ from place to place.
+    pub fn color(&self) -> Option<&Albedo> {
+        self.words().color()
+    }
+
     /// The picture that it takes its colour from.
     pub fn texture(&self) -> Option<&Texture> {
-        let albedo = match self {
-            Material::Diffuse { albedo } => albedo,
-            Material::BlinnPhong { albedo, .. } => &**albedo,
-            Material::Mirror { .. } | Material::Transparent { .. } | Material::Emissive(_) => return None,
-        };
-        match albedo {
+        match self.color()? {
             Albedo::Texture(texture) => Some(texture),
             Albedo::Color(_) | Albedo::Checkerboard(_) => None,
         }
+    }
+
+    /// Whether light passes its surfaces.
+    pub fn transmits(&self) -> bool {
+        self.words().transmits()
+    }
+
+    /// How it shines, if it does.
+    pub fn shines(&self) -> Option<&Emissive> {
+        self.words().shines()
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Material::Diffuse { albedo: Albedo::default() }
+        Material::Diffuse(Diffuse { albedo: Albedo::default() })
     }
 }
 

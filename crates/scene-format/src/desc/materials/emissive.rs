@@ -1,12 +1,13 @@
 //! Surfaces that shine.
 
-use super::Color;
+use super::MaterialWords;
+use crate::desc::Color;
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
-use crate::words::{Words, scene_struct};
+use crate::words::{Told, Words, scene_struct};
 
 /// How much light a surface gives, per channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,5 +66,16 @@ impl Words for Emissive {
             fields.retain(|field| !matches!(field.value, Form::Variant { name: "None", .. }));
         }
         form
+    }
+}
+
+impl Told for Emissive {
+    const ALSO: &'static [&'static str] = &["emitter", "light", "area", "emission", "arealight", "glow", "areasource"];
+    const EXAMPLE: &'static str = "Emissive(radiance: 3)";
+}
+
+impl MaterialWords for Emissive {
+    fn shines(&self) -> Option<&Emissive> {
+        Some(self)
     }
 }

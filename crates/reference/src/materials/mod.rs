@@ -1,0 +1,57 @@
+//! How surfaces scatter light, as the textbook has it: a file for each material. wo points to the viewer, wi to the light, both unit and
+//! away from the surface; `f` has no cosine, densities are in solid angle of wi.
+
+mod blinn_phong;
+mod diffuse;
+mod mirror;
+mod transparent;
+
+use crate::random::Random;
+use crate::surface::Surface;
+use crate::texture;
+use glam::DVec3;
+use tracer_core::Scene;
+use tracer_core::scene::Material;
+
+/// What scatters to more than one direction.
+pub trait Rough {
+    /// f at a pair of directions.
+    fn f(&self, n: DVec3, wo: DVec3, wi: DVec3) -> DVec3;
+
+    /// A direction wi.
+    fn sample(&self, n: DVec3, wo: DVec3, random: &mut Random) -> DVec3;
+
+    /// The density of [`Rough::sample`].
+    fn density(&self, n: DVec3, wo: DVec3, wi: DVec3) -> f64;
+}
+
+/// A direction that light comes from, and its weight f cos / p.
+pub struct Incident {
+    pub direction: DVec3,
+    pub weight: DVec3,
+}
+
+/// What a surface does.
+pub enum Scattered {
+    /// It takes all light.
+    Nothing,
+    /// One direction of a specular lobe, taken at random.
+    Specular(Incident),
+    /// Lobes that can be evaluated.
+    Rough(Box<dyn Rough>),
+}
+
+/// What the surface's material does with light to wo: one line a material.
+pub fn scatter(scene: &Scene, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
+    let color = |albedo| texture::albedo(scene, albedo, s.uv);
+    match scene.materials[s.material as usize] {
+        // Its surface is a light's.
+        Material::Emissive(_) => Scattered::Nothing,
+        Material::Mirror(material) => mirror::sample(material, s, wo),
+        Material::Transparent(material) => transparent::sample(material, s, wo, random),
+        Material::Diffuse(material) => Scattered::Rough(Box::new(diffuse::Diffuse { albedo: color(material.albedo) })),
+        Material::BlinnPhong(words) => {
+            Scattered::Rough(Box::new(blinn_phong::BlinnPhong { albedo: color(words.albedo), words }))
+        }
+    }
+}

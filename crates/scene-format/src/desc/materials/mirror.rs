@@ -1,0 +1,22 @@
+//! Perfect mirrors.
+
+use super::MaterialWords;
+use crate::desc::Color;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
+use crate::words::{Told, scene_struct};
+
+scene_struct! {
+    /// A perfect mirror.
+    pub struct Mirror as "Mirror", "a mirror" {
+        /// Reflected share per channel.
+        reflectance: Spanned<Color> = [1.0; 3] => Rule::share();
+    }
+}
+
+impl Told for Mirror {
+    const ALSO: &'static [&'static str] = &["metal", "specular", "conductor", "reflective", "chrome"];
+    const EXAMPLE: &'static str = "Mirror(reflectance: 0.9)";
+}
+
+impl MaterialWords for Mirror {}

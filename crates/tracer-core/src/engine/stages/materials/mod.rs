@@ -1,0 +1,291 @@
+//! Scattering over lanes.
+//!
+//! The contract:
+//! - wo points to where light goes, wi to where it comes from, both unit and away from the surface, in render space; the shading normal `ns`
+//!   is on the viewer's side. Which side a lobe takes light from is for [`Bsdf::reaches`] to say: callers take |cos|.
+//! - `f` is per steradian and has no cosine; densities are per unit of solid angle of wi. A weight is f |cos| / density.
+//! - Lanes are told apart by flags, a mask each, as pbrt's `BxdfFlags`: `diffuse` (DIFFUSE only: f does not depend on directions), `glossy`
+//!   (GLOSSY, beside DIFFUSE or not), `mirror` (SPECULAR and REFLECTION) and `transparent` (SPECULAR, REFLECTION and TRANSMISSION).
+//!   A lane has one of them, or none where nothing is scattered. Specular lobes are sampled only: their f and density are zero.
+//! - No sample: density 0. Radiance that is refracted is scaled by (n_i / n_t)^2 (Veach 1997, 5.2), which is kept apart as `eta2`.
+//!
+//! A lobe is a file here. Which material has which is in its row ([`crate::scene::materials`]); nobody outside of this room asks for a kind.
+
+mod blinn_phong;
+mod dielectric;
+mod specular_reflection;
+
+pub use dielectric::Dielectric;
+#[cfg(test)]
+use dielectric::fresnel;
+pub use specular_reflection::reflect_bent;
+
+use super::surface::Surface;
+use super::textures::texture_color;
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::sampling::warp;
+use crate::scene::{LEAST_EXPONENT, Lobe, MaterialTable, Tables};
+use blinn_phong::BlinnPhong;
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// How lanes scatter.
+#[derive(Clone, Copy)]
+pub struct Bsdf<F: Lanes> {
+    /// Albedo, reflectance or transmittance, per channel.
+    pub color: V3<F>,
+    /// DIFFUSE and nothing else: light leaves alike in all directions.
+    pub diffuse: F::M,
+    /// GLOSSY.
+    pub glossy: F::M,
+    /// SPECULAR | REFLECTION.
+    pub mirror: F::M,
+    /// SPECULAR | REFLECTION | TRANSMISSION.
+    pub transparent: F::M,
+    /// Of transparent lanes the index of refraction, of glossy ones alpha.
+    parameter: F,
+    /// Of glossy lanes s.
+    share: F,
+    /// Glossy lanes with the energy-conserving lobe.
+    conserving: F::M,
+}
+
+/// A [`Bsdf`] that is no specular one as columns hold it, without colour.
+pub struct Packed<F: Lanes> {
+    /// Bits of [`packed`].
+    pub kind: F::U,
+    /// Its numbers.
+    pub numbers: [F; 2],
+}
+
+/// Bits of [`Packed::kind`]; those above [`packed::ALL`] are free for whoever keeps it.
+pub mod packed {
+    /// Blinn-Phong by the report's formula.
+    pub const GLOSSY: u32 = 1;
+    /// Blinn-Phong, energy-conserving.
+    pub const CONSERVING: u32 = 2;
+    /// All bits.
+    pub const ALL: u32 = GLOSSY | CONSERVING;
+}
+
+impl<F: Lanes> Bsdf<F> {
+    /// Looks the material up, and its texture + 1, or 0; all masks are within `valid`.
+    #[inline(always)]
+    fn new(table: &MaterialTable, material: F::U, valid: F::M) -> (Self, F::U) {
+        let none = F::M::from_bits(0);
+        let [red, green, blue, kind, texture] = table.rows.row::<F>(material);
+        let kind = kind.to_bits();
+        let is = |k: Lobe| if table.has(k) { valid & kind.eq(F::U::splat(k as u32)) } else { none };
+        let (transparent, conserving) = (is(Lobe::Dielectric), is(Lobe::BlinnPhongConserving));
+        let glossy = is(Lobe::BlinnPhong) | conserving;
+        let (mut parameter, mut share) = (F::splat(1.0), F::splat(0.0));
+        if (transparent | glossy).any() {
+            [parameter, share] = table.parameters.row::<F>(material);
+        }
+        let bsdf = Bsdf {
+            color: V3(red, green, blue),
+            diffuse: is(Lobe::Lambert),
+            glossy,
+            mirror: is(Lobe::Mirror),
+            transparent,
+            parameter,
+            share,
+            conserving,
+        };
+        (bsdf, texture.to_bits())
+    }
+
+    /// The material of a surface, its texture looked up.
+    #[inline(always)]
+    pub fn at(tables: &Tables, s: &Surface<F>, valid: F::M) -> Self {
+        let (mut bsdf, texture) = Bsdf::<F>::new(&tables.materials, s.material, valid);
+        if tables.materials.textured {
+            let textured = valid & !texture.eq(F::U::splat(0));
+            if textured.any() {
+                let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
+                bsdf.color = V3::select(textured, texel, bsdf.color);
+            }
+        }
+        bsdf
+    }
+
+    /// Lanes with a lobe that is not specular: [`Bsdf::evaluate`] and [`Bsdf::sample_rough`] are for them.
+    #[inline(always)]
+    pub fn rough(&self) -> F::M {
+        self.diffuse | self.glossy
+    }
+
+    /// Lanes with specular lobes only.
+    #[inline(always)]
+    pub fn specular(&self) -> F::M {
+        self.mirror | self.transparent
+    }
+
+    /// Takes away all lobes but the specular ones.
+    #[inline(always)]
+    pub fn keep_specular(&mut self) {
+        self.diffuse = F::M::from_bits(0);
+        self.glossy = F::M::from_bits(0);
+    }
+
+    /// Rough lanes that light from a direction with this cosine to the shading normal gets through: from above, since none of these lobes
+    /// transmits.
+    #[inline(always)]
+    pub fn reaches(&self, cos_i: F) -> F::M {
+        F::splat(0.0).lt(cos_i)
+    }
+
+    /// Index of refraction of the inside against the outside where light passes, else one.
+    #[inline(always)]
+    pub fn ior(&self) -> F {
+        F::select(self.transparent, self.parameter, F::splat(1.0))
+    }
+
+    /// Both ways of transparent lanes.
+    #[inline(always)]
+    pub fn dielectric(&self, s: &Surface<F>, wo: V3<F>) -> Dielectric<F> {
+        Dielectric::new(s, wo, self.parameter)
+    }
+
+    /// The glossy lobe.
+    #[inline(always)]
+    fn blinn_phong(&self) -> BlinnPhong<F> {
+        BlinnPhong { exponent: self.parameter, share: self.share, conserving: self.conserving }
+    }
+
+    /// Both lobes at a pair of directions, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
+    #[inline(always)]
+    fn lobes(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> Lobes<F> {
+        let c = F::splat;
+        let none = c(0.0);
+        let mut lobes =
+            Lobes { lambert: c(FRAC_1_PI), lambert_pdf: cos_i * c(FRAC_1_PI), glossy: none, glossy_pdf: none };
+        if self.glossy.any() {
+            let (f, pdf) = self.blinn_phong().evaluate(ns, wo, wi, cos_i);
+            lobes.glossy = F::select(self.glossy, f, none);
+            lobes.glossy_pdf = F::select(self.glossy, pdf, none);
+            lobes.lambert = F::select(self.glossy, (c(1.0) - self.share) * lobes.lambert, lobes.lambert);
+        }
+        lobes
+    }
+
+    /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the rough lanes that wi reaches; `cos_i` is ns.wi.
+    #[inline(always)]
+    pub fn evaluate(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> (V3<F>, F) {
+        let lobes = self.lobes(ns, wo, wi, cos_i);
+        if !self.glossy.any() {
+            return (self.color.scale(lobes.lambert), lobes.lambert_pdf);
+        }
+        let p = self.blinn_phong().probability();
+        let mixed = p.fma(lobes.glossy_pdf, (F::splat(1.0) - p) * lobes.lambert_pdf);
+        let pdf = F::select(self.glossy, mixed, lobes.lambert_pdf);
+        (self.color.scale(lobes.lambert + lobes.glossy), pdf)
+    }
+
+    /// A direction for the rough lanes: cosine-weighted, or of the glossy lobe. The weight and the density are those of both lobes
+    /// together.
+    #[inline(always)]
+    pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> RoughSample<F> {
+        let c = F::splat;
+        let local = warp::cosine_hemisphere(u, v);
+        let mut wi = ns.to_world(local);
+        let mut weight = self.color;
+        let mut pdf = local.2 * c(FRAC_1_PI);
+        if self.glossy.any() {
+            let p = self.blinn_phong().probability();
+            let from_lobe = self.glossy & lobe.lt(p);
+            if from_lobe.any() {
+                wi = V3::select(from_lobe, self.blinn_phong().sample(ns, wo, u, v), wi);
+            }
+            let cos_i = ns.dot(wi);
+            let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
+            let value = lobes.lambert + lobes.glossy;
+            let density = p.fma(lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
+            let usable = c(0.0).lt(cos_i) & c(0.0).lt(density);
+            let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
+            weight = V3::select(self.glossy, self.color.scale(scale), weight);
+            pdf = F::select(self.glossy, F::select(usable, density, c(0.0)), pdf);
+        }
+        RoughSample { wi, weight, pdf }
+    }
+
+    /// Glossy lanes whose lobe is so narrow that photons go on by it (see `engine::guide`).
+    #[inline(always)]
+    pub fn narrow(&self) -> F::M {
+        self.glossy & F::splat(LEAST_EXPONENT).le(self.parameter) & F::splat(0.0).lt(self.share)
+    }
+
+    /// A direction of the narrow lanes' glossy lobe alone, and its weight f cos / density.
+    #[inline(always)]
+    pub fn sample_narrow(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> (V3<F>, V3<F>) {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let wi = self.blinn_phong().sample(ns, wo, u, v);
+        let cos_i = ns.dot(wi);
+        let lobes = self.lobes(ns, wo, wi, cos_i.max(zero));
+        let usable = zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
+        let scale = F::select(usable, lobes.glossy * cos_i / F::select(usable, lobes.glossy_pdf, one), zero);
+        (wi, self.color.scale(scale))
+    }
+
+    /// The rough lanes as columns hold them.
+    #[inline(always)]
+    pub fn pack(&self) -> Packed<F> {
+        let bits = F::U::splat;
+        let glossy = F::U::select(self.conserving, bits(packed::CONSERVING), bits(packed::GLOSSY));
+        Packed { kind: F::U::select(self.glossy, glossy, bits(0)), numbers: [self.parameter, self.share] }
+    }
+
+    /// Which of these kinds are glossy.
+    #[inline(always)]
+    pub fn packed_glossy(kind: F::U, lanes: F::M) -> F::M {
+        lanes & !(kind & F::U::splat(packed::ALL)).eq(F::U::splat(0))
+    }
+
+    /// What was packed, with colour one.
+    #[inline(always)]
+    pub fn unpack(packed: Packed<F>, lanes: F::M) -> Self {
+        let none = F::M::from_bits(0);
+        let kind = packed.kind & F::U::splat(packed::ALL);
+        let glossy = Self::packed_glossy(kind, lanes);
+        let [parameter, share] = packed.numbers;
+        Bsdf {
+            color: V3::grey(F::splat(1.0)),
+            diffuse: lanes & !glossy,
+            glossy,
+            mirror: none,
+            transparent: none,
+            parameter,
+            share,
+            conserving: glossy & kind.eq(F::U::splat(packed::CONSERVING)),
+        }
+    }
+}
+
+/// The lobes of a rough material at a pair of directions: f without colour, and the densities of their own samples.
+struct Lobes<F: Lanes> {
+    /// f of the Lambert lobe.
+    lambert: F,
+    /// Its density.
+    lambert_pdf: F,
+    /// f of the glossy lobe.
+    glossy: F,
+    /// Its density.
+    glossy_pdf: F,
+}
+
+/// A sampled direction with f cos / pdf and its density.
+pub struct RoughSample<F: Lanes> {
+    /// Direction.
+    pub wi: V3<F>,
+    /// f cos / pdf.
+    pub weight: V3<F>,
+    /// Density; 0: no direction.
+    pub pdf: F,
+}
+
+/// 2 pi, for densities of cones.
+pub const TWO_PI: f32 = 2.0 * PI;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,20 @@
+//! Lambert.
+
+use super::{Albedo, BxdfFlags, Lobe, MaterialKind, Row, Traits};
+
+/// albedo / pi.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diffuse {
+    /// Reflected share.
+    pub albedo: Albedo,
+}
+
+impl MaterialKind for Diffuse {
+    fn row(&self) -> Row {
+        Row { lobe: Lobe::Lambert, color: self.albedo, parameters: [0.0; 2] }
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { flags: BxdfFlags::REFLECTION.or(BxdfFlags::DIFFUSE), color: self.albedo, casts: 0.0 }
+    }
+}
