@@ -1,7 +1,8 @@
 //! The film: per pixel, exact sums of radiance over its samples.
 //!
-//! Sums do not depend on their order, so threads, resumed renderings and parts of a picture rendered elsewhere give the same bytes: they
-//! are whole numbers in a window that goes by the scene's brightest light ([`exact`]). All that is read is in the scene's own units.
+//! Sums do not depend on their order, so threads, resumed renderings and parts of a picture rendered elsewhere give the
+//! same bytes: they are whole numbers in a window that goes by the scene's brightest light ([`exact`]). All that is
+//! read is in the scene's own units.
 
 mod cells;
 mod exact;
@@ -18,9 +19,9 @@ use layers::{FilmLayer, TileLayers};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
 
-use crate::engine::{Costs, Counters, Statistics};
 use crate::layers::{Kept, LayerSet};
 use crate::level::Level;
+use crate::report::{Costs, Counters, Statistics};
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
@@ -114,9 +115,9 @@ impl Tile {
         self.taken = Some(Box::new(Taken::zeroed()));
     }
 
-    /// Scales those samples of a block whose largest channel is above the limit down to it, and keeps what that takes; samples and pixels
-    /// are those of [`Tile::add`], which comes after. Whole numbers are subtracted, so that what is taken and what is left sum to
-    /// what there was, exactly. Samples that will be dropped stay as they are.
+    /// Scales those samples of a block whose largest channel is above the limit down to it, and keeps what that takes;
+    /// samples and pixels are those of [`Tile::add`], which comes after. Whole numbers are subtracted, so that what is
+    /// taken and what is left sum to what there was, exactly. Samples that will be dropped stay as they are.
     pub(crate) fn clamp(&mut self, limit: f64, mut samples: [&mut [f32]; 3], pixels: &[[u8; 2]]) {
         let Some(taken) = &mut self.taken else { return };
         for &[k, pixel] in pixels {
@@ -138,8 +139,9 @@ impl Tile {
         }
     }
 
-    /// Adds samples of a block, those numbered by the first of each of `pixels` to the pixels numbered by the second; gives how many
-    /// samples were left out. A sample may be negative: what pixels share is weighed so (`engine::stages::share`).
+    /// Adds samples of a block, those numbered by the first of each of `pixels` to the pixels numbered by the second;
+    /// gives how many samples were left out. A sample may be negative: what pixels share is weighed so
+    /// (`engine::stages::share`).
     pub(crate) fn add(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[[u8; 2]]) -> LeftOut {
         let mut left_out = LeftOut::default();
         for &[k, pixel] in pixels {
@@ -159,8 +161,8 @@ impl Tile {
         left_out
     }
 
-    /// Adds what a light path brings to a pixel, scaled down to the limit where samples are clamped; what that takes is kept as of
-    /// samples. What is too large for a sum is left out.
+    /// Adds what a light path brings to a pixel, scaled down to the limit where samples are clamped; what that takes is
+    /// kept as of samples. What is too large for a sum is left out.
     pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3], limit: Option<f64>) {
         if !counts(brings) {
             return;
@@ -198,7 +200,8 @@ pub struct Clamped {
     pub share: f64,
 }
 
-/// Work that is left of a pass that was ended early: places, as whoever renders numbers them, and the sample indices that they lack.
+/// Work that is left of a pass that was ended early: places, as whoever renders numbers them, and the sample indices
+/// that they lack.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub places: Range<u32>,
@@ -242,7 +245,8 @@ pub struct Film {
     pub reuse: bool,
     /// Photons told where rays were aimed.
     pub caustics: bool,
-    /// The most that the largest channel of a sample counts, where samples are clamped: the picture is then too dark where they were.
+    /// The most that the largest channel of a sample counts, where samples are clamped: the picture is then too dark
+    /// where they were.
     pub clamp: Option<f32>,
     /// Lane type that was used.
     pub level: Level,
@@ -314,7 +318,8 @@ impl Film {
         self.tiles.iter().flat_map(|tile| tile.samples).map(u64::from).sum()
     }
 
-    /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended early.
+    /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended
+    /// early.
     pub fn samples(&self) -> std::ops::RangeInclusive<u32> {
         let counts = || {
             self.pixels().map(|(x, y)| {
@@ -332,8 +337,8 @@ impl Film {
         self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile))).sum()
     }
 
-    /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not, where light paths fall everywhere
-    /// or nowhere, with these layers.
+    /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not, where light
+    /// paths fall everywhere or nowhere, with these layers.
     pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
         let of_tile = Tile::bytes(clamped, light_paths, layers.kept());
@@ -348,7 +353,8 @@ impl Film {
         (&self.tiles[(row * self.tile_columns + column) as usize], z as usize)
     }
 
-    /// Mean radiance of a pixel, linear RGB; (x, y) in the whole picture, within the crop. Black where there is no sample yet.
+    /// Mean radiance of a pixel, linear RGB; (x, y) in the whole picture, within the crop. Black where there is no
+    /// sample yet.
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
@@ -366,8 +372,8 @@ impl Film {
         [r * self.unit, g * self.unit, b * self.unit]
     }
 
-    /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without clamping, but for the
-    /// rounding of that sum. Black where nothing was taken.
+    /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without
+    /// clamping, but for the rounding of that sum. Black where nothing was taken.
     pub fn taken(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         tile.taken.as_ref().map_or([0.0; 3], |taken| taken.sums.mean(pixel, tile.samples[pixel]).map(|x| x * self.unit))
@@ -399,8 +405,8 @@ impl Film {
         (y..y + height).flat_map(move |py| (x..x + width).map(move |px| (px, py)))
     }
 
-    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero below two
-    /// samples.
+    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero
+    /// below two samples.
     pub fn variance(&self, x: u32, y: u32) -> f64 {
         let (tile, pixel) = self.place(x, y);
         if tile.samples[pixel] < 2 {
@@ -416,8 +422,8 @@ impl Film {
         (of_samples + of_light) * self.unit * self.unit
     }
 
-    /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of the
-    /// picture as one number, an upper bound because the samples are stratified.
+    /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of
+    /// the picture as one number, an upper bound because the samples are stratified.
     pub fn relative_noise(&self) -> f64 {
         let (mut variance, mut mean) = (0.0, 0.0);
         for (x, y) in self.pixels() {

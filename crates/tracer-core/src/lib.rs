@@ -1,7 +1,8 @@
 //! The engine of tracer: a scene description becomes a picture.
 //!
-//! [`compile`] turns a [`scene_format::SceneDesc`] into a [`Scene`], [`render`] path-traces it into a [`Film`], [`develop`] makes a
-//! picture of the film. The picture depends on the scene, the seed and the number of samples, and on nothing else.
+//! [`compile`] turns a [`scene_format::SceneDesc`] into a [`Scene`], [`render`] path-traces it into a [`Film`],
+//! [`develop`] makes a picture of the film. The picture depends on the scene, the seed and the number of samples, and
+//! on nothing else.
 //!
 //! The whole way, from text to the bytes of a picture file:
 //!
@@ -39,22 +40,23 @@ pub mod bvh;
 mod compile;
 mod develop;
 mod engine;
+mod files;
 mod film;
 pub(crate) mod lanes;
 pub(crate) mod layers;
 mod level;
 pub(crate) mod math;
 pub mod mesh;
+mod report;
 pub mod sampling;
 pub mod scene;
 pub mod texture;
 
 pub use compile::{CompileError, CompileTimes, check_files, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
-pub use engine::{
-    Costs, Counters, Misfit, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render, resume,
-};
+pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use layers::LayerSet;
 pub use level::Level;
+pub use report::{Costs, Counters, Stage, Statistics, TreeWork};
 pub use scene::Scene;

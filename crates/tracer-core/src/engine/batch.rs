@@ -1,25 +1,33 @@
 //! The state of one batch: structures of arrays, allocated once per thread, small enough to stay in the L2 cache.
 //!
-//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 256 pixels at one sample index: every other one of every other
-//! row, 64 of them. Where they lie, [`crate::sampling::blocks`] says. Slot s is pixel s % 64 (in Z-order) of item s / 64; slots whose pixel lies
-//! outside of the picture have no path. A slot's radiance is summed in the order of its path's vertices, whatever the schedule.
+//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 256 pixels at one sample index: every other one
+//! of every other row, 64 of them. Where they lie, [`crate::sampling::blocks`] says. Slot s is pixel s % 64 (in
+//! Z-order) of item s / 64; slots whose pixel lies outside of the picture have no path. A slot's radiance is summed in
+//! the order of its path's vertices, whatever the schedule.
 
-use super::glints::WEIGHT;
-use super::stages::shade::BRANCHING;
-use super::statistics::Watch;
+use super::watch::Watch;
 use crate::lanes::{Bits, Lanes};
-use crate::layers::Kept;
+use crate::layers::LayerSamples;
 use crate::math::V3;
+use crate::report::Counters;
 use crate::sampling::blocks::{ITEM_PIXELS, Item, Pixels};
+pub use crate::sampling::blocks::{ITEMS, PATHS};
 use crate::scene::NONE;
 
-/// Items in a batch. 1024 paths: fewer leave the vectors of deep bounces empty, more leave the L2 cache.
-pub const ITEMS: usize = 16;
-/// Paths in a batch.
-pub const PATHS: usize = ITEMS * ITEM_PIXELS;
-/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed wherever they may
-/// (`stages::aim`), and behind every array for one vector more: a compressing store writes whole registers. A path's own ray has one
-/// more at each of its first vertices, at glass or at a rough surface, and so have those from glass, and aimed ones after a mirror: seven.
+/// At so many of its first vertices a path from the camera that has met mirrors and glass only goes both ways at glass:
+/// what one of them shows, often the lamp, is far brighter than what the other does.
+pub const BRANCHING: u32 = 3;
+
+/// Glint chains of a pixel at each sample index, beside its own path. Three and a path's own four are one sequence of
+/// samples each.
+pub const CHAINS: u32 = 3;
+/// What is left to the path's own share.
+pub const WEIGHT: f32 = 1.0 / (CHAINS as f32 + 1.0);
+
+/// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed
+/// wherever they may (`stages::aim`), and behind every array for one vector more: a compressing store writes whole
+/// registers. A path's own ray has one more at each of its first vertices, at glass or at a rough surface, and so have
+/// those from glass, and aimed ones after a mirror: seven.
 pub const CAPACITY: usize = (1 + 2 * BRANCHING as usize) * PATHS + 64;
 
 /// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
@@ -48,21 +56,22 @@ fn columns() -> Columns {
 pub mod path {
     /// The slot: which pixel of which item.
     pub const SLOT: u32 = super::PATHS as u32 - 1;
-    /// The path carries light to the second vertex of a pixel's path, which the pixels of the item share: its radiance goes to the
-    /// upper half of [`super::Batch::radiance`].
+    /// The path carries light to the second vertex of a pixel's path, which the pixels of the item share: its radiance
+    /// goes to the upper half of [`super::Batch::radiance`].
     pub const SHARED: u32 = super::PATHS as u32;
     /// Slot and sum: where radiance goes.
     pub const SUM: u32 = SLOT | SHARED;
     /// The path has left a member ([`super::Members`]); what it meets next may be shared.
     pub const MAKER: u32 = 2 * SHARED;
-    /// The path has been past that, or scattered where nothing is shared: it carries light to its own pixel only. None of the three: only
-    /// mirrors and glass so far.
+    /// The path has been past that, or scattered where nothing is shared: it carries light to its own pixel only. None
+    /// of the three: only mirrors and glass so far.
     pub const OWN: u32 = 4 * SHARED;
     /// The path's ray leaves a surface from which rays were aimed ([`super::super::stages::aim`]).
     pub const AIMS: u32 = 8 * SHARED;
     /// The fainter of both ways at glass: it goes both ways no more, and shares nothing.
     pub const BRANCH: u32 = 32 * SHARED;
-    /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy surface only.
+    /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy
+    /// surface only.
     pub const AIMED: u32 = 16 * SHARED;
 }
 
@@ -74,18 +83,20 @@ pub struct Paths {
     pub origin: Columns,
     /// Unit direction.
     pub direction: Columns,
-    /// Product of f cos / pdf so far, without the radiance scaling of refraction and the shares of both ways at glass: what roulette
-    /// goes by.
+    /// Product of f cos / pdf so far, without the radiance scaling of refraction and the shares of both ways at glass:
+    /// what roulette goes by.
     pub throughput: Columns,
     /// Radiance scaling of refraction, the product of (n_i / n_t)^2, times the shares of both ways at glass.
     pub eta2: Column<f32>,
-    /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror, glass).
+    /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror,
+    /// glass).
     pub pdf: Column<f32>,
-    /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and `pdf` is not
-    /// negative.
+    /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and
+    /// `pdf` is not negative.
     pub normal: Columns,
-    /// Camera rays: one over the pixel's filter there. From a rough surface that they hit, with light paths at work: K cos J / (h P) of
-    /// [`super::stages::light_paths`], before what the ray meets is known without cos and P; zero where no light path could come.
+    /// Camera rays: one over the pixel's filter there. From a rough surface that they hit, with light paths at work: K
+    /// cos J / (h P) of [`super::stages::light_paths`], before what the ray meets is known without cos and P; zero
+    /// where no light path could come.
     pub film: Column<f32>,
     /// Slot and state, see [`path`].
     pub slot: Column<u32>,
@@ -212,7 +223,8 @@ pub struct Photons {
     pub flux: Column<f32>,
 }
 
-/// What light paths bring to the film (see [`super::stages::light_paths`]); the shadow rays to the lens are in [`Batch::shadows`].
+/// What light paths bring to the film (see [`super::stages::light_paths`]); the shadow rays to the lens are in
+/// [`Batch::shadows`].
 pub struct Splats {
     /// How many.
     pub len: usize,
@@ -228,7 +240,8 @@ pub struct Splats {
     pub y: Column<f32>,
 }
 
-/// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of vertices, items, pixels.
+/// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of
+/// vertices, items, pixels.
 pub struct Members {
     /// Number of members.
     pub len: usize,
@@ -281,7 +294,8 @@ impl Members {
 /// Added to [`Members::kind`] where `start` lies above the surface (see `Surface::start`), so that sinking rays may meet it.
 pub const RAISED: u32 = 1 << 31;
 
-/// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items, pixels.
+/// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items,
+/// pixels.
 pub struct Suffixes {
     /// Number of suffixes.
     pub len: usize,
@@ -310,6 +324,8 @@ pub struct Group {
 pub struct Groups {
     /// The groups.
     pub list: Vec<Group>,
+    /// Per item: the last group of it.
+    pub of_item: [u32; ITEMS],
     /// Per suffix: the group that shares it.
     pub of_suffix: Column<u32>,
     /// Per suffix: the members of its group that do not see it or do not share it, a bit each.
@@ -318,84 +334,20 @@ pub struct Groups {
     pub gathered: Columns,
 }
 
-/// What camera rays hit first, for the layers that are asked for ([`crate::layers`]), slot by slot.
-#[derive(Default)]
-pub struct LayerSamples {
-    /// A column for each channel of those layers that are means, one layer after the other; zero where nothing is hit.
-    pub sums: Vec<Box<[f32; PATHS]>>,
-    /// A column for each of those that go by the nearest sample; zero where nothing is hit.
-    pub nearest: Vec<Box<[u32; PATHS]>>,
-    /// For these: the square of the sample's distance from its pixel's centre, in pixels.
-    pub distance2: Vec<f32>,
-    /// Per item: the slots whose ray hit something, a bit each.
-    pub hits: [u64; ITEMS],
-}
-
-impl LayerSamples {
-    /// Makes ready for so many columns.
-    pub fn start(&mut self, kept: Kept) {
-        self.hits = [0; ITEMS];
-        self.sums.resize_with(kept.sums, || Box::new([0.0; PATHS]));
-        self.sums.iter_mut().for_each(|column| column.fill(0.0));
-        self.nearest.resize_with(kept.nearest, || Box::new([0; PATHS]));
-        self.nearest.iter_mut().for_each(|column| column.fill(0));
-        self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, 0.0);
-    }
-
-    /// What there are columns for.
-    pub fn kept(&self) -> Kept {
-        Kept { sums: self.sums.len(), nearest: self.nearest.len(), uv: false }
-    }
-}
-
-/// What a batch counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Camera rays.
-    pub camera_rays: u64,
-    /// Rays that went on from a surface.
-    pub scattered_rays: u64,
-    /// Rays to lights.
-    pub shadow_rays: u64,
-    /// Rays to what other pixels have found.
-    pub segments: u64,
-    /// Photons sent, and those that went on from mirrors and glass.
-    pub photon_rays: u64,
-    /// Rays of glint chains and of their pilot.
-    pub chain_rays: u64,
-    /// Samples that were not finite.
-    pub dropped: u64,
-    /// Samples that were finite, but too far above the scene's brightest light (see `film::exact`).
-    pub beyond: u64,
-}
-
-impl Counters {
-    /// Adds another batch's.
-    pub fn add(&mut self, other: &Counters) {
-        self.camera_rays += other.camera_rays;
-        self.scattered_rays += other.scattered_rays;
-        self.shadow_rays += other.shadow_rays;
-        self.segments += other.segments;
-        self.photon_rays += other.photon_rays;
-        self.chain_rays += other.chain_rays;
-        self.dropped += other.dropped;
-        self.beyond += other.beyond;
-    }
-}
-
 /// All of a thread's working memory.
 pub struct Batch {
     /// The items; at most [`ITEMS`].
     pub items: Vec<Item>,
     /// The pixels of the slots.
     pub pixels: Pixels,
-    /// Items with glint chains ([`super::glints`]), a bit each.
+    /// Items with glint chains ([`super::techniques::glints`]), a bit each.
     pub glints: u32,
     /// Items whose pixels share, a bit each, where any do.
     pub shares: u32,
     /// The same as words, one or zero.
     pub item_shares: [u32; ITEMS],
-    /// Per item: the weight of what a path sees that has met mirrors and glass only: one, or what glint chains leave to it.
+    /// Per item: the weight of what a path sees that has met mirrors and glass only: one, or what glint chains leave to
+    /// it.
     pub glint_weight: [f32; ITEMS],
     /// The living paths.
     pub paths: Paths,
@@ -407,9 +359,11 @@ pub struct Batch {
     pub hits: Hits,
     /// Shadow rays of this bounce.
     pub shadows: Shadows,
-    /// Rays between first and second vertices of different pixels; they change places with `shadows` while they are traced.
+    /// Rays between first and second vertices of different pixels; they change places with `shadows` while they are
+    /// traced.
     pub segments: Shadows,
-    /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path found.
+    /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path
+    /// found.
     pub radiance: Columns,
     /// What camera rays hit first.
     pub layers: LayerSamples,
@@ -481,6 +435,7 @@ impl Batch {
             },
             groups: Groups {
                 list: Vec::with_capacity(CAPACITY),
+                of_item: [0; ITEMS],
                 of_suffix: words(),
                 hidden: filled(0),
                 gathered: columns(),
@@ -492,7 +447,8 @@ impl Batch {
         }
     }
 
-    /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is [`WEIGHT`].
+    /// Makes ready for the items; of those with a bit set in `glints`, a path's own share of what chains see is
+    /// [`WEIGHT`].
     pub fn start(&mut self) {
         for k in 0..self.items.len() {
             self.item_shares[k] = self.shares >> k & 1;
@@ -507,5 +463,6 @@ impl Batch {
         self.members.len = 0;
         self.suffixes.len = 0;
         self.groups.list.clear();
+        self.groups.of_item = [0; ITEMS];
     }
 }

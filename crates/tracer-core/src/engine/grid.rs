@@ -1,17 +1,17 @@
 //! Which blocks there are.
 //!
-//! Pixels of a block share, so their errors are alike, and where a block ends, so does what they have in common: were it always at the
-//! same place, the border would be seen. Blocks are cut anew for each sample index ([`crate::sampling::blocks`]), and all cuts together move by points
-//! of the sampler: the first 16 of them lie in all columns and all rows, the first 256 at all places. Blocks at the picture's border hold
-//! fewer pixels.
+//! Pixels of a block share, so their errors are alike, and where a block ends, so does what they have in common: were
+//! it always at the same place, the border would be seen. Blocks are cut anew for each sample index
+//! ([`crate::sampling::blocks`]), and all cuts together move by points of the sampler: the first 16 of them lie in all
+//! columns and all rows, the first 256 at all places. Blocks at the picture's border hold fewer pixels.
 
 use crate::film::Crop;
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
 use crate::sampling::blocks::{Block, Cut, TILE};
 use crate::sampling::sampler::{Pair, Purpose, hash3};
 
-/// The blocks that touch a crop. Each is rendered whole, as far as it lies in the picture, so that the crop's pixels share with the same
-/// others as in the whole picture.
+/// The blocks that touch a crop. Each is rendered whole, as far as it lies in the picture, so that the crop's pixels
+/// share with the same others as in the whole picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     crop: Crop,

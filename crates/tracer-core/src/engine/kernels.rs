@@ -3,11 +3,10 @@
 use super::batch::Batch;
 use super::guide::Guide;
 use super::guide::plan::Plan;
-use super::guide::trace::PhotonPass;
+use super::pass::{Pass, PhotonPass};
 use super::stages::light_paths::LightPass;
 use super::stages::shaft::Obstacles;
 use super::stages::{aim, camera, first_hits, light_paths, photons, reach, shade, share, spheres};
-use super::trace::Pass;
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
 #[cfg(target_arch = "x86_64")]

@@ -1,18 +1,22 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
-use super::glints::Glints;
+use super::batch::{Batch, ITEMS};
 use super::grid::Grid;
-use super::kernels::Kernels;
-use super::light_paths::OnFilm;
-use super::statistics::Stage;
-use super::{Observer, Progress, SAMPLES, Worker, add_samples, clamp_samples, on_all, shares, trace};
+use super::observer::{Observer, Progress};
+use super::pass::Pass;
+use super::pool::Pool;
+use super::technique::{Engine, OnFilm, Technique};
+use super::trace::trace;
 use crate::film::{Cells, Film, Keeper, Piece, Unfinished};
-use crate::sampling::blocks::{Item, QUARTERS};
-use crate::scene::Scene;
+use crate::report::Stage;
+use crate::sampling::blocks::{Item, QUARTERS, slots_of_block};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+
+/// Samples of a block that fill a batch.
+pub const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
 
 /// Sample ranges of the passes: powers of two up to the longest, then so many at a time, so that an early look costs
 /// little and later passes are long. None goes over a power of two, where guides change. The picture does not depend on
@@ -26,7 +30,16 @@ pub struct Passes {
 }
 
 /// Where somebody looks at the film, no pass goes over a multiple of this.
-pub const LOOKS: u32 = 64;
+const LOOKS: u32 = 64;
+
+/// Samples per pixel at which a noise goal is looked at first: with fewer, what is rare has not been found, and does
+/// not count.
+const FIRST_LOOK: u32 = 16;
+
+/// Whether a noise goal is looked at where all pixels have so many samples.
+pub fn is_looked_at(samples: u32) -> bool {
+    samples >= FIRST_LOOK && (samples.is_power_of_two() || samples.is_multiple_of(LOOKS))
+}
 
 impl Passes {
     /// From a sample index on.
@@ -116,40 +129,52 @@ impl Deal {
     }
 }
 
-/// Adds a pass to a film.
+/// Adds passes to a film.
 pub struct Painter<'a> {
-    pub scene: &'a Scene,
-    pub kernels: &'a Kernels,
-    pub options: trace::Pass<'a>,
+    pub engine: Engine<'a>,
+    pub pool: &'a Pool,
+    /// Plain paths.
+    pub plain: Pass<'a>,
+    pub techniques: Vec<Box<dyn Technique>>,
+    pub grid: Grid,
+    pub observer: &'a dyn Observer,
     /// Statistics are kept.
     pub statistics: bool,
     /// The most that samples count, in the film's unit.
     pub limit: Option<f64>,
-    pub glints: &'a Glints,
-    pub grid: &'a Grid,
-    pub share_of_blocks: f32,
-    pub observer: &'a dyn Observer,
-    pub samples_total: u64,
+    /// When the rendering ends at the latest.
     pub until: Option<Instant>,
-    pub done: &'a AtomicU64,
-    /// The observer has ended the rendering.
-    pub stopped: &'a AtomicBool,
+    /// Samples that are on the film, and all that are asked for.
+    pub done: AtomicU64,
+    pub samples_total: u64,
+    /// The observer has ended the rendering, or the time is over.
+    pub stopped: AtomicBool,
 }
 
 impl Painter<'_> {
-    /// Adds the pass, or what is left of it; gives what is left then. The keeper is told the film as it was before.
-    pub fn paint(
-        &self,
-        film: &mut Film,
-        pass: Range<u32>,
-        keeper: Option<Keeper>,
-        workers: &[Mutex<Worker>],
-    ) -> Option<Unfinished> {
-        let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: pass.clone() }];
+    /// The pass as the techniques tell it.
+    pub fn pass(&self) -> Pass<'_> {
+        let mut pass = self.plain;
+        self.techniques.iter().for_each(|technique| technique.tell(&mut pass));
+        pass
+    }
+
+    /// Makes ready for these sample indices.
+    pub fn prepare(&mut self, samples: &Range<u32>) {
+        for technique in &mut self.techniques {
+            technique.before_pass(self.engine, samples, self.pool);
+        }
+    }
+
+    /// Adds the samples of a pass, or what is left of it; gives what is left then. The keeper is told the film as it
+    /// was before.
+    pub fn paint(&self, film: &mut Film, samples: Range<u32>, keeper: Option<Keeper>) -> Option<Unfinished> {
+        let pass = Pass { layers: film.layers(), ..self.pass() };
+        let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: samples.clone() }];
         let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
         // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to
         // stay in the cache.
-        let at_once = (pass.end - pass.start).min(SAMPLES);
+        let at_once = (samples.end - samples.start).min(SAMPLES);
         let deal = Deal::new(pieces, SAMPLES / at_once);
         let mut light = film.light_samples;
         let cells = Cells::new(film, keeper);
@@ -157,12 +182,12 @@ impl Painter<'_> {
             if cells.keeper().is_some() {
                 scope.spawn(|| cells.keep_all());
             }
-            light = self.light_paths(light..pass.end, &cells, workers);
-            on_all(workers, &|worker: &mut Worker| {
+            light = self.bring(pass, light..samples.end, &cells);
+            self.pool.on_all(&|batch: &mut Batch| {
                 while !self.stopped.load(Ordering::Relaxed)
                     && let Some(piece) = deal.take()
                 {
-                    let samples = self.batch(&piece, at_once, &cells, worker);
+                    let samples = self.batch(pass, &piece, at_once, &cells, batch);
                     if !samples.is_empty() {
                         deal.give_back(Piece { samples, ..piece });
                     }
@@ -175,21 +200,21 @@ impl Painter<'_> {
         drop(cells);
         film.light_samples = light;
         let pieces = deal.left();
-        let is_whole = pieces.is_empty() && (light == pass.end || self.options.light_paths.is_none());
-        (!is_whole).then_some(Unfinished { end: pass.end, pieces })
+        let brings = self.techniques.iter().any(|technique| technique.at_once().is_some());
+        let is_whole = pieces.is_empty() && (light == samples.end || !brings);
+        (!is_whole).then_some(Unfinished { end: samples.end, pieces })
     }
 
-    /// Follows the light paths of these sample indices; where it has come to.
-    fn light_paths(&self, samples: Range<u32>, cells: &Cells<'_>, workers: &[Mutex<Worker>]) -> u32 {
-        let trace::Pass { guide: Some(guide), light_paths: Some((light_paths, plan)), .. } = self.options else {
-            return samples.start;
-        };
-        let on_film = OnFilm { cells, limit: self.limit };
+    /// Has light brought to the film beside the samples of these indices; where it has come to.
+    fn bring(&self, pass: Pass<'_>, samples: Range<u32>, cells: &Cells<'_>) -> u32 {
+        let film = OnFilm { cells, limit: self.limit };
         let mut next = samples.start;
+        let bringer = self.techniques.iter().find_map(|technique| Some((technique, technique.at_once()?)));
+        let Some((technique, at_once)) = bringer else { return next };
         while next < samples.end && !self.stopped.load(Ordering::Relaxed) {
-            let now = next..samples.end.min(next.saturating_add(light_paths.at_once()));
+            let now = next..samples.end.min(next.saturating_add(at_once));
             next = now.end;
-            light_paths.trace(self.scene, self.kernels, plan, guide, now, on_film, workers);
+            technique.bring(self.engine, pass, now, film, self.pool);
             if next < samples.end {
                 self.tell(0);
             }
@@ -198,33 +223,18 @@ impl Painter<'_> {
     }
 
     /// Adds a batch; gives the samples that it lacks because the rendering was ended.
-    fn batch(&self, piece: &Piece, at_once: u32, cells: &Cells<'_>, worker: &mut Worker) -> Range<u32> {
-        let Piece { places, samples } = piece;
-        let batch = &mut worker.batch;
-        let mut sample = samples.start;
-        while sample < samples.end {
-            let count = (samples.end - sample).min(at_once);
-            batch.items.clear();
-            (batch.glints, batch.shares) = (0, 0);
-            for place in places.clone() {
-                for sample in sample..sample + count {
-                    let Some(block) = self.grid.block(place as usize, self.grid.cut(sample)) else { continue };
-                    if self.glints.in_block(&block) {
-                        batch.glints |= ((1 << QUARTERS) - 1) << batch.items.len();
-                    }
-                    if shares(self.options.seed, block.tile, sample, self.share_of_blocks) {
-                        batch.shares |= ((1 << QUARTERS) - 1) << batch.items.len();
-                    }
-                    batch.items.extend((0..QUARTERS).map(|quarter| Item { block, quarter, sample }));
-                }
-            }
+    fn batch(&self, pass: Pass<'_>, piece: &Piece, at_once: u32, cells: &Cells<'_>, batch: &mut Batch) -> Range<u32> {
+        let mut sample = piece.samples.start;
+        while sample < piece.samples.end {
+            let count = (piece.samples.end - sample).min(at_once);
+            self.fill(&piece.places, sample..sample + count, batch);
             sample += count;
             if batch.items.is_empty() {
                 continue;
             }
             batch.watch.start(self.statistics);
             let start = Instant::now();
-            trace::trace(self.scene, self.kernels, self.options, batch);
+            trace(self.engine, pass, &self.techniques, batch);
             if let Some(limit) = self.limit {
                 clamp_samples(limit, cells, batch);
             }
@@ -235,7 +245,23 @@ impl Painter<'_> {
                 break;
             }
         }
-        sample..samples.end
+        sample..piece.samples.end
+    }
+
+    /// Makes a batch's items those of the blocks at these places and sample indices.
+    fn fill(&self, places: &Range<u32>, samples: Range<u32>, batch: &mut Batch) {
+        batch.items.clear();
+        (batch.glints, batch.shares) = (0, 0);
+        for place in places.clone() {
+            for sample in samples.clone() {
+                let Some(block) = self.grid.block(place as usize, self.grid.cut(sample)) else { continue };
+                let items = ((1 << QUARTERS) - 1) << batch.items.len();
+                for technique in &self.techniques {
+                    technique.mark(&block, sample, items, batch);
+                }
+                batch.items.extend((0..QUARTERS).map(|quarter| Item { block, quarter, sample }));
+            }
+        }
     }
 
     /// Tells the observer of so many samples more; whether it goes on.
@@ -249,6 +275,37 @@ impl Painter<'_> {
         }
         goes_on
     }
+}
+
+/// Adds the samples of a batch to the film; how many they are.
+fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+    let mut added = 0;
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        let slots = slots_of_block(first);
+        cells.each(&batch.pixels, slots.start, |tile, common| {
+            let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+            let left_out = tile.add(samples, common);
+            batch.counters.dropped += left_out.dropped;
+            batch.counters.beyond += left_out.beyond;
+            tile.add_layers(&batch.layers, first, common);
+            added += common.len() as u64;
+        });
+    }
+    added
+}
+
+/// Clamps the samples of a batch before they are added. A pass of its own, so that its time is known and nothing is
+/// asked where none is wanted.
+fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
+    let start = Instant::now();
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        let slots = slots_of_block(first);
+        cells.each(&batch.pixels, slots.start, |tile, common| {
+            let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
+            tile.clamp(limit, samples, common);
+        });
+    }
+    batch.watch.costs.clamp += start.elapsed().as_secs_f64();
 }
 
 #[cfg(test)]
@@ -295,7 +352,7 @@ mod tests {
                 ends.push(pass.end);
                 passes.longest = 1 + (pass.end * 7) % 64;
             }
-            let looks = (start + 1..=samples).filter(|&n| super::super::is_looked_at(n));
+            let looks = (start + 1..=samples).filter(|&n| is_looked_at(n));
             assert!(looks.clone().count() > 2 && looks.clone().all(|look| ends.contains(&look)), "{ends:?}");
         }
     }

@@ -16,8 +16,8 @@
 use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
 use super::{Crop, Film, FilmLayer, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
-use crate::engine::{Costs, Counters};
 use crate::layers::{Kept, LayerSet};
+use crate::report::{Costs, Counters};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};

@@ -3,10 +3,8 @@
 use super::exact::{LARGEST, LEAST, fixed};
 use super::pack::{pack, unpack};
 use super::{Crop, Film, PIXELS, Tile};
-use crate::engine::LayerSamples;
-use crate::engine::slots_of_block;
-use crate::layers::{Kept, LayerSet, Pixel, Units, definition, units};
-use crate::sampling::blocks::ITEM_PIXELS;
+use crate::layers::{FilmNumber, Kept, LayerSamples, LayerSet, Pixel, Units, definition, units};
+use crate::sampling::blocks::{ITEM_PIXELS, slots_of_block};
 use crate::scene::Scene;
 use rayon::prelude::*;
 use scene_format::desc::Layer;
@@ -218,7 +216,7 @@ impl Film {
             Pixel::Nearest(_) => {
                 return pixel.fill(layers.map_or(0, |layers| number_of(layers.nearest[before.nearest][k])) as f32);
             }
-            Pixel::OfFilm(number) => return pixel.fill(finite(number(self, x, y))),
+            Pixel::OfFilm(FilmNumber::Variance) => return pixel.fill(finite(self.variance(x, y))),
         };
         for (c, value) in pixel.iter_mut().enumerate() {
             let sum = layers.map_or(0, |layers| layers.sums[before.sums + c][k]);

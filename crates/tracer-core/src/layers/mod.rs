@@ -1,8 +1,8 @@
 //! Picture layers: what camera rays hit first, kept beside the picture.
 //!
-//! A layer is a file here, named as its word in scenes is, with one contract ([`PictureLayer`]), and one line of [`layers!`]. The
-//! kernel that fills them (`engine::stages::first_hits`), the film that sums them (`film::layers`) and the files that they end in
-//! go by the contract and know no layer by its name.
+//! A layer is a file here, named as its word in scenes is, with one contract ([`PictureLayer`]), and one line of
+//! [`layers!`]. The kernel that fills them (`engine::stages::first_hits`), the film that sums them (`film::layers`) and
+//! the files that they end in go by the contract and know no layer by its name.
 //!
 //! Samples lie where the pixel's filter has them, so their plain mean is the filtered one, as it is of the picture.
 
@@ -13,14 +13,15 @@ mod material_id;
 mod normal;
 mod object_id;
 mod position;
+mod samples;
 mod uv;
 mod variance;
 
 use crate::engine::Surface;
-use crate::film::Film;
 use crate::lanes::Lanes;
 use crate::math::V3;
 use crate::scene::Scene;
+pub(crate) use samples::LayerSamples;
 use scene_format::desc::Layer;
 
 /// How a pixel's value comes of its samples.
@@ -30,10 +31,18 @@ pub(crate) enum Pixel {
     Mean,
     /// The mean over those that hit something; this value where none does.
     MeanOfHits(f32),
-    /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive and instance; zero where that hits nothing.
+    /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive and instance; zero where that hits
+    /// nothing.
     Nearest(fn(&Scene, u32, u32) -> u32),
-    /// Not of what camera rays hit: a number that the film has of each pixel, in the person's units.
-    OfFilm(fn(&Film, u32, u32) -> f64),
+    /// Not of what camera rays hit: a number that the film has of each pixel.
+    OfFilm(FilmNumber),
+}
+
+/// A number that the film has of each pixel, in the person's units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum FilmNumber {
+    /// [`crate::Film::variance`].
+    Variance,
 }
 
 /// How the numbers of a layer in render space become the person's: by a factor and an offset.
@@ -59,8 +68,8 @@ pub(crate) trait PictureLayer {
     /// Whether it reads texture coordinates, which are not found for nothing.
     const READS_UV: bool = false;
 
-    /// Of means: its value at what camera rays hit first, a number for each channel and anything for the others; in render space.
-    /// Lanes outside of `hit.valid` may hold anything.
+    /// Of means: its value at what camera rays hit first, a number for each channel and anything for the others; in
+    /// render space. Lanes outside of `hit.valid` may hold anything.
     #[inline(always)]
     fn at<F: Lanes>(_: &FirstHit<'_, F>) -> [F; 3] {
         [F::splat(0.0), F::splat(0.0), F::splat(0.0)]
@@ -84,7 +93,8 @@ pub(crate) struct FirstHit<'a, F: Lanes> {
     pub surface: &'a Surface<F>,
 }
 
-/// What is kept of each pixel for a set of layers: so many sums, and so many numbers of the sample nearest to its centre.
+/// What is kept of each pixel for a set of layers: so many sums, and so many numbers of the sample nearest to its
+/// centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Kept {
     pub sums: usize,
@@ -171,8 +181,8 @@ impl LayerSet {
         LayerSet::from_iter(ALL)
     }
 
-    /// The layer of a name, as files have it: `depth`. Large letters, hyphens and underscores do not matter, so the words of scenes
-    /// are understood, too.
+    /// The layer of a name, as files have it: `depth`. Large letters, hyphens and underscores do not matter, so the
+    /// words of scenes are understood, too.
     pub fn by_name(name: &str) -> Option<Layer> {
         let bare = |name: &str| name.replace(['_', '-'], "").to_ascii_lowercase();
         ALL.into_iter().find(|&layer| bare(definition(layer).name) == bare(name))

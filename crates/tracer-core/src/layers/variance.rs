@@ -1,7 +1,6 @@
 //! Estimated variance of the pixel's mean luminance, in the square of W/(sr m^2): how noisy it still is.
 
-use super::{PictureLayer, Pixel};
-use crate::film::Film;
+use super::{FilmNumber, PictureLayer, Pixel};
 
 pub(super) struct Variance;
 
@@ -9,5 +8,5 @@ impl PictureLayer for Variance {
     const NAME: &'static str = "variance";
     const CHANNELS: &'static [&'static str] = &["Y"];
     // The film keeps what it comes of for every picture.
-    const PIXEL: Pixel = Pixel::OfFilm(Film::variance);
+    const PIXEL: Pixel = Pixel::OfFilm(FilmNumber::Variance);
 }

@@ -20,7 +20,6 @@
 
 mod builder;
 mod cursor;
-mod file;
 mod mtl;
 mod obj;
 mod oddities;
@@ -33,9 +32,9 @@ mod error;
 pub mod normals;
 pub mod placements;
 
+pub use crate::files::FileError;
+pub(crate) use crate::files::read_regular_file;
 pub use error::{MeshError, Place};
-pub use file::FileError;
-pub(crate) use file::read_regular_file;
 
 use scene_format::Diagnostics;
 use scene_format::desc::NamedMaterial;

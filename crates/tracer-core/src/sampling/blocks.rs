@@ -1,14 +1,15 @@
 //! Blocks of 256 pixels that share what they find, and which pixel each slot of a batch is.
 //!
-//! Pixels of a block share, so their errors are alike; were blocks squares, one of them that finds much where the others find little would be
-//! seen. So blocks are ragged: every row of pixels is cut at places of its own, and so is every column of what the rows leave. Column i
-//! and row j of block (a, b) are pixel
+//! Pixels of a block share, so their errors are alike; were blocks squares, one of them that finds much where the
+//! others find little would be seen. So blocks are ragged: every row of pixels is cut at places of its own, and so is
+//! every column of what the rows leave. Column i and row j of block (a, b) are pixel
 //!
 //! y = 16 b + j - g(16 a + i),  x = 16 a + i - h(y),
 //!
-//! with whole numbers g and h from 0 to 15 drawn anew for each sample index: each pixel lies in one block, and a block within two by two
-//! tiles of the sampler. All g are odd, or all are even, and so are all h: columns and rows that lie two apart in a block lie an even
-//! number of pixels apart in the picture, so that pixels that touch are never of one item.
+//! with whole numbers g and h from 0 to 15 drawn anew for each sample index: each pixel lies in one block, and a block
+//! within two by two tiles of the sampler. All g are odd, or all are even, and so are all h: columns and rows that lie
+//! two apart in a block lie an even number of pixels apart in the picture, so that pixels that touch are never of one
+//! item.
 
 use super::sampler::{hash3, z_order};
 
@@ -20,6 +21,15 @@ pub const BLOCK_PIXELS: usize = (TILE * TILE) as usize;
 pub const ITEM_PIXELS: usize = BLOCK_PIXELS / QUARTERS as usize;
 /// Items that make a block at one sample index.
 pub const QUARTERS: u32 = 4;
+/// Items in a batch. 1024 paths: fewer leave the vectors of deep bounces empty, more leave the L2 cache.
+pub const ITEMS: usize = 16;
+/// Slots of a batch: its paths from the camera.
+pub const PATHS: usize = ITEMS * ITEM_PIXELS;
+
+/// The slots of the block whose first item this is.
+pub fn slots_of_block(first: usize) -> std::ops::Range<usize> {
+    first * ITEM_PIXELS..first * ITEM_PIXELS + BLOCK_PIXELS
+}
 
 /// How a picture is cut into blocks at a sample index.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,8 +94,8 @@ pub struct Item {
 }
 
 impl Item {
-    /// The tiles of the sampler that its block touches, by the lowest bits of their columns (times two) and rows; `None` left of and above
-    /// the picture. They are numbered in Z-order.
+    /// The tiles of the sampler that its block touches, by the lowest bits of their columns (times two) and rows;
+    /// `None` left of and above the picture. They are numbered in Z-order.
     pub fn tiles(&self) -> [Option<u32>; 4] {
         let mut tiles = [None; 4];
         for row in self.block.tiles(1) {
@@ -168,8 +178,8 @@ static PLACES: [[u8; 2]; ITEM_PIXELS] = {
 mod tests {
     use super::*;
 
-    /// Lines are cut at all places of their parity alike. With 4096 lines the chi-square of seven degrees of freedom is above 31 by
-    /// chance once in 16,000.
+    /// Lines are cut at all places of their parity alike. With 4096 lines the chi-square of seven degrees of freedom is
+    /// above 31 by chance once in 16,000.
     #[test]
     fn cuts_are_everywhere() {
         for (axis, shift) in (0..2).flat_map(|axis| (0..TILE as u8).map(move |shift| (axis, shift))) {

@@ -14,7 +14,7 @@ const CAMERA: &str = "crates/tracer-core/src/engine/stages/camera.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
 const SHARE: &str = "crates/tracer-core/src/engine/stages/share.rs";
 const SPHERES: &str = "crates/tracer-core/src/engine/stages/spheres.rs";
-const TRACE: &str = "crates/tracer-core/src/engine/trace.rs";
+const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
 const TEXTURES: &str = "crates/tracer-core/src/engine/stages/textures.rs";
 const SAMPLER: &str = "crates/tracer-core/src/sampling/sampler.rs";
 const WARP: &str = "crates/tracer-core/src/sampling/warp.rs";
@@ -130,7 +130,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "sharing-through-walls",
-        file: TRACE,
+        file: REUSE,
         find: "u64::from(occluded) << (tag & 63)",
         replace: "u64::from(occluded & 0) << (tag & 63)",
         caught_by: proofs(&["reuse::"]),

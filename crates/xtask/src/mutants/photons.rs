@@ -5,9 +5,9 @@ use super::{Mutant, proofs, units};
 const PHOTONS: &str = "crates/tracer-core/src/engine/stages/photons.rs";
 const AIM: &str = "crates/tracer-core/src/engine/stages/aim.rs";
 const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
-const GLINTS: &str = "crates/tracer-core/src/engine/glints.rs";
+const GLINTS: &str = "crates/tracer-core/src/engine/techniques/glints.rs";
 const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
-const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
+const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
 const LIGHT_PATHS: &str = "crates/tracer-core/src/engine/stages/light_paths.rs";
 const CELLS: &str = "crates/tracer-core/src/engine/guide/cells.rs";
 const PLAN: &str = "crates/tracer-core/src/engine/guide/plan.rs";
@@ -53,7 +53,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "pixels-share-outdoors",
-        file: ENGINE,
+        file: REUSE,
         find: "((has_second - OUTDOORS) / (INDOORS - OUTDOORS)).clamp(0.0, 1.0)",
         replace: "1.0",
         caught_by: proofs(&["reuse::rooms_with_a_window"]),
@@ -146,7 +146,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "light-paths-through-walls",
-        file: "crates/tracer-core/src/engine/light_paths.rs",
+        file: "crates/tracer-core/src/engine/techniques/light_paths.rs",
         find: ".filter(|&k| batch.shadows.occluded[k] == 0)",
         replace: "",
         caught_by: proofs(&["caustics::on_any_film"]),

@@ -29,7 +29,9 @@ const MITSUBA: &[Need] =
 #[rustfmt::skip]
 pub const PROOFS: &[Proof] = &[
     proof("instructions", Always, "the instructions of the hot paths stay below their limits; four minutes", GUNGRAUN, &["cd bench && cargo bench --locked --bench instructions"]),
-    proof("pairs", Asked, "the exact pairs of `xtask/tests/pairs.rs` with four times the pictures; ten minutes", &[], &["cargo xtask truth --pairs 40"]),
+    proof("pairs", Always, "scenes that must look the same, in exact pairs; four minutes", &[], &["cargo test --locked -p xtask --test pairs"]),
+    proof("random-scenes", Always, "twenty random scenes against the truth; a minute", &[], &["cargo test --locked -p xtask --test truth"]),
+    proof("pairs-long", Asked, "the same pairs with four times the pictures; a quarter of an hour", &[], &["cargo xtask truth --pairs 40"]),
     proof("truth", Asked, "random scenes, the default picture against the plain path tracer's or that of a scene that must look the same; an hour and a half", &[], &["cargo xtask truth --scenes 1000"]),
     proof("statistics", Asked, "the statistical proofs with 16 times the samples; an hour", &[], &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"]),
     proof("mutants", Asked, "faults seeded one at a time, of which a test must notice each; an hour", &[], &["cargo xtask mutants"]),

@@ -1,5 +1,5 @@
-//! Where the light comes from, by place: the cells of an octree over the places that photons reached, each with spheres in space that
-//! hold the last mirrors and glass on the photons' ways.
+//! Where the light comes from, by place: the cells of an octree over the places that photons reached, each with spheres
+//! in space that hold the last mirrors and glass on the photons' ways.
 
 use crate::sampling::sampler::hash3;
 
@@ -17,7 +17,8 @@ const FINEST: f32 = (1u32 << (LEVELS - 1)) as f32 / 4.0;
 const BITS: u32 = 19;
 /// Such coordinates are below this.
 const MOST: f32 = (1u32 << BITS) as f32;
-/// Spheres are made larger by this share, and by as much of the way to the next photon: the light reaches beyond the photons that were sent.
+/// Spheres are made larger by this share, and by as much of the way to the next photon: the light reaches beyond the
+/// photons that were sent.
 const MARGIN: f32 = 0.3;
 const TO_NEXT: f32 = 0.8;
 /// No sphere of a cell has a smaller share of its rays, in shares of an equal part.

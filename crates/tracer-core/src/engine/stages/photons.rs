@@ -5,7 +5,7 @@ use super::shade::leaves;
 use super::surface::surface;
 use crate::engine::batch::Batch;
 use crate::engine::guide::plan::{Plan, aim};
-use crate::engine::guide::trace::PhotonPass;
+use crate::engine::pass::PhotonPass;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{hash3, unit};

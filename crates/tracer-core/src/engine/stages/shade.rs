@@ -10,8 +10,8 @@ use super::materials::{Bsdf, reflect_bent};
 use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
-use crate::engine::batch::{Batch, Columns, path};
-use crate::engine::trace::{Pass, Task};
+use crate::engine::batch::{BRANCHING, Batch, Columns, path};
+use crate::engine::pass::{Pass, Task};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::Purpose;
@@ -20,10 +20,6 @@ use crate::scene::{NONE, Scene};
 /// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier, roulette throws
 /// away the stratification that the sampler pays for.
 pub const ROULETTE_FROM: u32 = 3;
-
-/// At so many of its first vertices a path from the camera that has met mirrors and glass only goes both ways at glass: what one of them
-/// shows, often the lamp, is far brighter than what the other does.
-pub const BRANCHING: u32 = 3;
 
 /// Where the fainter of both ways carries less than this, one of them is taken at random.
 const LEAST_BRANCH: f32 = 0.003;

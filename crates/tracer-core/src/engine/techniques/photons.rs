@@ -1,40 +1,20 @@
 //! Photons from the lights to where they are stored.
 
-use super::cells::Photon;
-use super::plan::{Plan, Share};
 use crate::engine::batch::{Batch, Columns, PATHS, Photons};
-use crate::engine::kernels::Kernels;
-use crate::engine::light_paths::LightPaths;
-use crate::engine::statistics::Stage;
+use crate::engine::guide::cells::Photon;
+use crate::engine::guide::plan::{Plan, Share};
+use crate::engine::pass::PhotonPass;
+use crate::engine::pool::Pool;
+use crate::engine::technique::Engine;
 use crate::engine::trace::closest;
-use crate::engine::{Worker, each};
-use crate::scene::Scene;
-use std::sync::Mutex;
+use crate::report::Stage;
 use std::time::Instant;
 
-/// What the photons of a batch have in common.
-#[derive(Clone, Copy)]
-pub struct PhotonPass<'a> {
-    /// Seed of all random choices.
-    pub seed: u32,
-    /// Photons in the batch.
-    pub count: usize,
-    /// They are light paths, that go on to the camera.
-    pub light_paths: Option<&'a LightPaths>,
-}
-
 /// Sends so many photons; what was stored, in an order that depends on nothing else.
-pub fn photons(
-    scene: &Scene,
-    kernels: &Kernels,
-    plan: &Plan,
-    seed: u32,
-    count: u32,
-    workers: &[Mutex<Worker>],
-) -> Vec<Photon> {
+pub fn photons(engine: Engine<'_>, plan: &Plan, seed: u32, count: u32, pool: &Pool) -> Vec<Photon> {
     let batches = batches(plan.shares(count));
-    let trace = |k: usize, worker: &mut Worker| trace(scene, kernels, plan, seed, &batches[k], &mut worker.batch);
-    each(workers, batches.len(), trace).into_iter().flatten().collect()
+    let trace = |k: usize, batch: &mut Batch| trace(engine, plan, seed, &batches[k], batch);
+    pool.each(batches.len(), trace).into_iter().flatten().collect()
 }
 
 /// Cuts the shares into batches of at most [`PATHS`] photons.
@@ -60,7 +40,8 @@ pub fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
 }
 
 /// One batch.
-fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
+fn trace(engine: Engine<'_>, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
+    let Engine { scene, kernels } = engine;
     let count = load(shares, batch);
     batch.watch.resume();
     let start = Instant::now();
@@ -68,7 +49,7 @@ fn trace(scene: &Scene, kernels: &Kernels, plan: &Plan, seed: u32, shares: &[Sha
     let mut stored = Vec::new();
     let mut event = 0;
     while batch.paths.len > 0 {
-        closest(scene, kernels, false, batch);
+        closest(engine, false, batch);
         batch.photons.len = 0;
         kernels.photons_scatter(scene, plan, seed, event, batch);
         store(&batch.photons, &mut stored);

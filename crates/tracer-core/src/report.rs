@@ -1,4 +1,4 @@
-//! Where the time of a rendering goes, and how well lanes and tree are used.
+//! What a rendering counted and what it cost: where the time goes, and how well lanes and tree are used.
 
 use std::time::Instant;
 
@@ -117,8 +117,8 @@ impl Statistics {
     }
 }
 
-/// What the switches of a rendering cost: seconds summed over threads. Always kept: the clock is looked at twice per batch and step.
-/// What shading does for them (vertices remembered for sharing and aiming) is not in it.
+/// What the switches of a rendering cost: seconds summed over threads. Always kept: the clock is looked at twice per
+/// batch and step. What shading does for them (vertices remembered for sharing and aiming) is not in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Costs {
     /// All work: paths, their samples onto the film, photons.
@@ -148,55 +148,37 @@ impl Costs {
     }
 }
 
-/// Every so many batches the tree counts what it does, which costs it a few per cent.
-const COUNTED: u32 = 64;
-
-/// Keeps the statistics of a thread, or nothing.
-#[derive(Debug, Default)]
-pub(crate) struct Watch {
-    last: Option<Instant>,
-    batches: u32,
-    pub statistics: Statistics,
-    /// Kept whether statistics are or not.
-    pub costs: Costs,
+/// What was counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Camera rays.
+    pub camera_rays: u64,
+    /// Rays that went on from a surface.
+    pub scattered_rays: u64,
+    /// Rays to lights.
+    pub shadow_rays: u64,
+    /// Rays to what other pixels have found.
+    pub segments: u64,
+    /// Photons sent, and those that went on from mirrors and glass.
+    pub photon_rays: u64,
+    /// Rays of glint chains and of their pilot.
+    pub chain_rays: u64,
+    /// Samples that were not finite.
+    pub dropped: u64,
+    /// Samples that were finite, but too far above the scene's brightest light (see `film::exact`).
+    pub beyond: u64,
 }
 
-impl Watch {
-    /// Starts the time of a batch; `on`: there is somebody to tell.
-    pub fn start(&mut self, on: bool) {
-        self.last = on.then(Instant::now);
-        self.batches = self.batches.wrapping_add(1);
-    }
-
-    /// Goes on after other work, if statistics are kept.
-    pub fn resume(&mut self) {
-        self.last = self.last.map(|_| Instant::now());
-    }
-
-    /// Whether statistics are kept.
-    pub fn is_on(&self) -> bool {
-        self.last.is_some()
-    }
-
-    /// Whether the tree is to count in this batch.
-    pub fn counts_tree(&self) -> bool {
-        self.is_on() && self.batches % COUNTED == 1
-    }
-
-    /// All time since the last lap was spent on this stage.
-    pub fn lap(&mut self, stage: Stage) {
-        if let Some(last) = &mut self.last {
-            let now = Instant::now();
-            self.statistics.seconds[stage as usize] += now.duration_since(*last).as_secs_f64();
-            *last = now;
-        }
-    }
-
-    /// So many paths were shaded, over so many lanes at a time.
-    pub fn shaded(&mut self, paths: usize, lanes: usize) {
-        if self.is_on() {
-            self.statistics.vertices += paths as u64;
-            self.statistics.lanes += paths.next_multiple_of(lanes) as u64;
-        }
+impl Counters {
+    /// Adds another batch's.
+    pub fn add(&mut self, other: &Counters) {
+        self.camera_rays += other.camera_rays;
+        self.scattered_rays += other.scattered_rays;
+        self.shadow_rays += other.shadow_rays;
+        self.segments += other.segments;
+        self.photon_rays += other.photon_rays;
+        self.chain_rays += other.chain_rays;
+        self.dropped += other.dropped;
+        self.beyond += other.beyond;
     }
 }

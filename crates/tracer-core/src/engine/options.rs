@@ -1,0 +1,42 @@
+//! What a caller may decide about a rendering.
+
+use crate::film::Crop;
+use crate::layers::LayerSet;
+use crate::level::Level;
+use std::time::{Duration, Instant};
+
+/// What a caller may decide about a rendering; `None` and zero take what the scene says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RenderOptions {
+    /// Samples per pixel.
+    pub samples: Option<u32>,
+    /// Seed of all random choices.
+    pub seed: Option<u32>,
+    /// The part of the picture to render; the same bytes as that part of the whole.
+    pub crop: Option<Crop>,
+    /// Worker threads; 0: one per core.
+    pub threads: usize,
+    /// The vector instructions of stages and tree; the bytes are the same for all.
+    pub level: Option<Level>,
+    /// Whether the pixels of a block share what they find.
+    pub reuse: Option<bool>,
+    /// Whether photons tell where rays are aimed, so that they find lights over mirrors and glass.
+    pub caustics: Option<bool>,
+    /// The most that the largest channel of a sample counts, in W/(sr m^2): what is above is scaled down to it as a
+    /// whole. A sample is all that a pixel gets at one sample index, its part of what others have found included; what
+    /// one light path brings to a pixel is scaled by itself. What is not a finite number above zero is no limit.
+    pub clamp: Option<f32>,
+    /// The rendering ends as soon as [`crate::Film::relative_noise`] is no more than this, with fewer samples than are
+    /// asked for. It is looked at where all pixels have 16 samples, at every power of two, and from 64 on at every
+    /// multiple of 64: so the picture depends on nothing but the scene.
+    pub noise: Option<f64>,
+    /// The rendering ends then, as an observer would end it; not before every pixel has a sample.
+    pub until: Option<Instant>,
+    /// What is kept of what camera rays hit first, beside the picture ([`crate::Film::layer`]).
+    pub layers: Option<LayerSet>,
+    /// Whether to keep [`crate::Statistics`].
+    pub statistics: bool,
+    /// Passes are made no longer than this, as far as those before tell, so that [`crate::Observer::state`] comes
+    /// often: it comes between passes only. The picture does not depend on it.
+    pub longest_pass: Option<Duration>,
+}

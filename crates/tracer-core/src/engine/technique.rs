@@ -1,0 +1,70 @@
+//! What a technique is: a way to find light sooner than plain paths do, beside the others and without knowing them.
+//!
+//! What it does in lanes, the stages call by one function of its own (`stages::share`, `stages::aim`,
+//! `stages::light_paths`), by what [`Technique::tell`] has told them. All else it does here: calls are by pass, batch
+//! and vertex, never by lane.
+
+use super::batch::Batch;
+use super::kernels::Kernels;
+use super::pass::Pass;
+use super::pool::Pool;
+use crate::film::Cells;
+use crate::sampling::blocks::Block;
+use crate::scene::Scene;
+use std::ops::Range;
+
+/// A scene, and the stages compiled for this CPU.
+#[derive(Clone, Copy)]
+pub struct Engine<'a> {
+    pub scene: &'a Scene,
+    pub kernels: &'a Kernels,
+}
+
+/// The vertex of a batch's paths that was shaded last.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// Its number, from 0 at what camera rays hit.
+    pub number: u32,
+    /// Members that there were before it.
+    pub members: usize,
+    /// Suffixes that there were before it.
+    pub suffixes: usize,
+}
+
+/// The film, for what comes to it by other ways than by samples.
+#[derive(Clone, Copy)]
+pub struct OnFilm<'a, 'b> {
+    /// The film.
+    pub cells: &'a Cells<'b>,
+    /// The most that the largest channel of what one light path brings counts, where samples are clamped; in the film's
+    /// unit.
+    pub limit: Option<f64>,
+}
+
+/// A way to find light. Whether it is at work depends on scene and settings alone, and so does all that it does: the
+/// picture is the same for any crop, threads, lanes, and however the samples are divided into passes.
+pub trait Technique: Send + Sync {
+    /// Makes ready for the sample indices of a pass; none goes over a power of two.
+    fn before_pass(&mut self, _: Engine<'_>, _samples: &Range<u32>, _: &Pool) {}
+
+    /// Tells the stages.
+    fn tell<'a>(&'a self, _: &mut Pass<'a>) {}
+
+    /// Says which blocks it works in: `items` are the bits of the block's items in the batch, which is being filled.
+    fn mark(&self, _: &Block, _sample: u32, _items: u32, _: &mut Batch) {}
+
+    /// After a vertex of all paths of a batch was shaded and its light added.
+    fn after_vertex(&self, _: Engine<'_>, _: Pass<'_>, _: Vertex, _: &mut Batch) {}
+
+    /// After the last vertex of a batch.
+    fn after_batch(&self, _: Engine<'_>, _: Pass<'_>, _: &mut Batch) {}
+
+    /// If it brings light to the film beside the samples: how many sample indices it works on at a time. At most one
+    /// technique does: the film counts one such sum ([`crate::film`]).
+    fn at_once(&self) -> Option<u32> {
+        None
+    }
+
+    /// Brings the light of these sample indices to the film, no more of them than [`Technique::at_once`] says.
+    fn bring(&self, _: Engine<'_>, _: Pass<'_>, _samples: Range<u32>, _: OnFilm<'_, '_>, _: &Pool) {}
+}

@@ -1,0 +1,111 @@
+//! Guides ([`crate::engine::guide`]): made of photons before passes, and rays aimed by them after vertices.
+//!
+//! The guide gets better as samples are added: that of sample index s is made from more photons at every doubling of s,
+//! up to [`MOST_PHOTONS`]. It depends on scene, seed and s only: the same for any crop, threads, lanes and number of
+//! samples asked for.
+
+use super::Trial;
+use super::photons::photons;
+use crate::engine::batch::Batch;
+use crate::engine::guide::casters::Casters;
+use crate::engine::guide::cells::{Cells, SphereRows};
+use crate::engine::guide::plan::Plan;
+use crate::engine::guide::{Guide, MOST_CASTERS};
+use crate::engine::pass::Pass;
+use crate::engine::pool::Pool;
+use crate::engine::stages::aim::AIMS_UNTIL;
+use crate::engine::technique::{Engine, Technique, Vertex};
+use crate::report::Stage;
+use crate::sampling::sampler::hash3;
+use crate::scene::Scene;
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Photons of the largest guide.
+const MOST_PHOTONS: u32 = 1 << 18;
+/// Photons of the trial that tells how many of them are stored: of those that are sent at a bent mesh's sphere, a
+/// tenth.
+const TRIAL: u32 = 4096;
+/// Where fewer are stored, so many times as many are sent, at most.
+const MOST_MORE: u32 = 8;
+
+/// The guides of a rendering, one at a time.
+struct Guides {
+    plan: Arc<Plan>,
+    seed: u32,
+    /// Photons of the first guide.
+    first: u32,
+    /// How many times as many photons are sent as where all are stored; known after a trial.
+    more: Option<u32>,
+    stage: u32,
+    guide: Guide,
+}
+
+/// Which guide a sample index has: a new one at every power of two.
+fn stage_of(sample: u32) -> u32 {
+    sample.checked_ilog2().map_or(0, |k| k + 1)
+}
+
+/// Guides, where photons are wanted and have a way to go.
+pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
+    let plan = trial.plan.clone()?;
+    Some(Box::new(Guides::new(trial.engine.scene, plan, trial.pass.seed)))
+}
+
+impl Guides {
+    /// There is no guide at hand before [`Technique::before_pass`].
+    fn new(scene: &Scene, plan: Arc<Plan>, seed: u32) -> Self {
+        let mut casters = SphereRows::default();
+        for caster in Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
+            casters.push(caster.center.as_vec3().to_array(), caster.radius as f32, 1.0);
+        }
+        let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
+        let first = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
+        Guides { plan, seed, first, more: None, stage: u32::MAX, guide: Guide { cells: Cells::default(), casters } }
+    }
+}
+
+impl Technique for Guides {
+    /// Makes the guide of these sample indices, which have the same one, if it is not at hand.
+    fn before_pass(&mut self, engine: Engine<'_>, samples: &Range<u32>, pool: &Pool) {
+        let largest = (MOST_PHOTONS / self.first).ilog2() + 1;
+        let stage = stage_of(samples.start).min(largest);
+        debug_assert_eq!(stage_of(samples.end.max(1) - 1).min(largest), stage, "a pass has one guide");
+        if stage == self.stage {
+            return;
+        }
+        let more = *self.more.get_or_insert_with(|| {
+            let seed = hash3(self.seed, 0, 0x0007_21a1) as u32;
+            let stored = photons(engine, &self.plan, seed, TRIAL, pool).len() as u32;
+            (TRIAL / stored.max(1)).clamp(1, MOST_MORE)
+        });
+        let count = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more;
+        // Choices of its own for each guide.
+        let seed = hash3(self.seed, stage, 0x0007_21a1) as u32;
+        let photons = photons(engine, &self.plan, seed, count, pool);
+        self.guide.cells = pool.once(|batch| {
+            batch.watch.resume();
+            let start = Instant::now();
+            let cells = Cells::new(seed, &photons, self.plan.power / std::f32::consts::PI * count as f32);
+            batch.watch.lap(Stage::Photons);
+            batch.watch.costs.photons_since(start);
+            cells
+        });
+        self.stage = stage;
+    }
+
+    fn tell<'a>(&'a self, pass: &mut Pass<'a>) {
+        pass.guide = Some(&self.guide);
+    }
+
+    /// Aims rays.
+    fn after_vertex(&self, engine: Engine<'_>, pass: Pass<'_>, vertex: Vertex, batch: &mut Batch) {
+        if vertex.number < AIMS_UNTIL {
+            let start = Instant::now();
+            engine.kernels.aim(&self.guide, pass.seed, vertex.number, batch);
+            batch.watch.costs.caustics += start.elapsed().as_secs_f64();
+            batch.watch.lap(Stage::Aim);
+        }
+    }
+}

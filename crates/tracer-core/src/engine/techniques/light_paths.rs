@@ -1,0 +1,104 @@
+//! Light paths ([`crate::engine::light_paths`]): followed at the beginning of a pass, onto whatever pixels they fall.
+
+use super::Trial;
+use super::photons::{batches, load};
+use crate::bvh::Coherence;
+use crate::engine::batch::{Batch, PATHS};
+use crate::engine::guide::plan::{Plan, Share};
+use crate::engine::light_paths::LightPaths;
+use crate::engine::pass::{Pass, PhotonPass};
+use crate::engine::pool::Pool;
+use crate::engine::stages::camera::density;
+use crate::engine::stages::light_paths::LightPass;
+use crate::engine::technique::{Engine, OnFilm, Technique};
+use crate::engine::trace::{closest, occluded};
+use crate::report::Stage;
+use crate::scene::Scene;
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The light paths of a rendering.
+struct OfRendering {
+    light_paths: LightPaths,
+    plan: Arc<Plan>,
+}
+
+/// Light paths, where photons are wanted and have a way to go, and pixels could see them.
+pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
+    let plan = trial.plan.clone()?;
+    let light_paths = LightPaths::new(trial.engine.scene, &plan, trial.pass.seed)?;
+    Some(Box::new(OfRendering { light_paths, plan }))
+}
+
+impl Technique for OfRendering {
+    fn tell<'a>(&'a self, pass: &mut Pass<'a>) {
+        pass.light_paths = Some((&self.light_paths, &self.plan));
+    }
+
+    fn at_once(&self) -> Option<u32> {
+        Some(self.light_paths.at_once())
+    }
+
+    /// Follows the light paths of these sample indices, which have one guide, onto the film.
+    fn bring(&self, engine: Engine<'_>, pass: Pass<'_>, samples: Range<u32>, film: OnFilm<'_, '_>, pool: &Pool) {
+        let Some(guide) = pass.guide else { return };
+        let LightPaths { seed, shares, .. } = &self.light_paths;
+        let pass = LightPass { seed: *seed, plan: &self.plan, light_paths: &self.light_paths, guide };
+        // Batches of full length, whichever sample index their paths are of.
+        let count = samples.end - samples.start;
+        let batches = batches(shares.iter().map(|share| Share {
+            first: share.count.wrapping_mul(samples.start),
+            count: share.count * count,
+            ..*share
+        }));
+        pool.each(batches.len(), |k, batch| {
+            batch.watch.resume();
+            let start = Instant::now();
+            follow(engine, pass, &batches[k], film, batch);
+            batch.watch.costs.photons_since(start);
+        });
+    }
+}
+
+/// Follows a batch of light paths.
+fn follow(engine: Engine<'_>, pass: LightPass<'_>, shares: &[Share], film: OnFilm<'_, '_>, batch: &mut Batch) {
+    let Engine { scene, kernels } = engine;
+    let count = load(shares, batch);
+    debug_assert!(count <= PATHS);
+    let photons = PhotonPass { seed: pass.seed, count, light_paths: Some(pass.light_paths) };
+    kernels.photons_emit(pass.plan, photons, batch);
+    let mut event = 0;
+    batch.watch.lap(Stage::Photons);
+    while batch.paths.len > 0 {
+        closest(engine, false, batch);
+        batch.splats.len = 0;
+        kernels.light_paths(scene, pass, event, batch);
+        batch.watch.lap(Stage::Photons);
+        occluded(engine, Coherence::Incoherent, batch);
+        splat(scene, film, batch);
+        batch.watch.lap(Stage::Film);
+        event += 1;
+    }
+}
+
+/// Adds what reaches the lens to the film.
+fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
+    let splats = &batch.splats;
+    let filter = scene.camera.filter;
+    let reach = filter.reach();
+    for k in (0..splats.len).filter(|&k| batch.shadows.occluded[k] == 0) {
+        let (x, y) = (splats.x[k], splats.y[k]);
+        let pixels = |at: f32| (at - 0.5 - reach).ceil() as i32..=(at - 0.5 + reach).floor() as i32;
+        for row in pixels(y) {
+            for column in pixels(x) {
+                let h = density(filter, x - 0.5 - column as f32, y - 0.5 - row as f32);
+                let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
+                if scale > 0.0 && scale.is_finite() {
+                    let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
+                    film.cells.splat([column, row], brings, film.limit);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The techniques, a room each: what they have in common, [`super::technique`] says.
+
+mod glints;
+mod guides;
+mod light_paths;
+mod photons;
+mod reuse;
+
+use super::guide::plan::Plan;
+use super::options::RenderOptions;
+use super::pass::Pass;
+use super::pool::Pool;
+use super::technique::{Engine, Technique};
+use crate::film::Crop;
+use std::sync::Arc;
+
+/// What a technique may try before it says whether it is worth its while.
+pub struct Trial<'a> {
+    pub engine: Engine<'a>,
+    pub options: &'a RenderOptions,
+    pub crop: Crop,
+    /// There is anything to render.
+    pub has_samples: bool,
+    /// Plain paths.
+    pub pass: Pass<'a>,
+    pub pool: &'a Pool,
+    /// From which lights photons go to which casters; where they are wanted and have a way to go.
+    pub plan: Option<Arc<Plan>>,
+}
+
+/// All of them, in the order of their turns after a vertex and after a batch.
+const ALL: [fn(&Trial<'_>) -> Option<Box<dyn Technique>>; 4] =
+    [reuse::plan, guides::plan, light_paths::plan, glints::plan];
+
+/// Those that are at work.
+pub fn plan(mut trial: Trial<'_>) -> Vec<Box<dyn Technique>> {
+    let scene = trial.engine.scene;
+    let wants_photons = trial.options.caustics.unwrap_or(scene.caustics) && trial.has_samples;
+    trial.plan = if wants_photons { Plan::new(scene, trial.pass.seed).map(Arc::new) } else { None };
+    ALL.iter().filter_map(|plan| plan(&trial)).collect()
+}
