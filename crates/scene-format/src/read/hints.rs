@@ -199,10 +199,6 @@ const MATERIALS: Hints = &[
         ],
         "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: true)",
     ),
-    (
-        &["roughconductor", "roughmetal", "brushed", "brushedmetal", "ggx", "microfacet", "metal", "conductor"],
-        "rough metal is BlinnPhong(albedo: .., exponent: 1000, specular: 1, energy_conserving: true)",
-    ),
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
         &["mix", "blend", "blendbsdf", "layered"],
