@@ -55,7 +55,8 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Value, _) => "a number, a vector, a colour, true or false, or a list of these".to_owned(),
         (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
         (Type::Struct(def), _) => def.noun.to_owned(),
-        (Type::Enum(def) | Type::Optional(Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
+        (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
+        (Type::Optional(&Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
         (Type::OneOf([Type::Color, ..]) | Type::Optional(Type::OneOf([Type::Color, ..])), _) => {
             return format!(
                 "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or Texture(..)"
