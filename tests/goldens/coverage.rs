@@ -2,7 +2,7 @@
 
 use libtest_mimic::Failed;
 use scene_format::SceneDesc;
-use scene_format::desc::{Albedo, Material, MaterialRef, Object, PixelFilter, Placements, Shading, ToneMap};
+use scene_format::desc::{Material, MaterialRef, Object, PixelFilter, Placements, Shading, ToneMap};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use tracer_core::LayerSet;
@@ -12,7 +12,7 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 4] = ["rectangle", "box", "emissive", "checkerboard"];
+const FOLDERS: [&str; 5] = ["rectangle", "box", "emissive", "checkerboard", "conductor"];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
 pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {
@@ -47,12 +47,13 @@ fn material(scene: &SceneDesc) -> Option<&'static str> {
         MaterialRef::Inline(material) => &material.value,
     };
     Some(match material {
-        Material::Diffuse { albedo: Albedo::Texture(_) } => "texture",
-        Material::Diffuse { .. } => "diffuse",
-        Material::Mirror { .. } => "mirror",
-        Material::Transparent { .. } => "transparent",
-        Material::BlinnPhong { .. } => "Blinn-Phong",
-        Material::Emissive(_) => return None,
+        Material::Diffuse(_) if material.texture().is_some() => "texture",
+        Material::Diffuse(_) => "diffuse",
+        Material::Mirror(_) => "mirror",
+        Material::Transparent(_) => "transparent",
+        Material::BlinnPhong(_) => "Blinn-Phong",
+        // Each has a folder of its own.
+        _ => return None,
     })
 }
 

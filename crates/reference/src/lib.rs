@@ -23,7 +23,7 @@ mod world;
 
 pub use first_hit::{FirstHit, first_hits};
 use glam::DVec3;
-use materials::{Incident, Rough, Scattered};
+use materials::{Incident, Materials, Rough, Scattered};
 pub use random::Random;
 use tracer_core::Scene;
 use world::World;
@@ -57,7 +57,7 @@ pub struct Picture {
 
 /// Renders the scene with this many independent samples per pixel, at least two.
 pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> Picture {
-    let tracer = Tracer { scene, world: World::new(scene), smoothing };
+    let tracer = Tracer { scene, world: World::new(scene), materials: Materials::new(scene), smoothing };
     let [width, height] = scene.size;
     let mut picture = Picture { size: scene.size, mean: Vec::new(), variance: Vec::new() };
     let n = f64::from(samples);
@@ -82,6 +82,7 @@ pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> P
 struct Tracer<'a> {
     scene: &'a Scene,
     world: World,
+    materials: Materials,
     smoothing: Smoothing,
 }
 
@@ -102,7 +103,7 @@ impl Tracer<'_> {
         }
         let s = self.world.surface(&ray, &hit, self.smoothing);
         let wo = -ray.direction;
-        match materials::scatter(self.scene, &s, wo, random) {
+        match materials::scatter(self.scene, &self.materials, &s, wo, random) {
             Scattered::Nothing => DVec3::ZERO,
             Scattered::Specular(Incident { direction, weight }) => {
                 weight * self.radiance(Ray { origin: s.p, direction }, scatterings + 1, random)

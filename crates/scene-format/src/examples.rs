@@ -1,7 +1,7 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
+    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Metal, Object, PixelFilter, Reuse,
     Shading, TextureFilter, TextureWrap, ToneMap,
 };
 use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, TransformWords};
@@ -40,7 +40,7 @@ const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_b
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 20] = [
+pub(crate) const CHOICES: [&EnumDef; 21] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -53,6 +53,7 @@ pub(crate) const CHOICES: [&EnumDef; 20] = [
     &Light::DEF,
     &BackgroundWords::DEF,
     &Material::DEF,
+    &Metal::DEF,
     &Pattern::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
@@ -65,7 +66,7 @@ pub(crate) const CHOICES: [&EnumDef; 20] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
 /// materials' own words.
-const SNIPPETS: [(&str, &str, &str); 54] = [
+const SNIPPETS: [(&str, &str, &str); 65] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -97,6 +98,17 @@ const SNIPPETS: [(&str, &str, &str); 54] = [
     ("Indirect", "Map", "indirect: Map"),
     ("Light", "SphereLight", "SphereLight(center: (3, 4, 5), radius: 1, power: (400, 380, 350))"),
     ("BackgroundWords", "Environment", "Environment(file: \"sky.hdr\", scale: 2, rotation: 40)"),
+    ("Metal", "Silver", "Conductor(metal: Silver, roughness: 0.1)"),
+    ("Metal", "Gold", "Conductor(metal: Gold, roughness: 0.2)"),
+    ("Metal", "Copper", "Conductor(metal: Copper, roughness: 0.3)"),
+    ("Metal", "Aluminum", "Conductor(metal: Aluminum, roughness: 0.4)"),
+    ("Metal", "Iron", "Conductor(metal: Iron, roughness: 0.5)"),
+    ("Metal", "Chromium", "Conductor(metal: Chromium)"),
+    ("Metal", "Nickel", "Conductor(metal: Nickel, roughness: 0.2)"),
+    ("Metal", "Titanium", "Conductor(metal: Titanium, roughness: 0.4)"),
+    ("Metal", "Brass", "Conductor(metal: Brass, roughness: 0.25)"),
+    ("Metal", "Platinum", "Conductor(metal: Platinum, roughness: 0.15)"),
+    ("Metal", "Steel", "Conductor(metal: Steel, roughness: 0.35)"),
     ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
     (
         "Pattern",
@@ -138,10 +150,10 @@ const SNIPPETS: [(&str, &str, &str); 54] = [
     ("Scene", "Scene", ""),
 ];
 
-/// All of them in the order of [`CHOICES`]: the materials' before the textures'.
+/// All of them in the order of [`CHOICES`]: the materials' before the metals'.
 fn snippets() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-    let textures = SNIPPETS.iter().position(|(choice, ..)| *choice == "Pattern").unwrap_or(SNIPPETS.len());
-    let (before, after) = SNIPPETS.split_at(textures);
+    let metals = SNIPPETS.iter().position(|(choice, ..)| *choice == "Metal").unwrap_or(SNIPPETS.len());
+    let (before, after) = SNIPPETS.split_at(metals);
     let materials = Material::TOLD.iter().map(|&(kind, _, words)| (Material::DEF.name, kind, words));
     before.iter().copied().chain(materials).chain(after.iter().copied())
 }
@@ -172,7 +184,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             background = words;
             files = &[SKY];
         }
-        "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
+        "Material" | "Metal" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "Pattern" | "TextureFilter" | "TextureWrap" | "MappingWords" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
             files = &[CHECKER];

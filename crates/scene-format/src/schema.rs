@@ -255,6 +255,11 @@ impl Rule {
         Rule { color: true, unit, ..Rule::within("a colour", 0.0, MAX_LIGHT) }
     }
 
+    /// A number for each channel, none of which is light.
+    pub const fn per_channel(what: &'static str, low: f64, high: f64) -> Rule {
+        Rule { color: true, ..Rule::within(what, low, high) }
+    }
+
     pub const fn unit(self, unit: &'static str) -> Rule {
         Rule { unit, ..self }
     }

@@ -65,7 +65,16 @@ fn albedo(random: &mut Random) -> Albedo {
 }
 
 fn material(random: &mut Random) -> Material {
-    match random.below(5) {
+    match random.below(6) {
+        5 => Material::Conductor(Box::new(Conductor {
+            reflectance: match random.below(3) {
+                0 => Reflectance::Metal(*random.pick(&[Metal::Silver, Metal::Gold, Metal::Steel])),
+                1 => Reflectance::Complex { ior: share(random).into(), k: share(random).into() },
+                _ => Reflectance::Tinted { reflectance: albedo(random), edge_tint: share(random).into() },
+            },
+            roughness: random.unit().into(),
+            multiple_scattering: random.below(2) == 0,
+        })),
         0 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
         4 => {
             let color = share(random).map(|channel| channel * 1e3);

@@ -58,7 +58,7 @@ fn kinds_of_materials_and_textures() {
     let cases = [
         ("Translucent()", "no such material"),
         ("Principled(roughness: 0.2)", "BlinnPhong("),
-        ("Conductor(metal: Gold)", "rough metal is BlinnPhong("),
+        ("RoughConductor(alpha: 0.1)", "`Conductor(reflectance: ..)`"),
         ("Glass(roughness: 0.1)", "`Transparent(ior: ..)`"),
         ("FrostedGlass()", "smooth"),
         ("Mix(a: 1)", "cannot be mixed"),

@@ -2,6 +2,7 @@
 //! away from the surface; `f` has no cosine, densities are in solid angle of wi.
 
 mod blinn_phong;
+mod conductor;
 mod diffuse;
 mod mirror;
 mod transparent;
@@ -41,8 +42,25 @@ pub enum Scattered {
     Rough(Box<dyn Rough>),
 }
 
+/// What is reckoned once for each material.
+pub struct Materials {
+    /// What conductors reflect at once.
+    energy: Vec<Option<conductor::Energy>>,
+}
+
+impl Materials {
+    /// Of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let energy = scene.materials.iter().map(|material| match material {
+            Material::Conductor(words) => Some(conductor::Energy::new(words.alpha)),
+            _ => None,
+        });
+        Materials { energy: energy.collect() }
+    }
+}
+
 /// What the surface's material does with light to wo: one line a material.
-pub fn scatter(scene: &Scene, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
+pub fn scatter(scene: &Scene, known: &Materials, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
     let color = |albedo| texture::albedo(scene, albedo, s.uv);
     match scene.materials[s.material as usize] {
         // Its surface is a light's.
@@ -50,6 +68,13 @@ pub fn scatter(scene: &Scene, s: &Surface, wo: DVec3, random: &mut Random) -> Sc
         Material::Mirror(material) => mirror::sample(material, s, wo),
         Material::Transparent(material) => transparent::sample(material, s, wo, random),
         Material::Diffuse(material) => Scattered::Rough(Box::new(diffuse::Diffuse { albedo: color(material.albedo) })),
+        Material::Conductor(words) => {
+            let (color, energy) =
+                (color(Material::Conductor(words).traits().color), known.energy[s.material as usize].clone());
+            energy.map_or(Scattered::Nothing, |energy| {
+                conductor::scatter(conductor::Conductor { words, color, energy }, s, wo)
+            })
+        }
         Material::BlinnPhong(words) => {
             Scattered::Rough(Box::new(blinn_phong::BlinnPhong { albedo: color(words.albedo), words }))
         }

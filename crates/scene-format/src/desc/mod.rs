@@ -23,7 +23,10 @@ pub use background::{Background, Environment};
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
 pub use light::{Emission, Light, SphereLight};
-pub use materials::{Amount, BlinnPhong, Diffuse, Emissive, Material, MaterialRef, Mirror, NamedMaterial, Transparent};
+pub use materials::{
+    Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
+    Transparent,
+};
 pub use object::Object;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;

@@ -199,10 +199,6 @@ const MATERIALS: Hints = &[
         ],
         "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: true)",
     ),
-    (
-        &["roughconductor", "roughmetal", "brushed", "brushedmetal", "ggx", "microfacet", "metal", "conductor"],
-        "rough metal is BlinnPhong(albedo: .., exponent: 1000, specular: 1, energy_conserving: true)",
-    ),
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
         &["mix", "blend", "blendbsdf", "layered"],
@@ -376,7 +372,7 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef) -> Option<&'s
         "roughness" | "glossiness" | "gloss" | "smoothness" | "metallic" | "metalness" | "clearcoat" | "anisotropy"
             if surface || def.name == "Scene" =>
         {
-            "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a mirror"
+            "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a mirror; rough metal is a Conductor"
         }
         "opacity" | "alpha" | "alpha_map" | "transparency" if surface => {
             "what is seen through is Transparent(ior: 1.5)"

@@ -52,12 +52,12 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Optional(Type::Number), what) => {
             return format!("{}, or None", with_unit(format!("{what} {words}"), at));
         }
-        (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
         (Type::Value, _) => "a number, a vector, a colour, true or false, or a list of these".to_owned(),
         (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
         (Type::Struct(def), _) => def.noun.to_owned(),
         (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
-        (Type::OneOf([Type::Color, ..]), _) => {
+        (Type::Optional(&Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
+        (Type::OneOf([Type::Color, ..]) | Type::Optional(Type::OneOf([Type::Color, ..])), _) => {
             return format!(
                 "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or Texture(..)"
             );
@@ -65,6 +65,7 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
         (Type::OneOf(_), _) => "a value".to_owned(),
+        (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
     };
     let out = if words.is_empty() { out } else { format!("{out} {words}") };
     with_unit(out, at)
@@ -324,7 +325,7 @@ macro_rules! optional {
     )+};
 }
 
-optional!(crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>);
+optional!(crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>, crate::desc::Metal, crate::desc::Albedo);
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

@@ -17,6 +17,7 @@ fn compiled(material: &desc::Material, color: Albedo) -> Material {
         desc::Material::Mirror(words) => Material::Mirror(words.into()),
         desc::Material::Transparent(words) => Material::Transparent((&**words).into()),
         desc::Material::BlinnPhong(words) => Material::BlinnPhong(materials::BlinnPhong::new(words, color)),
+        desc::Material::Conductor(words) => Material::Conductor(materials::Conductor::new(words, color)),
         desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
     }
 }

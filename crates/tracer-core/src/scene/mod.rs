@@ -22,7 +22,7 @@ pub use frame::Frame;
 pub(crate) use light::LightTable;
 pub use light::{FlatLight, Light};
 pub use materials::{Albedo, Material};
-pub(crate) use materials::{LEAST_EXPONENT, Lobe, MaterialTable};
+pub(crate) use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;

@@ -16,6 +16,7 @@ mod figures;
 mod glints;
 mod layers;
 mod matrix;
+mod metals;
 mod random_scenes;
 mod range;
 mod reuse;

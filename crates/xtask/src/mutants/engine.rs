@@ -4,6 +4,7 @@ use super::{Mutant, proofs, units};
 
 const BSDF: &str = "crates/tracer-core/src/engine/stages/materials/mod.rs";
 const BLINN_PHONG: &str = "crates/tracer-core/src/engine/stages/materials/blinn_phong.rs";
+const CONDUCTOR: &str = "crates/tracer-core/src/engine/stages/materials/conductor.rs";
 const DIELECTRIC: &str = "crates/tracer-core/src/engine/stages/materials/dielectric.rs";
 const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
 const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights/mod.rs";
@@ -77,6 +78,34 @@ pub const MUTANTS: &[Mutant] = &[
         find: "rs.fma(rs, rp * rp) * F::splat(0.5)",
         replace: "rp.fma(rp, rp * rp) * F::splat(0.5)",
         caught_by: units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "metal-without-masking",
+        file: CONDUCTOR,
+        find: "d * c(0.5) / cos_o.fma(root_i, cos_i * root_o)",
+        replace: "d * c(0.25) / (cos_o * cos_i)",
+        caught_by: units(&["engine::stages::materials::conductor"]),
+    },
+    Mutant {
+        name: "metal-sampled-by-all-normals",
+        file: CONDUCTOR,
+        find: "let height = one - u * (one + stretched.2);",
+        replace: "let height = one - u;",
+        caught_by: units(&["engine::stages::materials::conductor"]),
+    },
+    Mutant {
+        name: "metal-several-reflections-without-the-light's-side",
+        file: CONDUCTOR,
+        find: "several.scale(loss_o * loss_i * self.scale)",
+        replace: "several.scale(loss_o * self.scale)",
+        caught_by: units(&["engine::stages::materials::conductor"]),
+    },
+    Mutant {
+        name: "metal-fresnel-one-polarisation",
+        file: CONDUCTOR,
+        find: "c(0.5) * rs * (one + (t3 - t4) / (t3 + t4))",
+        replace: "rs",
+        caught_by: units(&["engine::stages::materials::conductor"]),
     },
     Mutant {
         name: "radiance-not-scaled-in-glass",

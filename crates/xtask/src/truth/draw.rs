@@ -5,9 +5,9 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Background, Checkerboard, Color, Diffuse, Emission, Environment, Instances, Light, Mapping, Material,
-    MaterialRef, Mesh, Mirror, NamedMaterial, Object, PixelFilter, Placements, Texture, TextureFilter, TextureWrap,
-    ThinLens, ToneMap, Transform,
+    Albedo, Background, Checkerboard, Color, Conductor, Diffuse, Emission, Environment, Instances, Light, Mapping,
+    Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, Texture,
+    TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -108,13 +108,46 @@ pub fn shiny(world: &mut World, low: f64, high: f64, random: &mut Random) -> Mat
 pub fn matt(world: &mut World, random: &mut Random) -> Material {
     match random.below(8) {
         0 => shiny(world, 1.0, 45.0, random),
+        1 => metal(world, 0.5, 1.0, random),
         _ => Material::Diffuse(Diffuse { albedo: albedo(world, random) }),
     }
 }
 
-/// What throws caustics: glass, mirrors, shiny lobes.
+/// Metal of a roughness in this range, said in one of the three ways.
+pub fn metal(world: &mut World, low: f64, high: f64, random: &mut Random) -> Material {
+    const METALS: [Metal; 11] = [
+        Metal::Silver,
+        Metal::Gold,
+        Metal::Copper,
+        Metal::Aluminum,
+        Metal::Iron,
+        Metal::Chromium,
+        Metal::Nickel,
+        Metal::Titanium,
+        Metal::Brass,
+        Metal::Platinum,
+        Metal::Steel,
+    ];
+    let reflectance = match random.below(4) {
+        0 | 1 => Reflectance::Metal(one_of(random, &METALS)),
+        2 => Reflectance::Complex {
+            ior: [0; 3].map(|_| random.between(0.1, 3.0)).into(),
+            k: [0; 3].map(|_| random.between(1.0, 6.0)).into(),
+        },
+        _ => Reflectance::Tinted {
+            reflectance: albedo(world, random),
+            edge_tint: if once_in(random, 2) { [1.0; 3] } else { color(random) }.into(),
+        },
+    };
+    let roughness = random.between(low, high).into();
+    Material::Conductor(Box::new(Conductor { reflectance, roughness, multiple_scattering: !once_in(random, 4) }))
+}
+
+/// What throws caustics: glass, mirrors, shiny lobes, metal.
 pub fn caster(world: &mut World, random: &mut Random) -> Material {
-    match random.below(5) {
+    match random.below(7) {
+        5 => metal(world, 0.05, 0.44, random),
+        6 => metal(world, 0.0, 0.0, random),
         0 => Material::Mirror(Mirror { reflectance: color(random).map(|c| (c + 0.1).min(1.0)).into() }),
         1 => Material::Mirror(Mirror { reflectance: [1.0; 3].into() }),
         2 => shiny(world, 50.0, 5000.0, random),

@@ -89,6 +89,8 @@ impl Compiled {
         let narrow = |object: &Object| match super::draw::material_of(world, object) {
             Some(Material::Diffuse(_) | Material::Emissive(_)) | None => false,
             Some(Material::BlinnPhong(words)) => words.exponent.value > NARROW,
+            // As a lobe of that exponent: alpha^2 = 2 / (exponent + 2).
+            Some(Material::Conductor(words)) => words.roughness.value.powi(4) * (NARROW + 2.0) < 2.0,
             Some(Material::Mirror(_) | Material::Transparent(_)) => true,
         };
         let objects = || world.desc.objects.iter().map(|object| &object.value);

@@ -15,7 +15,7 @@ scene_struct! {
 }
 
 impl Told for Mirror {
-    const ALSO: &'static [&'static str] = &["metal", "specular", "conductor", "reflective", "chrome"];
+    const ALSO: &'static [&'static str] = &["specular", "reflective", "chrome", "perfectmirror"];
     const EXAMPLE: &'static str = "Mirror(reflectance: 0.9)";
 }
 

@@ -3,12 +3,14 @@
 //! Nobody else has a `match` on kinds of material: what others want to know is asked of [`MaterialWords`].
 
 mod blinn_phong;
+mod conductor;
 mod diffuse;
 mod emissive;
 mod mirror;
 mod transparent;
 
 pub use blinn_phong::BlinnPhong;
+pub use conductor::{Conductor, Metal, Reflectance};
 pub use diffuse::Diffuse;
 pub use emissive::{Amount, Emissive};
 pub use mirror::Mirror;
@@ -58,6 +60,7 @@ scene_kinds! {
         Mirror(Mirror);
         Transparent(Box<Transparent>);
         BlinnPhong(Box<BlinnPhong>);
+        Conductor(Box<Conductor>);
         Emissive(Box<Emissive>);
     }
 }

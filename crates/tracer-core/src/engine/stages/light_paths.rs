@@ -19,7 +19,7 @@
 //! j, and a path that has met the light counts by h_j P / (h_j P + D).
 //!
 //! Left to paths alone: surfaces with interpolated normals, where rays do not start where light paths land; reflections and refractions that
-//! are not the same from both sides (bent normals of low-poly meshes); glossy lobes on the way.
+//! are not the same from both sides (bent normals of low-poly meshes); glossy lobes on the way; metals that are not smooth.
 
 use super::aim;
 use super::materials::{Bsdf, TWO_PI, reflect_bent};
@@ -305,11 +305,11 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         let origin = V3::<F>::load(&paths.origin, i);
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
-        let bsdf = Bsdf::<F>::at(tables, &s, surfaces);
+        let bsdf = Bsdf::<'_, F>::at(tables, &s, surfaces);
         let back = direction.neg();
         let numbers =
             Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, pair) };
-        let rough = bsdf.rough() & !s.smooth;
+        let rough = bsdf.packs() & !s.smooth;
         if event > 0 && rough.any() {
             let (u, v) = numbers.pair(lens_salt);
             let lens = film.lens(u, v);
@@ -356,9 +356,9 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         if !goes_on || !passes.any() {
             continue;
         }
-        let (mut to_eye, _) = reflect_bent(&s, back);
+        let (mut to_eye, normal) = reflect_bent(&s, back);
         let mut start = s.ng.mad(s.offset, s.p);
-        let mut weight = bsdf.color;
+        let mut weight = bsdf.mirrored_color(back.dot(normal));
         let (mut of_glass, mut refracted) = (one, F::M::from_bits(0));
         if bsdf.transparent.any() {
             let (lobe, _) = numbers.pair(salt);

@@ -153,7 +153,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
-        let bsdf = Bsdf::<F>::at(tables, &s, surfaces);
+        let bsdf = Bsdf::<'_, F>::at(tables, &s, surfaces);
         let wo = direction.neg();
         if event > 0 {
             let stored = bsdf.rough();
@@ -173,9 +173,9 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let photon = F::U::gather(&photons.pair[..], slot);
         let numbers =
             Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, photon) };
-        let (mut wi, _) = reflect_bent(&s, wo);
+        let (mut wi, normal) = reflect_bent(&s, wo);
         let mut start = s.ng.mad(s.offset, s.p);
-        let mut weight = bsdf.color;
+        let mut weight = bsdf.mirrored_color(wo.dot(normal));
         if bsdf.transparent.any() {
             let (lobe, _) = numbers.pair(salt);
             let d = bsdf.dielectric(&s, wo).sample(lobe);

@@ -141,7 +141,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             if vertex == 0 {
                 let distance = F::load(&batch.hits.t[i..]);
                 film = film * Film::new(&scene.camera, scene.size).area_of(direction, distance, &s);
-                film = F::select(bsdf.specular() | s.smooth, zero, film);
+                film = F::select(bsdf.packs() & !s.smooth, film, zero);
             } else {
                 film = F::select(bsdf.rough(), zero, film);
             }
@@ -233,8 +233,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             alive = alive & !(rough & sample.pdf.le(zero));
         }
         if bsdf.mirror.any() {
-            let (reflected, _) = reflect_bent(&s, wo);
+            let (reflected, normal) = reflect_bent(&s, wo);
             wi = V3::select(bsdf.mirror, reflected, wi);
+            weight = V3::select(bsdf.mirror, bsdf.mirrored_color(wo.dot(normal)), weight);
             start = V3::select(bsdf.mirror, s.ng.mad(s.offset, s.p), start);
         }
         if bsdf.transparent.any() {
@@ -288,7 +289,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
             let item = (slot & F::U::splat(path::SLOT)).shr::<6>();
             let shares = !F::U::gather(&batch.item_shares, item).eq(F::U::splat(0));
-            member = surfaces & rough & fresh & shares & zero.lt(colored.max_component());
+            member = surfaces & bsdf.packs() & fresh & shares & zero.lt(colored.max_component());
         }
         if vertex >= ROULETTE_FROM {
             // That a member goes on must not depend on where to: other pixels reckon with its density.
@@ -304,7 +305,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let untouched = rough & !has(slot, path::SHARED | path::MAKER | path::OWN);
         slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
         if aims_here {
-            let aims = surfaces & rough & zero.lt(colored.max_component());
+            let aims = surfaces & bsdf.packs() & zero.lt(colored.max_component());
             film.compress(aims, &mut aimers.film[aimers.len..]);
             add_members(aimers, &bsdf, &s, wo, colored, eta2, slot, primitive, instance, aims);
             slot = F::U::select(aims, slot | F::U::splat(path::AIMS), slot);

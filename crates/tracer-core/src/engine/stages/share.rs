@@ -44,7 +44,7 @@ const MOST_BOXES: u32 = 6;
 #[allow(clippy::too_many_arguments)]
 pub fn add_members<F: Lanes>(
     members: &mut Members,
-    bsdf: &Bsdf<F>,
+    bsdf: &Bsdf<'_, F>,
     s: &Surface<F>,
     wo: V3<F>,
     weight: V3<F>,
@@ -74,7 +74,7 @@ pub fn add_members<F: Lanes>(
 
 /// How members i .. i + N scatter, without colour.
 #[inline(always)]
-pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<F> {
+pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<'static, F> {
     let [first, second] = &members.numbers;
     let numbers = [F::load(&first[i..]), F::load(&second[i..])];
     Bsdf::unpack(Packed { kind: F::U::load(&members.kind[i..]), numbers }, lanes)
@@ -401,7 +401,7 @@ impl PairTerms {
         let inverse = c(1.0) / p.distance2;
         let mut density = (cos_member * inverse) * (cos_suffix * inverse) * c(std::f32::consts::FRAC_1_PI);
         let mut value = density;
-        let glossy = Bsdf::<F>::packed_glossy(F::U::load(&members.kind[i..]), lanes);
+        let glossy = Bsdf::<'_, F>::packed_glossy(F::U::load(&members.kind[i..]), lanes);
         if glossy.any() {
             let bsdf = bsdf_of::<F>(members, i, lanes);
             let (ns, wo) = (V3::load(&members.normal, i), V3::load(&members.wo, i));

@@ -4,14 +4,19 @@
 //! of material. How the lobes scatter over lanes stands in `engine/stages/materials`.
 
 mod blinn_phong;
+mod conductor;
 mod diffuse;
 mod emissive;
+mod ggx;
 mod mirror;
 mod transparent;
 
 pub use blinn_phong::BlinnPhong;
+pub(crate) use conductor::ConductorTable;
+pub use conductor::{Conductor, Fresnel};
 pub use diffuse::Diffuse;
 pub use emissive::Emissive;
+pub(crate) use ggx::STEPS as GGX_STEPS;
 pub use mirror::Mirror;
 pub use transparent::Transparent;
 
@@ -19,6 +24,12 @@ use super::table::Table;
 
 /// Glossy lobes cast caustics from this exponent on; what wider ones reflect is found by light samples.
 pub(crate) const LEAST_EXPONENT: f32 = 50.0;
+
+/// GGX casts caustics up to this alpha: as narrow as a Blinn-Phong lobe of that exponent, alpha^2 = 2 / (exponent + 2).
+pub(crate) const NARROWEST_ALPHA: f32 = 0.196;
+
+/// Below this alpha a rough lobe is a specular one.
+pub(crate) const LEAST_ALPHA: f64 = 1e-4;
 
 /// A colour, constant or from a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,6 +106,10 @@ pub(crate) enum Lobe {
     BlinnPhongConserving = 4,
     /// None: it shines.
     Emitter = 5,
+    /// Specular reflection by Fresnel's equations or the F82-tint model. Parameters: alpha, place in the table of conductors.
+    SmoothConductor = 6,
+    /// GGX with these. Parameters: as before.
+    Conductor = 7,
 }
 
 /// A material's row in the tables.
@@ -115,6 +130,11 @@ pub(crate) trait MaterialKind {
 
     /// What others want to know of it.
     fn traits(&self) -> Traits;
+
+    /// Itself, if it is a conductor: the engine has a table of these.
+    fn conductor(&self) -> Option<&Conductor> {
+        None
+    }
 }
 
 /// The registry: one line for each material.
@@ -139,6 +159,7 @@ materials! {
     Mirror;
     Transparent;
     BlinnPhong;
+    Conductor;
     Emissive;
 }
 
@@ -155,6 +176,8 @@ pub(crate) struct MaterialTable {
     pub rows: Table<5>,
     /// What the lobe says.
     pub parameters: Table<2>,
+    /// The conductors', if there are any.
+    pub conductors: Option<ConductorTable>,
     /// Which lobes occur, one bit each: a stage skips what no material asks for.
     lobes: u32,
     /// Whether any material has a texture.
@@ -166,6 +189,11 @@ pub(crate) struct MaterialTable {
 impl MaterialTable {
     pub fn new(materials: &[Material]) -> Self {
         let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
+        let conductors =
+            || materials.iter().enumerate().filter_map(|(k, material)| Some((k, material.kind().conductor()?)));
+        for (place, (k, _)) in conductors().enumerate() {
+            rows[k].parameters[1] = place as f64;
+        }
         let emitter = rows.len() as u32;
         rows.push(Emissive.row());
         let texture = |row: &Row| match row.color {
@@ -182,6 +210,7 @@ impl MaterialTable {
                 [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(row))]
             })),
             parameters: Table::new(rows.iter().map(|row| row.parameters.map(|x| x as f32))),
+            conductors: ConductorTable::new(conductors().map(|(_, conductor)| conductor)),
             lobes: rows.iter().fold(0, |bits, row| bits | 1 << row.lobe as u32),
             textured: rows.iter().any(|row| texture(row) != 0),
             emitter,

@@ -12,6 +12,7 @@
 //! A lobe is a file here. Which material has which is in its row ([`crate::scene::materials`]); nobody outside of this room asks for a kind.
 
 mod blinn_phong;
+mod conductor;
 mod dielectric;
 mod specular_reflection;
 
@@ -25,13 +26,14 @@ use super::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::warp;
-use crate::scene::{LEAST_EXPONENT, Lobe, MaterialTable, Tables};
+use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Tables};
 use blinn_phong::BlinnPhong;
+use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// How lanes scatter.
 #[derive(Clone, Copy)]
-pub struct Bsdf<F: Lanes> {
+pub struct Bsdf<'t, F: Lanes> {
     /// Albedo, reflectance or transmittance, per channel.
     pub color: V3<F>,
     /// DIFFUSE and nothing else: light leaves alike in all directions.
@@ -42,12 +44,18 @@ pub struct Bsdf<F: Lanes> {
     pub mirror: F::M,
     /// SPECULAR | REFLECTION | TRANSMISSION.
     pub transparent: F::M,
-    /// Of transparent lanes the index of refraction, of glossy ones alpha.
+    /// Of transparent lanes the index of refraction, of Blinn-Phong's and rough metals' alpha.
     parameter: F,
-    /// Of glossy lanes s.
+    /// Of Blinn-Phong s, of metals the place in their table.
     share: F,
-    /// Glossy lanes with the energy-conserving lobe.
+    /// Blinn-Phong, both kinds.
+    blinn_phong: F::M,
+    /// Blinn-Phong with the energy-conserving lobe.
     conserving: F::M,
+    /// Metals, rough or smooth; no lane without a table.
+    metal: F::M,
+    /// Their table.
+    conductors: Option<&'t ConductorTable>,
 }
 
 /// A [`Bsdf`] that is no specular one as columns hold it, without colour.
@@ -68,37 +76,42 @@ pub mod packed {
     pub const ALL: u32 = GLOSSY | CONSERVING;
 }
 
-impl<F: Lanes> Bsdf<F> {
+impl<'t, F: Lanes> Bsdf<'t, F> {
     /// Looks the material up, and its texture + 1, or 0; all masks are within `valid`.
     #[inline(always)]
-    fn new(table: &MaterialTable, material: F::U, valid: F::M) -> (Self, F::U) {
+    fn new(table: &'t MaterialTable, material: F::U, valid: F::M) -> (Self, F::U) {
         let none = F::M::from_bits(0);
         let [red, green, blue, kind, texture] = table.rows.row::<F>(material);
         let kind = kind.to_bits();
         let is = |k: Lobe| if table.has(k) { valid & kind.eq(F::U::splat(k as u32)) } else { none };
         let (transparent, conserving) = (is(Lobe::Dielectric), is(Lobe::BlinnPhongConserving));
-        let glossy = is(Lobe::BlinnPhong) | conserving;
+        let blinn_phong = is(Lobe::BlinnPhong) | conserving;
+        let (rough_metal, smooth_metal) = (is(Lobe::Conductor), is(Lobe::SmoothConductor));
+        let metal = rough_metal | smooth_metal;
         let (mut parameter, mut share) = (F::splat(1.0), F::splat(0.0));
-        if (transparent | glossy).any() {
+        if (transparent | blinn_phong | metal).any() {
             [parameter, share] = table.parameters.row::<F>(material);
         }
         let bsdf = Bsdf {
             color: V3(red, green, blue),
             diffuse: is(Lobe::Lambert),
-            glossy,
-            mirror: is(Lobe::Mirror),
+            glossy: blinn_phong | rough_metal,
+            mirror: is(Lobe::Mirror) | smooth_metal,
             transparent,
             parameter,
             share,
+            blinn_phong,
             conserving,
+            metal,
+            conductors: table.conductors.as_ref(),
         };
         (bsdf, texture.to_bits())
     }
 
     /// The material of a surface, its texture looked up.
     #[inline(always)]
-    pub fn at(tables: &Tables, s: &Surface<F>, valid: F::M) -> Self {
-        let (mut bsdf, texture) = Bsdf::<F>::new(&tables.materials, s.material, valid);
+    pub fn at(tables: &'t Tables, s: &Surface<F>, valid: F::M) -> Self {
+        let (mut bsdf, texture) = Bsdf::<'t, F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
             let textured = valid & !texture.eq(F::U::splat(0));
             if textured.any() {
@@ -147,24 +160,49 @@ impl<F: Lanes> Bsdf<F> {
         Dielectric::new(s, wo, self.parameter)
     }
 
-    /// The glossy lobe.
+    /// What a mirror or smooth metal carries on, at this cosine to the normal that reflects.
     #[inline(always)]
-    fn blinn_phong(&self) -> BlinnPhong<F> {
+    pub fn mirrored_color(&self, cos: F) -> V3<F> {
+        let Some(table) = self.conductors else { return self.color };
+        let metal = self.mirror & self.metal;
+        if !metal.any() {
+            return self.color;
+        }
+        V3::select(metal, self.conductor(table, metal).fresnel(cos), self.color)
+    }
+
+    /// The metals' lobe, for these of their lanes.
+    #[inline(always)]
+    fn conductor(&self, table: &ConductorTable, lanes: F::M) -> Conductor<F> {
+        let place = F::select(lanes, self.share, F::splat(0.0));
+        Conductor::new(table, place.to_int(), self.color)
+    }
+
+    /// Rough lanes whose f is their colour times a number: only those columns hold ([`Bsdf::pack`]). Metals' is another colour at every
+    /// angle; they share and aim nothing, and what light paths bring to them is left to paths.
+    #[inline(always)]
+    pub fn packs(&self) -> F::M {
+        self.diffuse | self.blinn_phong
+    }
+
+    /// The Blinn-Phong lobe.
+    #[inline(always)]
+    fn lobe(&self) -> BlinnPhong<F> {
         BlinnPhong { exponent: self.parameter, share: self.share, conserving: self.conserving }
     }
 
-    /// Both lobes at a pair of directions, for the diffuse and glossy lanes; `cos_i` is ns.wi > 0.
+    /// Both lobes at a pair of directions, for the diffuse lanes and Blinn-Phong; `cos_i` is ns.wi > 0.
     #[inline(always)]
     fn lobes(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> Lobes<F> {
         let c = F::splat;
         let none = c(0.0);
         let mut lobes =
             Lobes { lambert: c(FRAC_1_PI), lambert_pdf: cos_i * c(FRAC_1_PI), glossy: none, glossy_pdf: none };
-        if self.glossy.any() {
-            let (f, pdf) = self.blinn_phong().evaluate(ns, wo, wi, cos_i);
-            lobes.glossy = F::select(self.glossy, f, none);
-            lobes.glossy_pdf = F::select(self.glossy, pdf, none);
-            lobes.lambert = F::select(self.glossy, (c(1.0) - self.share) * lobes.lambert, lobes.lambert);
+        if self.blinn_phong.any() {
+            let (f, pdf) = self.lobe().evaluate(ns, wo, wi, cos_i);
+            lobes.glossy = F::select(self.blinn_phong, f, none);
+            lobes.glossy_pdf = F::select(self.blinn_phong, pdf, none);
+            lobes.lambert = F::select(self.blinn_phong, (c(1.0) - self.share) * lobes.lambert, lobes.lambert);
         }
         lobes
     }
@@ -176,10 +214,17 @@ impl<F: Lanes> Bsdf<F> {
         if !self.glossy.any() {
             return (self.color.scale(lobes.lambert), lobes.lambert_pdf);
         }
-        let p = self.blinn_phong().probability();
+        let p = self.lobe().probability();
         let mixed = p.fma(lobes.glossy_pdf, (F::splat(1.0) - p) * lobes.lambert_pdf);
-        let pdf = F::select(self.glossy, mixed, lobes.lambert_pdf);
-        (self.color.scale(lobes.lambert + lobes.glossy), pdf)
+        let pdf = F::select(self.blinn_phong, mixed, lobes.lambert_pdf);
+        let f = self.color.scale(lobes.lambert + lobes.glossy);
+        let Some(table) = self.conductors else { return (f, pdf) };
+        let metal = self.glossy & self.metal;
+        if !metal.any() {
+            return (f, pdf);
+        }
+        let (of_metal, metal_pdf) = self.conductor(table, metal).evaluate(table, ns, wo, wi);
+        (V3::select(metal, of_metal, f), F::select(metal, metal_pdf, pdf))
     }
 
     /// A direction for the rough lanes: cosine-weighted, or of the glossy lobe. The weight and the density are those of both lobes
@@ -191,11 +236,11 @@ impl<F: Lanes> Bsdf<F> {
         let mut wi = ns.to_world(local);
         let mut weight = self.color;
         let mut pdf = local.2 * c(FRAC_1_PI);
-        if self.glossy.any() {
-            let p = self.blinn_phong().probability();
-            let from_lobe = self.glossy & lobe.lt(p);
+        if self.blinn_phong.any() {
+            let p = self.lobe().probability();
+            let from_lobe = self.blinn_phong & lobe.lt(p);
             if from_lobe.any() {
-                wi = V3::select(from_lobe, self.blinn_phong().sample(ns, wo, u, v), wi);
+                wi = V3::select(from_lobe, self.lobe().sample(ns, wo, u, v), wi);
             }
             let cos_i = ns.dot(wi);
             let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
@@ -203,8 +248,21 @@ impl<F: Lanes> Bsdf<F> {
             let density = p.fma(lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
             let usable = c(0.0).lt(cos_i) & c(0.0).lt(density);
             let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
-            weight = V3::select(self.glossy, self.color.scale(scale), weight);
-            pdf = F::select(self.glossy, F::select(usable, density, c(0.0)), pdf);
+            weight = V3::select(self.blinn_phong, self.color.scale(scale), weight);
+            pdf = F::select(self.blinn_phong, F::select(usable, density, c(0.0)), pdf);
+        }
+        if let Some(table) = self.conductors
+            && (self.glossy & self.metal).any()
+        {
+            let metal = self.glossy & self.metal;
+            let conductor = self.conductor(table, metal);
+            let of_metal = conductor.sample(table, ns, wo, u, v, lobe);
+            let (f, density) = conductor.evaluate(table, ns, wo, of_metal);
+            let usable = c(0.0).lt(density);
+            let scale = F::select(usable, ns.dot(of_metal) / F::select(usable, density, c(1.0)), c(0.0));
+            wi = V3::select(metal, of_metal, wi);
+            weight = V3::select(metal, f.scale(scale), weight);
+            pdf = F::select(metal, density, pdf);
         }
         RoughSample { wi, weight, pdf }
     }
@@ -212,7 +270,11 @@ impl<F: Lanes> Bsdf<F> {
     /// Glossy lanes whose lobe is so narrow that photons go on by it (see `engine::guide`).
     #[inline(always)]
     pub fn narrow(&self) -> F::M {
-        self.glossy & F::splat(LEAST_EXPONENT).le(self.parameter) & F::splat(0.0).lt(self.share)
+        let blinn_phong = self.blinn_phong & F::splat(LEAST_EXPONENT).le(self.parameter) & F::splat(0.0).lt(self.share);
+        if self.conductors.is_none() {
+            return blinn_phong;
+        }
+        blinn_phong | (self.glossy & self.metal & self.parameter.le(F::splat(NARROWEST_ALPHA)))
     }
 
     /// A direction of the narrow lanes' glossy lobe alone, and its weight f cos / density.
@@ -220,20 +282,29 @@ impl<F: Lanes> Bsdf<F> {
     pub fn sample_narrow(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> (V3<F>, V3<F>) {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let wi = self.blinn_phong().sample(ns, wo, u, v);
+        let wi = self.lobe().sample(ns, wo, u, v);
         let cos_i = ns.dot(wi);
         let lobes = self.lobes(ns, wo, wi, cos_i.max(zero));
         let usable = zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
         let scale = F::select(usable, lobes.glossy * cos_i / F::select(usable, lobes.glossy_pdf, one), zero);
-        (wi, self.color.scale(scale))
+        let weight = self.color.scale(scale);
+        let Some(table) = self.conductors else { return (wi, weight) };
+        let metal = self.glossy & self.metal;
+        if !metal.any() {
+            return (wi, weight);
+        }
+        let conductor = self.conductor(table, metal);
+        let of_metal = conductor.sample_visible(ns, wo, u, v);
+        let of_lobe = conductor.visible_weight(ns, wo, of_metal);
+        (V3::select(metal, of_metal, wi), V3::select(metal, of_lobe, weight))
     }
 
-    /// The rough lanes as columns hold them.
+    /// The lanes of [`Bsdf::packs`] as columns hold them.
     #[inline(always)]
     pub fn pack(&self) -> Packed<F> {
         let bits = F::U::splat;
         let glossy = F::U::select(self.conserving, bits(packed::CONSERVING), bits(packed::GLOSSY));
-        Packed { kind: F::U::select(self.glossy, glossy, bits(0)), numbers: [self.parameter, self.share] }
+        Packed { kind: F::U::select(self.blinn_phong, glossy, bits(0)), numbers: [self.parameter, self.share] }
     }
 
     /// Which of these kinds are glossy.
@@ -257,7 +328,10 @@ impl<F: Lanes> Bsdf<F> {
             transparent: none,
             parameter,
             share,
+            blinn_phong: glossy,
             conserving: glossy & kind.eq(F::U::splat(packed::CONSERVING)),
+            metal: none,
+            conductors: None,
         }
     }
 }

@@ -11,18 +11,18 @@ use tracer_reference::statistics::{Estimate, chi_square, sidak};
 
 type S = ArrayF<1>;
 
-fn scalar(x: S) -> f64 {
+pub fn scalar(x: S) -> f64 {
     let mut out = [0.0];
     x.store(&mut out);
     f64::from(out[0])
 }
-fn vector(v: V3<S>) -> DVec3 {
+pub fn vector(v: V3<S>) -> DVec3 {
     DVec3::new(scalar(v.0), scalar(v.1), scalar(v.2))
 }
-fn lanes(v: DVec3) -> V3<S> {
+pub fn lanes(v: DVec3) -> V3<S> {
     V3::splat(v.as_vec3().to_array())
 }
-fn number(random: &mut Random) -> S {
+pub fn number(random: &mut Random) -> S {
     S::splat((random.bits() >> 40) as f32 / 16_777_216.0)
 }
 
@@ -35,7 +35,7 @@ struct Rough {
 }
 
 impl Rough {
-    fn bsdf(&self) -> Bsdf<S> {
+    fn bsdf(&self) -> Bsdf<'static, S> {
         let albedo = Albedo::Color([1.0, 0.5, 0.0]);
         let material = match self.glossy {
             None => Material::Diffuse(materials::Diffuse { albedo }),
@@ -44,7 +44,9 @@ impl Rough {
                 Material::BlinnPhong(materials::BlinnPhong { albedo, exponent, specular, energy_conserving })
             }
         };
-        Bsdf::new(&MaterialTable::new(&[material]), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
+        // It may live for ever: there are few.
+        let table = Box::leak(Box::new(MaterialTable::new(&[material])));
+        Bsdf::new(table, <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
     }
 
     /// f for albedo 1, by the formula of the scene language.
@@ -79,15 +81,15 @@ fn rough_materials() -> Vec<Rough> {
 }
 
 /// Angles of the viewer to the normal, in degrees.
-const ANGLES: [f64; 5] = [0.0, 30.0, 60.0, 85.0, 89.5];
+pub const ANGLES: [f64; 5] = [0.0, 30.0, 60.0, 85.0, 89.5];
 
 /// A normal in general position.
-fn normal() -> DVec3 {
+pub fn normal() -> DVec3 {
     DVec3::new(0.36, -0.48, 0.8)
 }
 
 /// The direction at this angle to the normal.
-fn viewer(degrees: f64) -> DVec3 {
+pub fn viewer(degrees: f64) -> DVec3 {
     let (x, _) = normal().any_orthonormal_pair();
     let a = degrees.to_radians();
     normal() * libm::cos(a) + x * libm::sin(a)

@@ -1,0 +1,234 @@
+//! The lobes of metals over lanes: GGX with Smith's height-correlated shadowing and masking (Walter et al. 2007; Heitz 2014), and what is
+//! reflected several times (Kulla and Conty 2017), a Lambert-like lobe that is sampled with the probability 1 - E(mu_o).
+
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::{V3, sincos_turns};
+use crate::sampling::warp;
+use crate::scene::{ConductorTable, GGX_STEPS};
+use std::f32::consts::FRAC_1_PI;
+
+/// The viewer's cosine is not less than about this.
+const LEAST_COSINE: f32 = 1e-3;
+
+/// Parameters of the metals' lanes.
+#[derive(Clone, Copy)]
+pub struct Conductor<F: Lanes> {
+    /// Where it begins in the table of losses.
+    losses: F::U,
+    /// Width of the lobe.
+    pub alpha: F,
+    /// Lanes where Fresnel's equations hold; elsewhere the F82-tint model.
+    exact: F::M,
+    /// F0 of the tinted lanes.
+    color: V3<F>,
+    /// n, or the tint.
+    n: V3<F>,
+    k: V3<F>,
+    /// F_avg where Fresnel's equations hold.
+    average: V3<F>,
+    /// E_avg.
+    energy: F,
+    /// 1 / (pi (1 - E_avg)), or zero.
+    scale: F,
+}
+
+impl<F: Lanes> Conductor<F> {
+    /// Conductor `index` of the table with this colour.
+    #[inline(always)]
+    pub fn new(table: &ConductorTable, index: F::U, color: V3<F>) -> Self {
+        let [alpha, exact, n0, n1, n2, k0, k1, k2, f0, f1, f2, energy, scale] = table.rows.row::<F>(index);
+        Conductor {
+            losses: index * F::U::splat(GGX_STEPS as u32),
+            alpha,
+            exact: F::splat(0.5).lt(exact),
+            color,
+            n: V3(n0, n1, n2),
+            k: V3(k0, k1, k2),
+            average: V3(f0, f1, f2),
+            energy,
+            scale,
+        }
+    }
+
+    /// Reflectance of a flat surface at a cosine from 0 to 1.
+    #[inline(always)]
+    pub fn fresnel(&self, cos: F) -> V3<F> {
+        let cos = cos.max(F::splat(0.0)).min(F::splat(1.0));
+        V3(
+            self.channel(cos, self.color.0, self.n.0, self.k.0),
+            self.channel(cos, self.color.1, self.n.1, self.k.1),
+            self.channel(cos, self.color.2, self.n.2, self.k.2),
+        )
+    }
+
+    #[inline(always)]
+    fn channel(&self, cos: F, f0: F, n: F, k: F) -> F {
+        F::select(self.exact, exact(n, k, cos), tinted(f0, n, cos))
+    }
+
+    /// F_ms of one channel.
+    #[inline(always)]
+    fn several(&self, f0: F, tint: F, average: F) -> F {
+        let c = F::splat;
+        let one = c(1.0);
+        // The mean of c (1 - c)^5 and c (1 - c)^6 over the hemisphere, 2 integral .. c dc: 1/21 and 1/126.
+        let of_tinted = (one - f0).fma(c(1.0 / 21.0), f0) - edge(f0, tint) * c(1.0 / 126.0);
+        let f = F::select(self.exact, average, of_tinted);
+        f * f * self.energy / (one - f * (one - self.energy))
+    }
+
+    /// 1 - E at a cosine.
+    #[inline(always)]
+    fn loss(&self, table: &ConductorTable, cos: F) -> F {
+        let c = F::splat;
+        let place = cos.max(c(0.0)).min(c(1.0)).sqrt() * c((GGX_STEPS - 1) as f32);
+        let low = place.min(c((GGX_STEPS - 2) as f32)).to_int();
+        let t = place - F::from_int(low);
+        let at = self.losses + low;
+        let (a, b) = (F::gather(&table.losses, at), F::gather(&table.losses, at + F::U::splat(1)));
+        (b - a).fma(t, a)
+    }
+
+    /// f and the density of [`Conductor::sample`]; both cosines are more than zero, elsewhere the density is zero.
+    #[inline(always)]
+    pub fn evaluate(&self, table: &ConductorTable, ns: V3<F>, wo: V3<F>, wi: V3<F>) -> (V3<F>, F) {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let ns = seen(ns, wo);
+        let (cos_o, cos_i) = (ns.dot(wo), ns.dot(wi));
+        let above = zero.lt(cos_o) & zero.lt(cos_i);
+        let (cos_o, cos_i) = (cos_o.max(c(1e-7)), cos_i.max(c(1e-7)));
+        let h = wo.add(wi);
+        let h2 = h.dot(h).max(c(1e-30));
+        let side = ns.cross(h);
+        // D by the half vector's squared sine, which keeps its digits where the lobe is narrow.
+        let sin2 = (side.dot(side) / h2).min(one);
+        let alpha2 = self.alpha * self.alpha;
+        let spread = (one - sin2).fma(alpha2, sin2);
+        let d = alpha2 * c(FRAC_1_PI) / (spread * spread);
+        let root_o = ((one - alpha2) * cos_o).fma(cos_o, alpha2).sqrt();
+        let root_i = ((one - alpha2) * cos_i).fma(cos_i, alpha2).sqrt();
+        // D G2 / (4 cos_i cos_o), and D G1(o) / (4 cos_o), the density of the half vector's visible normals over 4 wo.h.
+        let once = d * c(0.5) / cos_o.fma(root_i, cos_i * root_o);
+        let visible = d * c(0.5) / (cos_o + root_o);
+        let mut f = self.fresnel(h2.sqrt() * c(0.5)).scale(once);
+        let mut pdf = visible;
+        if zero.lt(self.scale).any() {
+            let (loss_o, loss_i) = (self.loss(table, cos_o), self.loss(table, cos_i));
+            let (n, color, average) = (self.n, self.color, self.average);
+            let several = V3(
+                self.several(color.0, n.0, average.0),
+                self.several(color.1, n.1, average.1),
+                self.several(color.2, n.2, average.2),
+            );
+            f = f.add(several.scale(loss_o * loss_i * self.scale));
+            let p = F::select(zero.lt(self.scale), loss_o, zero);
+            pdf = p.fma(cos_i * c(FRAC_1_PI), (one - p) * visible);
+        }
+        (V3::select(above, f, V3::grey(zero)), F::select(above, pdf, zero))
+    }
+
+    /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or cosine-weighted where `lobe` is
+    /// below the probability of that.
+    #[inline(always)]
+    pub fn sample(&self, table: &ConductorTable, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> V3<F> {
+        let zero = F::splat(0.0);
+        let reflected = self.sample_visible(ns, wo, u, v);
+        let ns = seen(ns, wo);
+        let p = F::select(zero.lt(self.scale), self.loss(table, ns.dot(wo)), zero);
+        V3::select(lobe.lt(p), ns.to_world(warp::cosine_hemisphere(u, v)), reflected)
+    }
+
+    /// wo reflected in one of the normals that it sees.
+    #[inline(always)]
+    pub fn sample_visible(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> V3<F> {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let ns = seen(ns, wo);
+        let (t, b) = ns.basis();
+        let z = wo.dot(ns).max(zero);
+        // Stretched so that the lobe is a hemisphere.
+        let stretched = V3(wo.dot(t) * self.alpha, wo.dot(b) * self.alpha, z);
+        let stretched = stretched.scale(one / stretched.dot(stretched).max(c(1e-30)).sqrt());
+        // A point of the cap of directions whose sum with it points up.
+        let (sin, cos) = sincos_turns(v);
+        let height = one - u * (one + stretched.2);
+        let radius = (one - height * height).max(zero).sqrt();
+        let h = V3(radius * cos, radius * sin, height).add(stretched);
+        let h = V3(h.0 * self.alpha, h.1 * self.alpha, h.2.max(zero));
+        let h = h.scale(one / h.dot(h).max(c(1e-30)).sqrt());
+        let h = t.mad(h.0, b.mad(h.1, ns.scale(h.2)));
+        let d = wo.dot(h);
+        h.scale(d + d).sub(wo)
+    }
+
+    /// G2/G1 F of a direction of [`Conductor::sample_visible`]: f cos / density of the single reflection.
+    #[inline(always)]
+    pub fn visible_weight(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>) -> V3<F> {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let ns = seen(ns, wo);
+        let (cos_o, cos_i) = (ns.dot(wo), ns.dot(wi));
+        let above = zero.lt(cos_o) & zero.lt(cos_i);
+        let (cos_o, cos_i) = (cos_o.max(c(1e-7)), cos_i.max(c(1e-7)));
+        let alpha2 = self.alpha * self.alpha;
+        let root_o = ((one - alpha2) * cos_o).fma(cos_o, alpha2).sqrt();
+        let root_i = ((one - alpha2) * cos_i).fma(cos_i, alpha2).sqrt();
+        let share = cos_i * (cos_o + root_o) / cos_o.fma(root_i, cos_i * root_o);
+        let h = wo.add(wi);
+        let weight = self.fresnel(h.dot(h).sqrt() * c(0.5)).scale(share);
+        V3::select(above, weight, V3::grey(zero))
+    }
+}
+
+/// The shading normal, raised towards the viewer where he would see it from behind or nearly so, which interpolated ones are along
+/// outlines: else there would be black dots.
+#[inline(always)]
+fn seen<F: Lanes>(ns: V3<F>, wo: V3<F>) -> V3<F> {
+    let c = F::splat;
+    let missing = c(LEAST_COSINE) - ns.dot(wo);
+    let low = c(0.0).lt(missing);
+    if !low.any() {
+        return ns;
+    }
+    V3::select(low, wo.mad(missing, ns).normalise(), ns)
+}
+
+/// b of the F82-tint model.
+#[inline(always)]
+fn edge<F: Lanes>(f0: F, tint: F) -> F {
+    let c = F::splat;
+    // Schlick's reflectance at c = 1/7, and c (1 - c)^6 there.
+    const FIFTH: f32 = (6.0 / 7.0) * (6.0 / 7.0) * (6.0 / 7.0) * (6.0 / 7.0) * (6.0 / 7.0);
+    let schlick = (c(1.0) - f0).fma(c(FIFTH), f0);
+    schlick * (c(1.0) - tint) * c(7.0 / (FIFTH * (6.0 / 7.0)))
+}
+
+/// The F82-tint model of one channel.
+#[inline(always)]
+fn tinted<F: Lanes>(f0: F, tint: F, cos: F) -> F {
+    let one = F::splat(1.0);
+    let x = one - cos;
+    let x2 = x * x;
+    let fifth = x2 * x2 * x;
+    ((one - f0).fma(fifth, f0) - edge(f0, tint) * cos * fifth * x).max(F::splat(0.0)).min(one)
+}
+
+/// Fresnel's equations for unpolarised light, n and k of one channel (Born and Wolf, 14.4).
+#[inline(always)]
+fn exact<F: Lanes>(n: F, k: F, cos: F) -> F {
+    let c = F::splat;
+    let (zero, one) = (c(0.0), c(1.0));
+    let (n2, k2, c2) = (n * n, k * k, cos * cos);
+    let s2 = one - c2;
+    let t0 = n2 - k2 - s2;
+    let a2_b2 = t0.fma(t0, c(4.0) * n2 * k2).sqrt();
+    let a = (c(0.5) * (a2_b2 + t0)).max(zero).sqrt();
+    let (t1, t2) = (a2_b2 + c2, (cos + cos) * a);
+    let rs = (t1 - t2) / (t1 + t2);
+    let (t3, t4) = (c2.fma(a2_b2, s2 * s2), t2 * s2);
+    c(0.5) * rs * (one + (t3 - t4) / (t3 + t4))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! Metals: the engine against the reference, with light from everywhere, from a lamp, and over one metal to another; and the default
+//! picture against the plain path tracer's.
+
+use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_picture, assert_sharing_is_unbiased};
+use crate::support::describe::*;
+use crate::support::meshes::torus;
+use scene_format::SceneDesc;
+use scene_format::desc::{Albedo, Conductor, Material, Metal, Reflectance, Shading, Transform};
+
+fn metal(metal: Metal, roughness: f64) -> Material {
+    conductor(Reflectance::Metal(metal), roughness, true)
+}
+
+fn tinted(color: [f64; 3], edge_tint: [f64; 3], roughness: f64) -> Material {
+    let reflectance = Albedo::Color(color.into());
+    conductor(Reflectance::Tinted { reflectance, edge_tint: edge_tint.into() }, roughness, true)
+}
+
+fn conductor(reflectance: Reflectance, roughness: f64, multiple_scattering: bool) -> Material {
+    Material::Conductor(Box::new(Conductor { reflectance, roughness: roughness.into(), multiple_scattering }))
+}
+
+/// Three balls on a matt floor: smooth, narrow and dull.
+fn balls() -> SceneDesc {
+    let dull = conductor(Reflectance::Complex { ior: [2.9, 1.2, 0.4].into(), k: [3.0, 2.5, 1.9].into() }, 0.9, false);
+    let objects = vec![
+        sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.6; 3])),
+        sphere([-2.1, 1.0, 0.0], 1.0, metal(Metal::Gold, 0.0)),
+        sphere([0.0, 1.0, 0.0], 1.0, tinted([0.9, 0.5, 0.3], [1.0, 0.7, 0.4], 0.45)),
+        sphere([2.1, 1.0, 0.0], 1.0, dull),
+        sphere([0.0, 0.5, 2.0], 0.5, metal(Metal::Copper, 1.0)),
+    ];
+    scene(32, vec![light([3.0, 7.0, 5.0], 1.5, [12.0, 11.0, 9.0])], objects)
+        .camera([0.0, 3.0, 9.0], [0.0, 0.8, 0.0], 35.0)
+        .background([0.2, 0.3, 0.4])
+        .bounces(3)
+}
+
+#[test]
+fn metals_are_those_of_the_reference() {
+    assert_same_picture("metals", &balls(), Samples { engine: 256, reference: 256 });
+}
+
+#[test]
+fn metals_with_interpolated_normals_are_those_of_the_reference() {
+    let torus = torus(0.4, 24, 16).obj("torus-24-16");
+    let placed = vec![Transform::Translate([0.0, 0.8, 0.0])];
+    let mut desc = balls();
+    desc.objects.truncate(1);
+    for (k, roughness) in [0.0, 0.5].into_iter().enumerate() {
+        let mut steps = placed.clone();
+        steps.push(Transform::Translate([2.8 * k as f64 - 1.4, 0.0, 0.0]));
+        desc.objects.push(mesh(&torus, metal(Metal::Brass, roughness), Shading::Smooth, steps).into());
+    }
+    assert_same_picture("smooth metals", &desc, Samples { engine: 256, reference: 256 });
+}
+
+#[test]
+fn metals_share_and_guide_without_bias() {
+    let mut desc = balls();
+    desc.background = [0.0; 3].into();
+    assert_sharing_is_unbiased("metals", &desc, 4);
+    assert_guiding_is_unbiased("metals", &desc, 256, 4);
+}
