@@ -46,7 +46,7 @@ pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch
 }
 
 /// The first `len` rays of columns, for the tree.
-fn rays<'a>(
+pub fn rays<'a>(
     origin: &'a Columns,
     direction: &'a Columns,
     from_primitive: &'a [u32],

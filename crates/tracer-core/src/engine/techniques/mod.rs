@@ -28,9 +28,11 @@ pub struct Trial<'a> {
     pub plan: Option<Arc<Plan>>,
 }
 
+/// Tries a technique; `None` where it is not worth its while.
+type TryOut = fn(&Trial<'_>) -> Option<Box<dyn Technique>>;
+
 /// All of them, in the order of their turns after a vertex and after a batch.
-const ALL: [fn(&Trial<'_>) -> Option<Box<dyn Technique>>; 4] =
-    [reuse::plan, guides::plan, light_paths::plan, glints::plan];
+const ALL: [TryOut; 4] = [reuse::plan, guides::plan, light_paths::plan, glints::plan];
 
 /// Those that are at work.
 pub fn plan(mut trial: Trial<'_>) -> Vec<Box<dyn Technique>> {
