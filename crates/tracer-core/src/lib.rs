@@ -47,6 +47,7 @@ pub(crate) mod math;
 pub mod mesh;
 pub mod sampling;
 pub mod scene;
+pub mod shapes;
 pub mod texture;
 
 pub use compile::{CompileError, CompileTimes, check_files, compile};

@@ -40,7 +40,13 @@ impl World {
     /// Adds a sphere.
     pub fn sphere(&mut self, center: Point, radius: f64, material: Material) {
         let material = inline(material);
-        let sphere = Sphere { center: center.into(), radius: radius.into(), material };
+        let sphere = Sphere {
+            center: center.into(),
+            radius: radius.into(),
+            material,
+            transform: Vec::new(),
+            placements: Placements::One,
+        };
         self.desc.objects.push(Object::Sphere(sphere).into());
     }
 
