@@ -223,10 +223,11 @@ fn the_tree_finds_what_brute_force_finds() {
     let rows: Vec<ShapeGeometry> = shapes.iter().map(geometry_of).collect();
     let spheres: Vec<SphereGeometry> =
         (0..5).map(|_| SphereGeometry::new(random.cube(), 0.05 + 0.1 * random.unit())).collect();
-    let soup = Mesh::soup(40, 0.3, &mut numbers);
+    // None of its triangles is cut.
+    let ball = Mesh::ball(60, 30);
     // Ids 5 and 6 are of spheres that hang beside the tree.
     let first_shape = 7;
-    let meshes = [soup.geometry(first_shape + rows.len() as u32)];
+    let meshes = [ball.geometry(first_shape + rows.len() as u32)];
     let geometry = Geometry { spheres: &spheres, shapes: &rows, first_shape, meshes: &meshes, instances: &[HERE] };
     let mut batch = Batch::random(800, 1.5, &mut numbers);
     batch.append(&Batch::beams(30, 1.5, &mut numbers));
@@ -250,8 +251,8 @@ fn the_tree_finds_what_brute_force_finds() {
         for (k, shape) in (first_shape..).zip(&rows) {
             take(shape.row.hit(origin, direction, from == k), k, NONE);
         }
-        for (k, id) in (meshes[0].first_primitive..).enumerate().take(soup.triangles.len()) {
-            take(if from == id { None } else { triangle_hit(soup.corners(k), origin, direction) }, id, 0);
+        for (k, id) in (meshes[0].first_primitive..).enumerate().take(ball.triangles.len()) {
+            take(if from == id { None } else { triangle_hit(ball.corners(k), origin, direction) }, id, 0);
         }
         best
     };
