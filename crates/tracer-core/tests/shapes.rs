@@ -1,4 +1,5 @@
-//! Curved shapes, alone and in the tree. Hits against what the shapes are: a point is on one where the equation says so, and the line is within it on one side.
+//! Curved shapes, alone and in the tree. Hits against what the shapes are: a point is on one where the equation says
+//! so, and the line is within it on one side.
 
 // Numbers of tests reach no picture.
 #![allow(clippy::disallowed_methods)]
@@ -65,7 +66,8 @@ fn at(o: [f32; 3], d: [f32; 3], t: f64) -> DVec3 {
     DVec3::from(o.map(f64::from)) + t * DVec3::from(d.map(f64::from))
 }
 
-/// A hit is on the surface, nothing lies before it, and the surface there is where the hit is and faces the way that it must.
+/// A hit is on the surface, nothing lies before it, and the surface there is where the hit is and faces the way that it
+/// must.
 #[test]
 fn hits_are_the_first_points_of_the_surface() {
     let mut random = Random(7);
@@ -115,8 +117,8 @@ fn hits_are_the_first_points_of_the_surface() {
     }
 }
 
-/// Rays that leave a closed convex shape inwards come out at its other side, those that leave it outwards do not come back: also where
-/// they start on an edge, and however flat they go.
+/// Rays that leave a closed convex shape inwards come out at its other side, those that leave it outwards do not come
+/// back: also where they start on an edge, and however flat they go.
 #[test]
 fn rays_that_leave_a_shape_meet_its_far_side_only() {
     let mut random = Random(11);
@@ -202,7 +204,8 @@ fn texture_coordinates_are_those_of_the_manual() {
     near(uv(UnitShape::Sphere, [0.0, 0.0, 1.0]), [0.5, 0.5]);
 }
 
-/// Every mode, level and packing gives what brute force over shapes, spheres and triangles gives, to the bit, and what is hit is what blocks.
+/// Every mode, level and packing gives what brute force over shapes, spheres and triangles gives, to the bit, and what
+/// is hit is what blocks.
 #[test]
 fn the_tree_finds_what_brute_force_finds() {
     let mut random = Random(17);

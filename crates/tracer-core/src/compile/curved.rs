@@ -49,7 +49,8 @@ fn of_disk(disk: &Disk) -> Written {
     Written { unit: UnitShape::Disk { inner }, local, fault, noun: "disk" }
 }
 
-/// Half the way from one end to the other, and the frame about it: right and up as they are on a disk that faces that way.
+/// Half the way from one end to the other, and the frame about it: right and up as they are on a disk that faces that
+/// way.
 struct Axis {
     middle: DVec3,
     half: f64,
@@ -164,7 +165,8 @@ fn is_similar(map: &DAffine3) -> bool {
 }
 
 impl Curved {
-    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines, and how it is turned does not show.
+    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines, and how it is turned does
+    /// not show.
     fn ball(&self, map: &DAffine3) -> Option<(DVec3, f64)> {
         let m = map.matrix3;
         let upright = m == DMat3::from_diagonal(DVec3::splat(m.x_axis.x)) && m.x_axis.x > 0.0;
@@ -177,7 +179,8 @@ impl Curved {
         self.maps.first().filter(|_| self.plain).and_then(|map| self.ball(map))
     }
 
-    /// One point per copy near what the camera looks at, on its surface or in its box; of many copies of every so many, 1024 at most.
+    /// One point per copy near what the camera looks at, on its surface or in its box; of many copies of every so many,
+    /// 1024 at most.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         self.maps.iter().step_by(self.maps.len().div_ceil(1024).max(1)).map(move |map| match self.ball(map) {
             Some((center, radius)) => center + (look_at - center).try_normalize().unwrap_or(DVec3::Z) * radius,
@@ -188,7 +191,8 @@ impl Curved {
         })
     }
 
-    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both sides where it has two.
+    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both
+    /// sides where it has two.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let Some(emissive) = &self.emissive else { return Vec::new() };
         let pi = std::f64::consts::PI;

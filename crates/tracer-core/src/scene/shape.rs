@@ -22,8 +22,9 @@ impl Shape {
         self.unit.bounds(&self.placement)
     }
 
-    /// What the tree needs to know of it. A hit's point is off by the roundings of t and of the ray's origin and direction, some 2^-23 of the
-    /// coordinates on its way; 2^-19 of those of the shape leaves room, and what the origin's size adds is the tree's to pad.
+    /// What the tree needs to know of it. A hit's point is off by the roundings of t and of the ray's origin and
+    /// direction, some 2^-23 of the coordinates on its way; 2^-19 of those of the shape leaves room, and what the
+    /// origin's size adds is the tree's to pad.
     pub(crate) fn geometry(&self) -> crate::bvh::ShapeGeometry {
         let [lower, upper] = self.bounds();
         let pad = DVec3::splat(lower.abs().max(upper.abs()).max_element() / 524_288.0);

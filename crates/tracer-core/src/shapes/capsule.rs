@@ -1,6 +1,7 @@
 //! Capsules: at most 1 away from the z axis between z = -half and half. Parameters: half.
 //!
-//! A cylinder and two balls that overlap: their union is convex, so the line is within it from the least to the greatest of their ends.
+//! A cylinder and two balls that overlap: their union is convex, so the line is within it from the least to the
+//! greatest of their ends.
 
 use super::{Interval, ObjectRay, OnUnit, ball, both, first_end, longitude, quadratic, slab};
 use glam::{DVec2, DVec3};

@@ -1,8 +1,8 @@
-//! Cones, cylinders among them: x^2 + y^2 = R(z)^2, R = middle + slope z >= 0, |z| <= 1. Parameters: R(-1), R(1), and bits that say whether
-//! they are closed.
+//! Cones, cylinders among them: x^2 + y^2 = R(z)^2, R = middle + slope z >= 0, |z| <= 1. Parameters: R(-1), R(1), and
+//! bits that say whether they are closed.
 //!
-//! The line is within the double cone where a t^2 + 2 beta t + gamma <= 0, and R >= 0 on one side of its apex only. A closed one is what
-//! that and the slab |z| <= 1 have in common: convex, so one interval.
+//! The line is within the double cone where a t^2 + 2 beta t + gamma <= 0, and R >= 0 on one side of its apex only. A
+//! closed one is what that and the slab |z| <= 1 have in common: convex, so one interval.
 
 use super::{CAPS, Interval, ObjectRay, OnUnit, UPRIGHT, both, disk, first_end, longitude, quadratic, slab};
 use glam::{DVec2, DVec3};

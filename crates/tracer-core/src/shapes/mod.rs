@@ -1,15 +1,18 @@
 //! Curved shapes: each a unit shape, of a size of about one about the origin of its object space, under an affine map.
 //!
-//! What knows a kind of shape is its own file and its lines in [`UnitShape`] here; tree, surfaces, compiler and casters ask by [`Row`].
+//! What knows a kind of shape is its own file and its lines in [`UnitShape`] here; tree, surfaces, compiler and casters
+//! ask by [`Row`].
 //!
-//! A hit is one scalar function of ray and row in `f64`, without fused operations: rows hold the inverse of the map in `f64`, so that
-//! nothing is lost wherever the shape lies and however thin or large it is, and t is the root rounded once to `f32`. The same function is
-//! called by all kernels for one ray at a time, hence the same bits at all levels and widths. A scalar `f64` operation takes as long as one
-//! in `f32`. Closed shapes are one primitive each: their hits are the ends of the interval in which the line is within all of their
-//! parts, so that no ray slips between cap and side.
+//! A hit is one scalar function of ray and row in `f64`, without fused operations: rows hold the inverse of the map in
+//! `f64`, so that nothing is lost wherever the shape lies and however thin or large it is, and t is the root rounded
+//! once to `f32`. The same function is called by all kernels for one ray at a time, hence the same bits at all levels
+//! and widths. A scalar `f64` operation takes as long as one in `f32`. Closed shapes are one primitive each: their hits
+//! are the ends of the interval in which the line is within all of their parts, so that no ray slips between cap and
+//! side.
 //!
-//! A ray that leaves a shape knows it and starts on it but for a rounding: the part that it starts on is found from the point, and its root
-//! there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards; no epsilon.
+//! A ray that leaves a shape knows it and starts on it but for a rounding: the part that it starts on is found from the
+//! point, and its root there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards; no
+//! epsilon.
 
 mod capsule;
 mod cone;
@@ -147,8 +150,8 @@ impl Row {
         DMat3::from_cols_array_2d(&self.object).transpose()
     }
 
-    /// The least t > 0 at which the ray meets the shape; `leaves`: it starts on this very shape and is not met there. The direction need not
-    /// be unit.
+    /// The least t > 0 at which the ray meets the shape; `leaves`: it starts on this very shape and is not met there.
+    /// The direction need not be unit.
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
     #[inline(never)]
     pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
@@ -167,7 +170,8 @@ impl Row {
         (t > 0.0 && t < f32::INFINITY).then_some(t)
     }
 
-    /// The surface at a point of render space near the shape: point and outward unit normal in render space, texture coordinates.
+    /// The surface at a point of render space near the shape: point and outward unit normal in render space, texture
+    /// coordinates.
     #[inline(never)]
     pub fn surface(&self, point: DVec3) -> OnUnit {
         let map = self.to_object();

@@ -8,8 +8,9 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// A cylinder with half spheres on its ends: all points at most `radius` away from the way between two points. Texture coordinates: u
-    /// goes round it, v along its outline from 0 below `from` to 1 beyond `to`, by the length of the way.
+    /// A cylinder with half spheres on its ends: all points at most `radius` away from the way between two points.
+    /// Texture coordinates: u goes round it, v along its outline from 0 below `from` to 1 beyond `to`, by the length of
+    /// the way.
     pub struct Capsule as "Capsule", "a capsule" {
         /// Middle of its first half sphere.
         from: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -21,8 +22,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

@@ -8,8 +8,8 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// A round cone, or a part of one: a lampshade, a bucket. With its caps it is closed; without them it has no thickness and is seen
-    /// from inside, too. Texture coordinates are those of a `Cylinder`.
+    /// A round cone, or a part of one: a lampshade, a bucket. With its caps it is closed; without them it has no
+    /// thickness and is seen from inside, too. Texture coordinates are those of a `Cylinder`.
     pub struct Cone as "Cone", "a cone" {
         /// Middle of the end of radius `radius`.
         from: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -25,8 +25,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

@@ -8,8 +8,9 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from inside, too. Texture
-    /// coordinates: u goes round it, v from 0 at `from` to 1 at `to`; on the caps both grow from 0 to 1 as on a `Disk`.
+    /// A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from
+    /// inside, too. Texture coordinates: u goes round it, v from 0 at `from` to 1 at `to`; on the caps both grow from 0
+    /// to 1 as on a `Disk`.
     pub struct Cylinder as "Cylinder", "a cylinder" {
         /// Middle of its first end.
         from: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -23,8 +24,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

@@ -8,8 +8,9 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// A flat disk, or a ring. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright; texture
-    /// coordinates grow to the right and upwards from 0 to 1 over the square around it. It is open: it has no inside.
+    /// A flat disk, or a ring. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is
+    /// upright; texture coordinates grow to the right and upwards from 0 to 1 over the square around it. It is open: it
+    /// has no inside.
     pub struct Disk as "Disk", "a disk" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -23,8 +24,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

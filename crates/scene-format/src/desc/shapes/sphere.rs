@@ -18,8 +18,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last; textures turn along.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

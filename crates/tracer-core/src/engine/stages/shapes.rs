@@ -1,4 +1,5 @@
-//! The surface of curved shapes that are no spheres, lane by lane: the formulas are those of [`crate::shapes`], in `f64`.
+//! The surface of curved shapes that are no spheres, lane by lane: the formulas are those of [`crate::shapes`], in
+//! `f64`.
 
 use super::surface::Surface;
 use crate::lanes::{Bits, Lanes, Mask};
