@@ -421,13 +421,13 @@ codes! {
     UNTRACEABLE "E0541" "a scene beyond the range of numbers";
     /// A shape without extent: a cylinder whose ends are one point, a disk whose hole is as large as itself.
     ///
-    /// ```ron
+    /// ```text
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
     /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes and meshes can.
     ///
-    /// ```ron
+    /// ```text
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";

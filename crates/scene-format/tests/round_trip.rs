@@ -121,13 +121,13 @@ fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let object = match random.below(9) {
-            0 | 1 => Object::Sphere(Sphere {
+            0 | 1 => Object::Sphere(Box::new(Sphere {
                 center: vector(random).into(),
                 radius: length(random).into(),
                 material,
                 transform: transforms(random),
                 placements,
-            }),
+            })),
             5 => Object::Disk(Box::new(Disk {
                 center: vector(random).into(),
                 normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),

@@ -9,7 +9,7 @@ scene_enum! {
     /// A thing in the scene.
     pub enum Object, "object" {
         /// A sphere.
-        Sphere(Sphere);
+        Sphere(Box<Sphere>);
         /// A flat rectangle: a floor, a wall, a picture, a square lamp.
         Rectangle(Box<Rectangle>);
         /// A box with right angles.

@@ -47,7 +47,7 @@ impl World {
             transform: Vec::new(),
             placements: Placements::One,
         };
-        self.desc.objects.push(Object::Sphere(sphere).into());
+        self.desc.objects.push(Object::Sphere(Box::new(sphere)).into());
     }
 
     /// Adds a mesh as it stands.
