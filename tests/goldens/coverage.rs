@@ -12,7 +12,8 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 5] = ["rectangle", "box", "emissive", "checkerboard", "conductor"];
+const FOLDERS: [&str; 9] =
+    ["rectangle", "box", "disk", "cylinder", "cone", "capsule", "emissive", "checkerboard", "conductor"];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
 pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {
@@ -60,11 +61,11 @@ fn material(scene: &SceneDesc) -> Option<&'static str> {
 fn shape(scene: &SceneDesc) -> Option<&'static str> {
     Some(match &scene.objects.first()?.value {
         Object::Sphere(_) => "sphere",
-        // Flat meshes once they are compiled; each has a folder of its own.
-        Object::Rectangle(_) | Object::Box(_) => return None,
         Object::Mesh(mesh) if mesh.placements != Placements::One => "copies of a mesh",
         Object::Mesh(mesh) if smooth(mesh) => "smooth mesh",
         Object::Mesh(_) => "flat mesh",
+        // Each other shape has a folder of its own.
+        _ => return None,
     })
 }
 

@@ -1,6 +1,6 @@
 //! The reference: a path tracer as the textbook writes it, in `f64`, that the engine of `tracer-core` is held against.
 //!
-//! It reads the public [`Scene`] and shares nothing below it: every ray is tested against every sphere and every triangle, one
+//! It reads the public [`Scene`] and shares nothing below it: every ray is tested against every sphere, shape and triangle, one
 //! sample at a time, recursively, with its own random numbers. Sampling is plain and different from the engine's: at a diffuse or
 //! glossy surface ONE direction is drawn, half of the time towards a light, half of the time by the material, and weighted by the
 //! density of that mixture (Veach 1997, 9.2.4: the one-sample model with the balance heuristic). There are no shadow rays and no
@@ -16,6 +16,7 @@ mod first_hit;
 mod light;
 mod materials;
 mod random;
+mod shapes;
 pub mod statistics;
 mod surface;
 mod texture;

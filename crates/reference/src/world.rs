@@ -1,9 +1,9 @@
-//! What rays can hit: every sphere and every triangle of every copy, in one list each.
+//! What rays can hit: every sphere, every other curved shape and every triangle of every copy, in one list each.
 
-use crate::{Ray, Smoothing, surface};
+use crate::{Ray, Smoothing, shapes, surface};
 use glam::{DMat3, DVec3};
 use tracer_core::Scene;
-use tracer_core::scene::{Instance, NONE, Sphere};
+use tracer_core::scene::{self, Instance, NONE, Sphere};
 
 /// Nearer hits are the surface that the ray leaves. Render space is of size one, and `f64` has 16 digits.
 const NEAREST: f64 = 1e-9;
@@ -25,6 +25,7 @@ pub struct Triangle {
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {
     Sphere(usize),
+    Curved(usize),
     Triangle(usize),
 }
 
@@ -38,6 +39,7 @@ pub struct Hit {
 /// All shapes.
 pub struct World {
     spheres: Vec<Sphere>,
+    curved: Vec<scene::Shape>,
     triangles: Vec<Triangle>,
 }
 
@@ -47,7 +49,7 @@ impl World {
             let mesh = scene.meshes[instance.mesh as usize];
             (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).map(move |k| triangle(scene, instance, k))
         });
-        World { spheres: scene.spheres.clone(), triangles: triangles.collect() }
+        World { spheres: scene.spheres.clone(), curved: scene.shapes.clone(), triangles: triangles.collect() }
     }
 
     /// The nearest hit.
@@ -56,6 +58,11 @@ impl World {
         for (k, sphere) in self.spheres.iter().enumerate() {
             if let Some(t) = meet_sphere(ray, sphere).filter(|&t| t < closest.t) {
                 closest = Hit { t, shape: Shape::Sphere(k) };
+            }
+        }
+        for (k, shape) in self.curved.iter().enumerate() {
+            if let Some(t) = shapes::meet(ray, shape).filter(|&t| t < closest.t) {
+                closest = Hit { t, shape: Shape::Curved(k) };
             }
         }
         for (k, triangle) in self.triangles.iter().enumerate() {
@@ -70,6 +77,7 @@ impl World {
     pub fn light_of(&self, hit: &Hit) -> Option<usize> {
         let light = match hit.shape {
             Shape::Sphere(k) => self.spheres[k].light,
+            Shape::Curved(_) => NONE,
             Shape::Triangle(k) => self.triangles[k].light,
         };
         (light != NONE).then_some(light as usize)
@@ -79,6 +87,7 @@ impl World {
     pub fn object_of(&self, hit: &Hit) -> u32 {
         match hit.shape {
             Shape::Sphere(k) => self.spheres[k].object,
+            Shape::Curved(k) => self.curved[k].object,
             Shape::Triangle(k) => self.triangles[k].object,
         }
     }
@@ -88,6 +97,7 @@ impl World {
         let p = ray.origin + hit.t * ray.direction;
         match hit.shape {
             Shape::Sphere(k) => surface::on_sphere(&self.spheres[k], p, ray.direction),
+            Shape::Curved(k) => shapes::surface(&self.curved[k], p, ray.direction),
             Shape::Triangle(k) => surface::on_triangle(&self.triangles[k], p, ray.direction, smoothing),
         }
     }

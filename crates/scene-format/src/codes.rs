@@ -419,6 +419,18 @@ codes! {
     /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision once
     /// the scene is brought to its middle. Bring sizes and distances closer together.
     UNTRACEABLE "E0541" "a scene beyond the range of numbers";
+    /// A shape without extent: a cylinder whose ends are one point, a disk whose hole is as large as itself.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
+    /// ```
+    NO_EXTENT "E0542" "a shape without extent";
+    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes and meshes can.
+    ///
+    /// ```text
+    /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
+    /// ```
+    NO_LIGHT "E0544" "a shape that cannot shine";
     /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
     BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
 
@@ -509,6 +521,12 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
+    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and never back.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
+    /// ```
+    OPEN_GLASS "W0310" "glass without an inside";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -132,6 +132,10 @@ const SNIPPETS: [(&str, &str, &str); 65] = [
         "Rectangle(center: (0, 0.5, 0), normal: (1, 1, 2), size: (3, 2), material: Diffuse(albedo: 0.6))",
     ),
     ("Object", "Box", "Box(size: (1.5, 1, 2), transform: [Rotate(axis: (0, 1, 0), degrees: 30)])"),
+    ("Object", "Disk", "Disk(center: (0, 0.3, 0), normal: (0, 1, 2), radius: 1.3, inner_radius: 0.5)"),
+    ("Object", "Cylinder", "Cylinder(from: (0, -1, 0), to: (0.5, 1, 0), radius: 0.6, material: Diffuse(albedo: 0.6))"),
+    ("Object", "Cone", "Cone(from: (0, -1, 0), to: (0, 1, 0), radius: 1, tip_radius: 0.3, caps: false)"),
+    ("Object", "Capsule", "Capsule(from: (-1, -0.4, 0), to: (1, 0.4, 0), radius: 0.5)"),
     (
         "Object",
         "Mesh",

@@ -129,8 +129,50 @@ fn scene(random: &mut Random) -> SceneDesc {
             1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
-        let object = match random.below(5) {
-            0 | 1 => Object::Sphere(Sphere { center: vector(random).into(), radius: length(random).into(), material }),
+        let object = match random.below(9) {
+            0 | 1 => Object::Sphere(Box::new(Sphere {
+                center: vector(random).into(),
+                radius: length(random).into(),
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            5 => Object::Disk(Box::new(Disk {
+                center: vector(random).into(),
+                normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),
+                radius: length(random).into(),
+                inner_radius: number(random, 0.0, 1.0).into(),
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            6 => Object::Cylinder(Box::new(Cylinder {
+                from: vector(random).into(),
+                to: vector(random).into(),
+                radius: length(random).into(),
+                caps: random.below(2) == 0,
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            7 => Object::Cone(Box::new(Cone {
+                from: vector(random).into(),
+                to: vector(random).into(),
+                radius: length(random).into(),
+                tip_radius: number(random, 0.0, 2.0).into(),
+                caps: random.below(2) == 0,
+                material,
+                transform: transforms(random),
+                placements,
+            })),
+            8 => Object::Capsule(Box::new(Capsule {
+                from: vector(random).into(),
+                to: vector(random).into(),
+                radius: length(random).into(),
+                material,
+                transform: transforms(random),
+                placements,
+            })),
             2 => Object::Rectangle(Box::new(Rectangle {
                 center: vector(random).into(),
                 normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),

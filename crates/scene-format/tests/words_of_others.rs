@@ -36,7 +36,8 @@ fn check(cases: &[(&str, &str)], scene: impl Fn(&str) -> String) {
 fn kinds_of_objects() {
     let cases = [
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
-        ("Cylinder(radius: 1)", "`Mesh`"),
+        ("Torus(radius: 1)", "`Mesh`"),
+        ("Ellipsoid(radius: 1)", "`transform: [Scale((1, 2, 1))]`"),
         ("Lathe(points: [])", "`Mesh`"),
         ("Group(objects: [])", "no groups"),
         ("Instance(of: 1)", "`placements`"),

@@ -50,6 +50,7 @@ pub mod mesh;
 mod report;
 pub mod sampling;
 pub mod scene;
+pub mod shapes;
 pub mod texture;
 
 pub use compile::{CompileError, CompileTimes, check_files, compile};

@@ -66,7 +66,7 @@ fn same_parts(a: &[TrianglePart], b: &[TrianglePart]) -> bool {
 /// Every mode, level and packing gives what brute force gives, to the bit; and what is hit is what blocks.
 fn check(mesh: &Mesh, batch: &Batch) -> Vec<Hit> {
     let meshes = [mesh.geometry(0)];
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
+    let geometry = Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() };
     let expected = brute_force(mesh, &parts(&geometry), batch);
     for mode in MODES {
         let mut accel = build(&geometry, mode);
@@ -318,7 +318,7 @@ fn rays_that_are_none() {
 fn limits_that_are_none() {
     let mesh = Mesh::ball(20, 10);
     let meshes = [mesh.geometry(0)];
-    let accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }, MODES[2]);
+    let accel = build(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() }, MODES[2]);
     let mut batch = Batch::default();
     for _ in 0..4 {
         batch.push([0.0, 0.0, -3.0], [0.1, 0.0, 1.0]);
@@ -366,7 +366,7 @@ fn triangles_that_are_cut() {
     for (count, width) in [(60, 0.03), (60, 1e-3), (20, 0.3)] {
         let mesh = Mesh::aslant(count, width, &mut random);
         let meshes = [mesh.geometry(0)];
-        let parts = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        let parts = parts(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() });
         assert!(parts.len() > 2 * count, "{} parts", parts.len());
         for mut batch in [Batch::random(200, 1.0, &mut random), Batch::beams(20, 1.0, &mut random)] {
             batch.append(&at_triangles(&mesh, 150, &mut random));
@@ -414,7 +414,7 @@ fn a_cut_takes_no_hit_away_and_adds_none() {
     for width in [0.03, 1e-3, 1e-5, 0.3] {
         let mesh = Mesh::aslant(60, width, &mut random);
         let meshes = [mesh.geometry(0)];
-        let all = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        let all = parts(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() });
         let batch = at_triangles(&mesh, 1500, &mut random);
         let mut hits = 0;
         for ray in 0..batch.len() {
@@ -451,7 +451,7 @@ fn only_long_triangles_aslant_are_cut() {
     far.positions.iter_mut().for_each(|p| p[1] += 2e5);
     for mesh in [far, Mesh::soup(3000, 0.4, &mut random), Mesh::ball(60, 30), straight] {
         let meshes = [mesh.geometry(0)];
-        assert!(parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }).is_empty());
+        assert!(parts(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() }).is_empty());
     }
 }
 
@@ -461,7 +461,7 @@ fn triangles_too_small_or_too_large_are_not_cut() {
     for (scale, cut) in [(1.0, true), (1e-8, true), (1e8, true), (1e-10, false), (1e10, false)] {
         let mesh = mesh.clone().scaled(scale);
         let meshes = [mesh.geometry(0)];
-        let parts = parts(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] });
+        let parts = parts(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() });
         assert_eq!(!parts.is_empty(), cut, "{scale}");
     }
 }

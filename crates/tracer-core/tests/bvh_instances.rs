@@ -88,7 +88,7 @@ fn everything_together() {
     for i in 0..30 {
         instances.push(InstanceGeometry { mesh: i % 2, placement: Some(rows(&placement(&mut random, 1.0, 0.15))) });
     }
-    let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances };
+    let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances, ..Geometry::default() };
     let batch = Batch::random(800, 2.0, &mut random);
     let hits = check(&geometry, &batch);
     let kinds = [
@@ -119,7 +119,7 @@ fn triangles_that_are_cut() {
     for _ in 0..10 {
         instances.push(InstanceGeometry { mesh: 1, placement: Some(rows(&placement(&mut random, 1.0, 0.5))) });
     }
-    let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances };
+    let geometry = Geometry { spheres: &spheres, meshes: &meshes, instances: &instances, ..Geometry::default() };
     let stats = build(&geometry, Acceleration::Bvh).stats();
     let parts_of_one = build(&Geometry { instances: &instances[2..3], ..geometry }, Acceleration::Bvh).stats().parts;
     assert!(parts_of_one > 200 && stats.parts > parts_of_one + 200, "{parts_of_one} of {stats:?}");
@@ -148,8 +148,10 @@ fn an_instance_is_where_its_triangles_are() {
         }
         let (meshes, flat) = ([ball.geometry(0)], [moved.geometry(0)]);
         let instances = [InstanceGeometry { mesh: 0, placement: Some(rows(&placement)) }];
-        let placed = build(&Geometry { spheres: &[], meshes: &meshes, instances: &instances }, Acceleration::Bvh);
-        let flattened = build(&Geometry { spheres: &[], meshes: &flat, instances: &[HERE] }, Acceleration::Bvh);
+        let placed =
+            build(&Geometry { meshes: &meshes, instances: &instances, ..Geometry::default() }, Acceleration::Bvh);
+        let flattened =
+            build(&Geometry { meshes: &flat, instances: &[HERE], ..Geometry::default() }, Acceleration::Bvh);
         let mut batch = Batch::default();
         for _ in 0..300 {
             let target = moved.positions[random.below(moved.positions.len())];
@@ -171,7 +173,7 @@ fn rays_from_far_away_hit_an_instance_as_precisely() {
     let meshes = [ball.geometry(0)];
     let there = Affine3A::from_translation(Vec3::new(0.5, 0.25, 0.0));
     let instances = [InstanceGeometry { mesh: 0, placement: Some(rows(&there)) }];
-    let accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &instances }, Acceleration::Bvh);
+    let accel = build(&Geometry { meshes: &meshes, instances: &instances, ..Geometry::default() }, Acceleration::Bvh);
     let mut batch = Batch::default();
     for distance in [2.0, 1e4, 1e6] {
         batch.push([0.53125, 0.28125, -distance], [0.0, 0.0, 1.0]);
@@ -184,7 +186,7 @@ fn rays_from_far_away_hit_an_instance_as_precisely() {
 fn many_spheres_as_one_by_one() {
     let mut random = Random::new(3);
     let spheres = spheres(300, &mut random);
-    let geometry = Geometry { spheres: &spheres, meshes: &[], instances: &[] };
+    let geometry = Geometry { spheres: &spheres, meshes: &[], instances: &[], ..Geometry::default() };
     let batch = Batch::random(1000, 1.4, &mut random);
     check(&geometry, &Batch::beams(50, 1.4, &mut random));
     let mut hits = check(&geometry, &batch);
@@ -212,7 +214,10 @@ fn hits_found_earlier_stand_unless_beaten() {
     let mesh = Mesh::soup(200, 0.3, &mut random);
     let meshes = [mesh.geometry(10)];
     let spheres = spheres(10, &mut random);
-    let accel = build(&Geometry { spheres: &spheres, meshes: &meshes, instances: &[HERE] }, Acceleration::Bvh);
+    let accel = build(
+        &Geometry { spheres: &spheres, meshes: &meshes, instances: &[HERE], ..Geometry::default() },
+        Acceleration::Bvh,
+    );
     let batch = Batch::random(500, 1.2, &mut random);
     let free = batch.closest(&accel, COHERENCES[0]);
     for coherence in COHERENCES {
@@ -239,14 +244,14 @@ fn instances_are_small() {
     let instances: Vec<_> = (0..10_000)
         .map(|_| InstanceGeometry { mesh: 0, placement: Some(rows(&placement(&mut random, 1.0, 0.01))) })
         .collect();
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &instances };
+    let geometry = Geometry { meshes: &meshes, instances: &instances, ..Geometry::default() };
     let accel = build(&geometry, Acceleration::Bvh);
     let each = accel.stats().bytes as f64 / 10_000.0;
     assert!(each < 120.0, "{each} bytes an instance");
 }
 
 fn refused(meshes: &[MeshGeometry], instances: &[InstanceGeometry], spheres: &[SphereGeometry]) -> Option<BuildError> {
-    Accel::build(&Geometry { spheres, meshes, instances }, Acceleration::Bvh).err()
+    Accel::build(&Geometry { spheres, meshes, instances, ..Geometry::default() }, Acceleration::Bvh).err()
 }
 
 #[test]

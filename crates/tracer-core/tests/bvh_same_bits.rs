@@ -16,7 +16,7 @@ fn builds_are_the_same_for_any_number_of_threads() {
     let (ball, soup) = (Mesh::ball(300, 220), Mesh::soup(5000, 0.01, &mut Random::new(1)));
     let meshes = [ball.geometry(0), soup.geometry(ball.triangles.len() as u32)];
     let instances = [HERE, InstanceGeometry { mesh: 1, placement: None }];
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &instances };
+    let geometry = Geometry { meshes: &meshes, instances: &instances, ..Geometry::default() };
     let one = build_with(1, &geometry);
     one.validate(&geometry).expect("the tree is valid");
     let stats = one.stats();
@@ -30,7 +30,7 @@ fn builds_are_the_same_for_any_number_of_threads() {
 fn triangles_are_cut_the_same_for_any_number_of_threads() {
     let mesh = Mesh::aslant(3000, 0.01, &mut Random::new(3));
     let meshes = [mesh.geometry(0)];
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
+    let geometry = Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() };
     let one = build_with(1, &geometry);
     let parts = one.validate(&geometry).expect("the tree is valid");
     let cut = parts.chunk_by(|a, b| a.primitive == b.primitive).count() as u64;
@@ -50,7 +50,7 @@ fn answers_are_the_same_in_any_batch_and_order() {
     let mut random = Random::new(2);
     let mesh = Mesh::soup(4000, 0.1, &mut random);
     let meshes = [mesh.geometry(0)];
-    let mut accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }, Acceleration::Bvh);
+    let mut accel = build(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() }, Acceleration::Bvh);
     let mut batch = Batch::beams(30, 1.2, &mut random);
     while batch.len() < 1000 {
         batch.push(random.cube(), random.cube());

@@ -16,7 +16,7 @@ fn closed_meshes_of_triangles_that_are_cut_do_not_leak() {
     let mut random = Random::new(2);
     let mesh = Mesh::aslant(64, 0.02, &mut random);
     let meshes = [mesh.geometry(0)];
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] };
+    let geometry = Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() };
     let accel = build(&geometry, MODES[2]);
     assert!(accel.stats().parts > 500, "{:?}", accel.stats());
     let mut left = rays() / 4;
@@ -54,7 +54,7 @@ fn closed_meshes_do_not_leak() {
     let rays = rays();
     let mesh = Mesh::ball(400, 200);
     let meshes = [mesh.geometry(0)];
-    let accel = build(&Geometry { spheres: &[], meshes: &meshes, instances: &[HERE] }, MODES[2]);
+    let accel = build(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() }, MODES[2]);
     let mut random = Random::new(1);
     let mut left = rays;
     while left > 0 {

@@ -197,7 +197,7 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
         if let Object::Mesh(mesh) = &object.value {
             files.push(&mesh.file.value);
         }
-        if let Some(Placements::File(file)) = object.value.placements() {
+        if let Placements::File(file) = object.value.placements() {
             files.push(&file.value);
         }
         if let MaterialRef::Inline(material) = object.value.material() {

@@ -1,4 +1,4 @@
-//! The steps of a mesh's way into the scene.
+//! The steps of an object's way into the scene.
 
 use super::Vec3;
 use crate::form::Form;
@@ -7,7 +7,7 @@ use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Words, scene_enum};
 
-/// One step of a mesh's way into the scene.
+/// One step of an object's way into the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transform {
     /// Moves by a vector.
@@ -16,7 +16,7 @@ pub enum Transform {
     Scale {
         /// Factor per axis; negative mirrors.
         factor: Vec3,
-        /// Fixed point; `None`: the barycentre (mean of the vertices).
+        /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices).
         about: Option<Box<Vec3>>,
     },
     /// Rotates by the right-hand rule.
@@ -25,18 +25,18 @@ pub enum Transform {
         axis: Vec3,
         /// Angle in degrees.
         degrees: f64,
-        /// Fixed point; `None`: the barycentre (mean of the vertices).
+        /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices).
         about: Option<Box<Vec3>>,
     },
-    /// Moves along y so that the lowest vertex lies at this height.
+    /// Moves along y so that the lowest point lies at this height.
     DropTo {
-        /// Height of the lowest vertex.
+        /// Height of the lowest point.
         y: f64,
     },
 }
 
 scene_enum! {
-    /// One step of a mesh's way into the scene.
+    /// One step of an object's way into the scene.
     pub(crate) enum TransformWords, "transform" {
         /// Moves by a vector.
         Translate(Vec3) => Rule::within("a vector", -1e12, 1e12).unit("in the scene's unit");
@@ -44,7 +44,7 @@ scene_enum! {
         Scale as "a scaling" bare factor {
             /// One factor, or one per axis; negative ones mirror.
             factor: Factor => Rule::within("a factor", -1e9, 1e9);
-            /// Fixed point; `None`: the barycentre (mean of the vertices), in `placements` the origin.
+            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin.
             about: Option<Vec3> = None => Rule::point();
         };
         /// Rotates by the right-hand rule.
@@ -53,12 +53,12 @@ scene_enum! {
             axis: Vec3 => Rule::direction();
             /// Angle in degrees.
             degrees: f64 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
-            /// Fixed point; `None`: the barycentre (mean of the vertices), in `placements` the origin.
+            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin.
             about: Option<Vec3> = None => Rule::point();
         };
-        /// Moves along y so that the lowest vertex lies at this height.
+        /// Moves along y so that the lowest point lies at this height.
         DropTo as "a drop" bare y {
-            /// Height of the lowest vertex.
+            /// Height of the lowest point.
             y: f64 => Rule::within("a height", -1e12, 1e12).unit("in the scene's unit");
         };
     }

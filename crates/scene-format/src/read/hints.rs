@@ -56,7 +56,7 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
 
 /// What other programs call a field of ours.
 pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 16] = [
+    const SYNONYMS: [(&str, &[&str]); 20] = [
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
         ("center", &["centre", "position", "pos", "origin"]),
@@ -73,6 +73,10 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("degrees", &["angle", "deg"]),
         ("exponent", &["shininess", "alpha", "glossiness"]),
         ("transform", &["transforms"]),
+        ("inner_radius", &["innerradius", "inner", "hole"]),
+        ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
+        ("caps", &["cap", "closed", "capped"]),
+        ("from", &["p0", "start", "base_point", "bottom"]),
     ];
     let lower = name.to_ascii_lowercase();
     let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
@@ -81,12 +85,16 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 7] = [
+    const SYNONYMS: [(&str, &[&str]); 11] = [
         ("Mesh", &["obj", "off", "ply", "stl", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
         ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
         ("Box", &["cube", "cuboid", "brick"]),
+        ("Disk", &["disc", "circle", "ring", "annulus"]),
+        ("Cylinder", &["rod", "pipe", "pole"]),
+        ("Cone", &["frustum", "truncatedcone"]),
+        ("Capsule", &["pill", "spherocylinder"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
@@ -117,22 +125,10 @@ type Hints = &'static [(&'static [&'static str], &'static str)];
 const OBJECTS: Hints = &[
     (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
     (
-        &[
-            "cylinder",
-            "cone",
-            "disk",
-            "disc",
-            "circle",
-            "triangle",
-            "torus",
-            "capsule",
-            "polygon",
-            "ellipsoid",
-            "pyramid",
-            "prism",
-        ],
+        &["triangle", "torus", "polygon", "pyramid", "prism"],
         "other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`",
     ),
+    (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
         &[
             "lathe",

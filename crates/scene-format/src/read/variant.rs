@@ -109,7 +109,15 @@ impl Reader<'_> {
                     && fields.fields.iter().all(|field| field.default.is_some()
                         || item.fields().any(|(key, _)| key.text() == field.name)))
             });
-            let fits: Vec<&str> = fits.map(|variant| variant.name).collect();
+            // Of several the one that cannot do without these fields: centre and radius are a sphere's before a disk's.
+            let needs = |variant: &&VariantDef| match variant.content {
+                Content::Struct(fields) => fields.fields.iter().filter(|field| field.default.is_none()).count(),
+                _ => 0,
+            };
+            let fits: Vec<&VariantDef> = fits.collect();
+            let most = fits.iter().map(needs).max();
+            let fits: Vec<&str> =
+                fits.iter().filter(|variant| Some(needs(*variant)) == most).map(|variant| variant.name).collect();
             if let [only] = fits.as_slice() {
                 let (start, lexeme) = (item.span().start, item.lexeme());
                 if item.syntax() == Syntax::Ron && lexeme.starts_with('(') {

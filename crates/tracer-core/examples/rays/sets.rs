@@ -134,7 +134,7 @@ pub fn build(scene: &Scene, acceleration: Acceleration) -> Accel {
     let meshes =
         [MeshGeometry { positions: &scene.mesh.positions, triangles: &scene.mesh.triangles, first_primitive: 0 }];
     let instances = [InstanceGeometry { mesh: 0, placement: None }];
-    let geometry = Geometry { spheres: &[], meshes: &meshes, instances: &instances };
+    let geometry = Geometry { meshes: &meshes, instances: &instances, ..Geometry::default() };
     Accel::build(&geometry, acceleration).expect("the mesh is sound")
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Render space is the world moved and scaled so that the scene is about 1 in size; every length here is an f32 in it.
 
+use crate::shapes::Row;
 use glam::DVec3;
 
 /// No primitive, or no instance: rays that leave no surface, spheres (which belong to no instance), and misses.
@@ -12,6 +13,10 @@ pub const NONE: u32 = u32::MAX;
 pub struct Geometry<'a> {
     /// Sphere `i` is primitive `i`.
     pub spheres: &'a [SphereGeometry],
+    /// Curved shapes of other kinds; shape `i` is primitive `first_shape + i`.
+    pub shapes: &'a [ShapeGeometry],
+    /// The id of shape 0, not below the number of spheres; anything where there are none.
+    pub first_shape: u32,
     /// Every mesh once, however often it is placed.
     pub meshes: &'a [MeshGeometry<'a>],
     /// Where the meshes stand. A mesh without an instance is not in the scene.
@@ -25,7 +30,7 @@ pub struct MeshGeometry<'a> {
     pub positions: &'a [[f32; 3]],
     /// Three indices into `positions` for each triangle.
     pub triangles: &'a [[u32; 3]],
-    /// The id of triangle 0. The id ranges of meshes and spheres must not overlap, and meshes come in rising order.
+    /// The id of triangle 0. The id ranges of meshes, shapes and spheres must not overlap, and meshes come in rising order.
     pub first_primitive: u32,
 }
 
@@ -37,6 +42,17 @@ pub struct InstanceGeometry {
     /// Rows of the 3x4 matrix from object space to render space; `None` where the positions are in render space already.
     /// No inverse beside it: a million of them would be the larger part of the memory.
     pub placement: Option<[[f32; 4]; 3]>,
+}
+
+/// A curved shape that is no sphere: how rays meet it (see [`Row::hit`]), and where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct ShapeGeometry {
+    /// What rays are tested with.
+    pub row: Row,
+    /// A box that holds the shape, rounding included: lower corner.
+    pub lower: [f32; 3],
+    /// A box that holds the shape, rounding included: upper corner.
+    pub upper: [f32; 3],
 }
 
 /// A sphere, described at one point of its surface so that nothing of the size of its radius enters the arithmetic.

@@ -1,9 +1,11 @@
-//! The bytes of the tree: nodes of eight boxes, leaves of four triangles, parts of triangles or spheres, instance records.
+//! The bytes of the tree: nodes of eight boxes, leaves of four triangles, parts of triangles or spheres, curved shapes, instance records.
 //!
 //! Everything lies in one arena of 32-byte units (see [`arena`](super::arena)) and is referred to by [`Ref`], a word
 //! that says what it points to and where. Kernels read the arena through raw pointers, so the layout is `repr(C)`.
 
 use super::bounds::Bounds;
+use super::geometry::NONE;
+use crate::shapes::Row;
 use bytemuck::{Pod, Zeroable};
 
 /// The arena's grain: every item starts at a unit.
@@ -62,6 +64,34 @@ pub(crate) struct Spheres4 {
     pub ids: [u32; 4],
 }
 
+/// A curved shape that is no sphere, 128 bytes: as long as four spheres, and with its ids at the same place, so that a reference to
+/// spheres may lead to either. Its last id, which no primitive has, says which.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Shape {
+    /// What rays are tested with.
+    pub row: Row,
+    /// Primitive id, twice `NONE`, [`MARK`](Self::MARK).
+    pub ids: [u32; 4],
+}
+
+impl Shape {
+    /// The last id of the leaf of a shape.
+    pub(crate) const MARK: u32 = NONE - 1;
+
+    pub(crate) fn new(row: Row, id: u32) -> Self {
+        Self { row, ids: [id, NONE, NONE, Self::MARK] }
+    }
+}
+
+impl Spheres4 {
+    /// Whether this is a [`Shape`].
+    #[inline(always)]
+    pub(crate) fn is_shape(&self) -> bool {
+        self.ids[3] == Shape::MARK
+    }
+}
+
 /// How a ray enters an instance, 64 bytes.
 #[repr(C, align(32))]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -103,7 +133,7 @@ pub(crate) struct ObjectRay {
     pub t0: f32,
 }
 
-/// A typed reference: nodes `000…`, triangle leaves `100…`, leaves of parts `101…`, sphere leaves `110…`, instances
+/// A typed reference: nodes `000…`, triangle leaves `100…`, leaves of parts `101…`, leaves of spheres or a shape `110…`, instances
 /// `111…` (in bits), the rest of the word being the unit (for instances, their index).
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]

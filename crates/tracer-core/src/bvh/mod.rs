@@ -1,11 +1,11 @@
 //! Which primitive does a ray hit first, and is anything in its way: a tree of boxes, eight children wide.
 //!
 //! [`Accel`] is built once from a [`Geometry`] and then asked in batches (structure of arrays, a few thousand rays),
-//! for the closest hit or for any. It holds triangles, spheres, and instances of meshes.
+//! for the closest hit or for any. It holds triangles, spheres, other curved shapes, and instances of meshes.
 //!
 //! # The same bits, always
 //! A hit is a pure function of the ray and the primitive (and the instance it is in): `triangle` and
-//! [`sphere_hit`] say which, operation by operation. A triangle that leaves its box empty is cut, and is hit where the first
+//! [`sphere_hit`] say which, operation by operation, and [`Row::hit`](crate::shapes::Row::hit) of other shapes. A triangle that leaves its box empty is cut, and is hit where the first
 //! of its parts is; how it is cut depends on nothing but the geometry. Of all hits with 0 < t the closest wins, and of those
 //! equally far the one with the smaller (primitive, instance). Boxes only leave out what cannot win. So the answer
 //! depends neither on the [`Acceleration`], nor on the [`Level`] of vector instructions, the batch, the order of its
@@ -27,7 +27,7 @@ mod triangle;
 mod validate;
 
 pub use build::BuildError;
-pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, SphereGeometry};
+pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
 pub use kernels::Counters;
 pub use sphere::sphere_hit;
 pub use triangle::{part_hit, triangle_hit};
@@ -78,9 +78,9 @@ pub struct Rays<'a> {
     pub dy: &'a [f32],
     /// Directions, z.
     pub dz: &'a [f32],
-    /// The primitive that the ray leaves, or [`NONE`]. A triangle that a ray leaves is not hit; a sphere only on its far side.
+    /// The primitive that the ray leaves, or [`NONE`]. A triangle that a ray leaves is not hit; a curved shape not where it leaves it.
     pub from_primitive: &'a [u32],
-    /// The instance of that primitive; [`NONE`] for spheres.
+    /// The instance of that primitive; [`NONE`] for spheres and other curved shapes.
     pub from_instance: &'a [u32],
 }
 
@@ -129,11 +129,13 @@ pub struct AccelStats {
     pub parts: u64,
     /// Spheres in the tree.
     pub spheres: u64,
+    /// Curved shapes in the tree that are no spheres.
+    pub shapes: u64,
     /// Placed instances in the tree.
     pub instances: u64,
     /// Nodes of eight boxes.
     pub nodes: u64,
-    /// Leaves of up to four triangles, parts or spheres.
+    /// Leaves of up to four triangles, parts or spheres, or one other shape.
     pub leaves: u64,
     /// Nodes on the longest way down, through an instance if there is one.
     pub depth: u32,

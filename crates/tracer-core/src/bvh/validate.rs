@@ -2,7 +2,7 @@
 
 use super::build::Polygon;
 use super::geometry::Geometry;
-use super::layout::{InstanceRecord, Kind, Node, Parts4, Ref, Spheres4, Triangles4, Unit};
+use super::layout::{InstanceRecord, Kind, Node, Parts4, Ref, Shape, Spheres4, Triangles4, Unit};
 use super::triangle::padded_box;
 use super::{Accel, NONE};
 
@@ -73,8 +73,11 @@ impl Accel {
     /// # Errors
     /// The first thing found wrong.
     pub fn validate(&self, geometry: &Geometry) -> Result<Vec<TrianglePart>, Invalid> {
-        let end =
-            geometry.meshes.last().map_or(self.spheres, |mesh| mesh.first_primitive + mesh.triangles.len() as u32);
+        let loose = match geometry.shapes.len() as u32 {
+            0 => self.spheres,
+            shapes => geometry.first_shape + shapes,
+        };
+        let end = geometry.meshes.last().map_or(loose, |mesh| mesh.first_primitive + mesh.triangles.len() as u32);
         let mut walk = Walk {
             accel: self,
             geometry,
@@ -86,6 +89,9 @@ impl Accel {
         for (index, sphere) in (0u32..).zip(geometry.spheres) {
             let finite = sphere.lower.iter().chain(&sphere.upper).all(|x| x.is_finite());
             walk.expect(index, NONE, u32::from(finite))?;
+        }
+        for index in 0..geometry.shapes.len() as u32 {
+            walk.expect(geometry.first_shape + index, NONE, 1)?;
         }
         for (mesh, record) in (0u32..).zip(&self.meshes) {
             walk.expect_mesh(mesh, u32::from(record.direct_instance != NONE))?;
@@ -164,6 +170,9 @@ impl Walk<'_> {
             }
             Kind::Spheres(unit) => {
                 let leaf: Spheres4 = self.read(reference, unit)?;
+                if leaf.is_shape() {
+                    return self.shape(&self.read(reference, unit)?, bounds);
+                }
                 for place in (0..4).filter(|&place| leaf.ids[place] != NONE) {
                     let id = leaf.ids[place];
                     let content = Invalid::Content { primitive: id };
@@ -188,6 +197,16 @@ impl Walk<'_> {
                 Ok(())
             }
         }
+    }
+
+    fn shape(&mut self, leaf: &Shape, bounds: &Box3) -> Result<(), Invalid> {
+        let primitive = leaf.ids[0];
+        let index = primitive.wrapping_sub(self.geometry.first_shape) as usize;
+        let shape = self.geometry.shapes.get(index).filter(|shape| shape.row == leaf.row);
+        let shape = shape.ok_or(Invalid::Content { primitive })?;
+        inside(primitive, bounds, &[shape.lower, shape.upper])?;
+        self.seen[primitive as usize] += 1;
+        Ok(())
     }
 
     fn node(&mut self, reference: Ref, unit: usize, bounds: &Box3) -> Result<(), Invalid> {

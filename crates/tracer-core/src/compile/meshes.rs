@@ -5,15 +5,15 @@
 //! carry matrices.
 
 use super::materials::MaterialBuilder;
-use super::placing::place as place_matrix;
+use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
-use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
+use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals};
 use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Placements, Shading};
+use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
@@ -159,19 +159,8 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
         let barycentre = object.local.transform_point3(DVec3::from(data.barycentre()));
         let map = place_matrix(object.transform, barycentre, &lowest) * object.local;
         let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
-        let usable = |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
-        if let Some(at) = maps.iter().position(|m| !usable(m)) {
-            let which = if maps.len() > 1 { format!(" (copy {})", at + 1) } else { String::new() };
-            let at = object.transform.first().map_or(object.span, |t| t.span);
-            diagnostics.push(
-                Diagnostic::error(
-                    codes::SINGULAR_TRANSFORM,
-                    at,
-                    format!("the transforms flatten the {} to nothing{which}", object.noun),
-                )
-                .expected("transforms that can be undone: no scale of 0, no overflow"),
-            );
-        }
+        let at = object.transform.first().map_or(object.span, |t| t.span);
+        check(&maps, at, object.noun, diagnostics);
         placed.maps.push(maps);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in data.positions.iter().map(|p| DVec3::from(*p)) {
@@ -180,21 +169,6 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
         placed.boxes.push([low, high]);
     }
     placed
-}
-
-/// The maps of the copies, in the world.
-fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
-    match placements {
-        Placements::One => vec![DAffine3::IDENTITY],
-        Placements::List(list) => list.iter().map(|steps| place_matrix(steps, DVec3::ZERO, &|_| 0.0)).collect(),
-        Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
-            Ok(maps) => maps,
-            Err(error) => {
-                diagnostics.push(error.to_diagnostic(file.span));
-                Vec::new()
-            }
-        },
-    }
 }
 
 impl Placed {
@@ -388,13 +362,15 @@ fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
 }
 
 impl Built {
-    /// The tree over these meshes and the first `spheres` spheres.
+    /// The tree over these meshes, the first `spheres`, and the shapes, whose first has the id `first_shape`.
     pub fn tree(
         &self,
         acceleration: bvh::Acceleration,
         spheres: &[bvh::SphereGeometry],
-        first_primitive: u32,
+        shapes: &[bvh::ShapeGeometry],
+        first_shape: u32,
     ) -> Result<bvh::Accel, bvh::BuildError> {
+        let first_primitive = first_shape + shapes.len() as u32;
         let t = &self.triangles;
         let meshes: Vec<bvh::MeshGeometry> = self
             .meshes
@@ -407,7 +383,8 @@ impl Built {
             .collect();
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
-        bvh::Accel::build(&bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
+        let (meshes, instances) = (&meshes[..], &instances[..]);
+        bvh::Accel::build(&bvh::Geometry { spheres, shapes, first_shape, meshes, instances }, acceleration)
     }
 
     /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].

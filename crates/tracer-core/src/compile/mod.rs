@@ -1,5 +1,6 @@
 //! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built. The second hand.
 
+mod curved;
 mod energy;
 mod environment;
 mod files;
@@ -13,14 +14,15 @@ mod unmeant;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
-    Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Shape, ShapeTable, Sharing,
+    Sphere, SphereTable, Tables, TextureTable,
 };
+use curved::Curved;
 pub use files::check_files;
 use glam::DVec3;
 use materials::MaterialBuilder;
 use scene_format::codes;
-use scene_format::desc::{Acceleration, Caustics, Emissive, Integrator, Object, PixelFilter, Reuse};
+use scene_format::desc::{Acceleration, Caustics, Integrator, PixelFilter, Reuse};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
@@ -66,16 +68,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let mut builder = MaterialBuilder::new(desc);
     let loaded = meshes::load(desc, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
-    let sphere_materials: Vec<u32> = desc
-        .objects
-        .iter()
-        .filter_map(|object| match &object.value {
-            Object::Sphere(sphere) => Some(builder.resolve(&sphere.material, &mut diagnostics)),
-            _ => None,
-        })
-        .collect();
-    let sphere_lights: Vec<Option<Emissive>> =
-        sphere_materials.iter().map(|&material| builder.emissive(material).cloned()).collect();
+    let curved = curved::load(desc, &mut builder, &mut diagnostics);
     let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
     let named = named.into_iter().map(|path| desc.base_dir.join(path));
     let files: BTreeSet<PathBuf> =
@@ -91,13 +84,14 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         return Err(CompileError { diagnostics });
     }
 
-    unmeant::warn(desc, &loaded, &placed, &mut diagnostics);
+    unmeant::warn(desc, &loaded, &placed, &curved, &mut diagnostics);
+    curved::warn_of_open_glass(desc, &mut diagnostics);
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
-    let frame = Frame::choose(eye, &marks(desc, &placed, look_at));
+    let frame = Frame::choose(eye, &marks(&curved, &placed, look_at));
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
-    let shining = radiances::of_objects(desc, &sphere_lights, &mesh_radiances);
+    let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
     let behind = background.brightest();
     let radiance_unit = radiances::unit(desc, &shining, behind);
     diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
@@ -108,7 +102,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         diagnostics
             .push(Diagnostic::warning(codes::MAP_IS_GONE, Span::NONE, message).hint("leave `render.indirect` out"));
     }
-    let (spheres, mut lights) = spheres_and_lights(desc, &frame, radiance_unit, &sphere_materials, &sphere_lights);
+    let (spheres, shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved);
     let parts = meshes::Parts {
         desc,
         loaded: &loaded,
@@ -128,14 +122,14 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
+    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built)
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
                 .map(|accel| boxes_of(&accel))
         }
@@ -163,6 +157,15 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         radiance_unit,
         background,
         spheres,
+        tables: Tables {
+            spheres: sphere_table,
+            shapes: ShapeTable::new(&shapes),
+            materials: material_table,
+            lights: light_table,
+            textures: TextureTable::new(images, &uses),
+            instances: instance_table,
+        },
+        shapes,
         materials,
         lights,
         meshes: built.meshes,
@@ -173,13 +176,6 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         files: files.into_iter().collect(),
         warnings: diagnostics,
         times: CompileTimes { assets, tables: tables_seconds, tree },
-        tables: Tables {
-            spheres: sphere_table,
-            materials: material_table,
-            lights: light_table,
-            textures: TextureTable::new(images, &uses),
-            instances: instance_table,
-        },
         accel,
         top_boxes,
         second_boxes,
@@ -187,52 +183,30 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
 }
 
 /// One point per object near what the camera looks at, on its surface or in its box.
-fn marks(desc: &SceneDesc, placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
-    let spheres = desc.objects.iter().filter_map(|object| match &object.value {
-        Object::Sphere(sphere) => {
-            let center = DVec3::from(sphere.center.value);
-            let towards = (look_at - center).try_normalize().unwrap_or(DVec3::Z);
-            Some(center + towards * sphere.radius.value)
-        }
-        _ => None,
-    });
-    spheres.chain(placed.marks(look_at)).collect()
+fn marks(curved: &[Curved], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
+    curved.iter().flat_map(|object| object.marks(look_at)).chain(placed.marks(look_at)).collect()
 }
 
-/// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), and the lights.
-fn spheres_and_lights(
+/// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved shapes, and the lights.
+fn curved_and_lights(
     desc: &SceneDesc,
     frame: &Frame,
     radiance_unit: f64,
-    sphere_materials: &[u32],
-    sphere_lights: &[Option<Emissive>],
-) -> (Vec<Sphere>, Vec<Light>) {
-    let objects = (0..).zip(&desc.objects).filter_map(|(number, object)| match &object.value {
-        Object::Sphere(sphere) => Some((number, sphere)),
-        _ => None,
-    });
-    let render_space = |center: [f64; 3], radius: f64, material: u32, object: u32, light: u32| Sphere {
-        center: frame.point(DVec3::from(center)),
-        radius: frame.length(radius),
-        material,
-        object,
-        light,
-    };
+    curved: &[Curved],
+) -> (Vec<Sphere>, Vec<Shape>, Vec<Light>) {
     let mut lights: Vec<Light> = Vec::new();
     let mut shine = |radiance: [f64; 3], two_sided: bool| {
         lights.push(Light::Sphere { sphere: NONE, radiance: radiance.map(|x| x / radiance_unit), two_sided });
         lights.len() as u32 - 1
     };
-    let mut spheres = Vec::with_capacity(sphere_materials.len() + desc.lights.len());
-    for (((number, s), &material), emissive) in objects.zip(sphere_materials).zip(sphere_lights) {
-        let shines = |emissive: &Emissive| shine(radiances::of_sphere(s, emissive), emissive.two_sided);
-        let light = emissive.as_ref().map_or(NONE, shines);
-        spheres.push(render_space(s.center.value, s.radius.value, material, number, light));
-    }
-    for (number, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
+    let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
+    let mut shapes = Vec::new();
+    curved.iter().for_each(|object| object.build(frame, &mut shine, &mut spheres, &mut shapes));
+    for (object, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
         let index = shine(radiances::of_light(light), true);
-        spheres.push(render_space(light.center.value, light.radius.value, NONE, number, index));
+        let (center, radius) = (frame.point(DVec3::from(light.center.value)), frame.length(light.radius.value));
+        spheres.push(Sphere { center, radius, material: NONE, object, light: index });
     }
     SphereTable::order(&mut spheres);
     for (k, sphere) in spheres.iter().enumerate() {
@@ -240,7 +214,7 @@ fn spheres_and_lights(
             *index = k as u32;
         }
     }
-    (spheres, lights)
+    (spheres, shapes, lights)
 }
 
 fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
@@ -269,14 +243,15 @@ fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
     }
 }
 
-/// The tree over meshes and those spheres that are too many to be tested by every ray; none when there is nothing to hang in it.
+/// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray; none when there is nothing to hang in it.
 fn build_tree(
     acceleration: Acceleration,
     spheres: &[Sphere],
     in_tree: usize,
+    shapes: &[Shape],
     built: &meshes::Built,
 ) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
-    if built.instances.is_empty() && in_tree == 0 {
+    if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
         return Ok(None);
     }
     let acceleration = match acceleration {
@@ -286,7 +261,8 @@ fn build_tree(
     };
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    built.tree(acceleration, &hung, spheres.len() as u32).map(Some).map_err(|error| {
+    let shapes: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
+    built.tree(acceleration, &hung, &shapes, spheres.len() as u32).map(Some).map_err(|error| {
         Box::new(
             Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),

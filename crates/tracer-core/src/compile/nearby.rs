@@ -65,7 +65,7 @@ pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
             _ => None,
         };
         let placements = match object.value.placements() {
-            Some(Placements::File(file)) => Some(&**file),
+            Placements::File(file) => Some(&**file),
             _ => None,
         };
         let texture = match object.value.material() {

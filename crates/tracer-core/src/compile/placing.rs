@@ -1,12 +1,13 @@
 //! Transforms of the scene language as matrices.
 
-use crate::mesh::placements::rotation;
+use crate::mesh::placements::{load_placements, rotation};
 use glam::{DAffine3, DMat3, DVec3};
-use scene_format::desc::Transform;
-use scene_format::diagnostic::Spanned;
+use scene_format::desc::{Placements, Transform};
+use scene_format::diagnostic::{Span, Spanned};
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 
 /// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along. `lowest` gives the
-/// smallest y of the vertices under a map (asked only by `DropTo`).
+/// smallest y of the shape under a map (asked only by `DropTo`).
 pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
@@ -31,6 +32,44 @@ pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn 
 /// A linear map with this fixed point.
 fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
     DAffine3 { matrix3: matrix, translation: point - matrix * point }
+}
+
+/// The maps of the copies, in the world.
+pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
+    match placements {
+        Placements::One => vec![DAffine3::IDENTITY],
+        Placements::List(list) => list.iter().map(|steps| place(steps, DVec3::ZERO, &|_| 0.0)).collect(),
+        Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
+            Ok(maps) => maps,
+            Err(error) => {
+                diagnostics.push(error.to_diagnostic(file.span));
+                Vec::new()
+            }
+        },
+    }
+}
+
+/// An error where a map cannot be undone; `at`: the transforms, or what they belong to.
+pub fn check(maps: &[DAffine3], at: Span, noun: &str, diagnostics: &mut Diagnostics) {
+    let usable = |m: &DAffine3| m.is_finite() && m.matrix3.determinant() != 0.0 && m.matrix3.inverse().is_finite();
+    if let Some(copy) = maps.iter().position(|m| !usable(m)) {
+        let which = if maps.len() > 1 { format!(" (copy {})", copy + 1) } else { String::new() };
+        let message = format!("the transforms flatten the {noun} to nothing{which}");
+        diagnostics.push(
+            Diagnostic::error(codes::SINGULAR_TRANSFORM, at, message)
+                .expected("transforms that can be undone: no scale of 0, no overflow"),
+        );
+    }
+}
+
+/// Where right and up are on a surface that faces along n (any length), as it is seen from the front, and n as a unit vector: right is y x n,
+/// or x where n is upright.
+pub fn sides(n: DVec3) -> [DVec3; 3] {
+    let n = (n / n.abs().max_element()).normalize();
+    let right = if n.y.abs() > 0.9999 { DVec3::X } else { DVec3::Y.cross(n).normalize() };
+    // Where n is nearly upright x is not quite across it.
+    let up = n.cross(right).normalize();
+    [up.cross(n), up, n]
 }
 
 #[cfg(test)]

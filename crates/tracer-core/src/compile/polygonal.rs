@@ -1,6 +1,7 @@
 //! Objects that become triangles: meshes from files, and the shapes with flat sides, each of which is one unit shape under an affine
 //! map: exact, watertight, and one set of vertices for a million boxes.
 
+use super::placing::sides;
 use crate::mesh::MeshData;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::SceneDesc;
@@ -60,8 +61,8 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 geometry: Geometry::Unit(shape),
                 local,
                 material: object.value.material(),
-                transform: object.value.transform()?,
-                placements: object.value.placements()?,
+                transform: object.value.transform(),
+                placements: object.value.placements(),
                 // As many triangles as an instance takes memory.
                 instances: Instances::Never,
                 shading: Shading::Flat,
@@ -70,7 +71,6 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
             })
         };
         match &object.value {
-            Object::Sphere(_) => None,
             Object::Rectangle(rectangle) => of_unit(UnitShape::Square, of_rectangle(rectangle), "rectangle"),
             Object::Box(cuboid) => of_unit(UnitShape::Cube, of_box(cuboid), "box"),
             Object::Mesh(mesh) => Some(Polygonal {
@@ -85,6 +85,7 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 span: object.span,
                 noun: "mesh",
             }),
+            _ => None,
         }
     })
 }
@@ -105,16 +106,6 @@ fn of_box(cuboid: &RectBox) -> DAffine3 {
         matrix3: DMat3::from_diagonal(DVec3::from(cuboid.size.value.0)),
         translation: DVec3::from(cuboid.center.value),
     }
-}
-
-/// Where right and up are on a surface that faces along n (any length), as it is seen from the front, and n as a unit vector: right is y x n,
-/// or x where n is upright.
-fn sides(n: DVec3) -> [DVec3; 3] {
-    let n = (n / n.abs().max_element()).normalize();
-    let right = if n.y.abs() > 0.9999 { DVec3::X } else { DVec3::Y.cross(n).normalize() };
-    // Where n is nearly upright x is not quite across it.
-    let up = n.cross(right).normalize();
-    [up.cross(n), up, n]
 }
 
 impl UnitShape {

@@ -1,10 +1,12 @@
 //! How bright lamps and background are, and the unit that this is measured in.
 
+use super::curved::Curved;
+use super::polygonal::polygonal;
 use scene_format::Diagnostic;
 use scene_format::SceneDesc;
 use scene_format::codes;
-use scene_format::desc::{self, Amount, Emission, Emissive, Object, Sphere, SphereLight};
-use scene_format::diagnostic::{Span, Spanned};
+use scene_format::desc::{self, Emission, SphereLight};
+use scene_format::diagnostic::Span;
 
 /// L = I / (pi r^2) = P / (4 pi^2 r^2).
 pub(super) fn of_light(light: &SphereLight) -> [f64; 3] {
@@ -16,17 +18,6 @@ pub(super) fn of_light(light: &SphereLight) -> [f64; 3] {
     }
 }
 
-/// What a luminous sphere of an object shines: L = P / (pi A), A = 4 pi r^2, of both sides where it has two.
-pub(super) fn of_sphere(sphere: &Sphere, emissive: &Emissive) -> [f64; 3] {
-    let pi = std::f64::consts::PI;
-    let sides = if emissive.two_sided { 2.0 } else { 1.0 };
-    let area = 4.0 * pi * sphere.radius.value * sphere.radius.value * sides;
-    match emissive.amount.value {
-        Amount::Radiance(l) => l,
-        Amount::Power(p) => p.map(|x| x / (pi * area)),
-    }
-}
-
 /// What an object shines.
 pub(super) struct Shining {
     /// Of its copies the brightest and the darkest.
@@ -35,23 +26,23 @@ pub(super) struct Shining {
     span: Span,
 }
 
-/// What the objects shine that do. Spheres and objects of triangles are each counted in the order of the scene.
-pub(super) fn of_objects(desc: &SceneDesc, spheres: &[Option<Emissive>], meshes: &[Vec<[f64; 3]>]) -> Vec<Shining> {
-    let (mut spheres, mut meshes) = (spheres.iter(), meshes.iter());
-    let of_object = |object: &Spanned<Object>| match &object.value {
-        Object::Sphere(sphere) => {
-            let emissive = spheres.next()?.as_ref()?;
-            Some(Shining { radiances: [of_sphere(sphere, emissive); 2], span: emissive.amount.span })
-        }
-        _ => {
-            let copies = meshes.next()?;
-            let sum = |radiance: &&[f64; 3]| radiance.iter().sum::<f64>();
-            let brightest = copies.iter().max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
-            let darkest = copies.iter().min_by(|a, b| sum(a).total_cmp(&sum(b)))?;
-            Some(Shining { radiances: [*brightest, *darkest], span: object.span })
-        }
+/// What the objects shine that do, in the order of the scene. `meshes`: what copies of objects of triangles shine, by object.
+pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64; 3]>]) -> Vec<Shining> {
+    let sum = |radiance: &&[f64; 3]| radiance.iter().sum::<f64>();
+    let shining = |copies: &[[f64; 3]], span: Span| {
+        let brightest = copies.iter().max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+        let darkest = copies.iter().min_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+        Some(Shining { radiances: [*brightest, *darkest], span })
     };
-    desc.objects.iter().filter_map(of_object).collect()
+    let of_curved = curved.iter().filter_map(|object| {
+        let emissive = object.emissive.as_ref()?;
+        Some((object.number, shining(&object.radiances(), emissive.amount.span)?))
+    });
+    let of_meshes = polygonal(desc).zip(meshes);
+    let of_meshes = of_meshes.filter_map(|(object, copies)| Some((object.number, shining(copies, object.span)?)));
+    let mut all: Vec<(u32, Shining)> = of_curved.chain(of_meshes).collect();
+    all.sort_by_key(|(number, _)| *number);
+    all.into_iter().map(|(_, shining)| shining).collect()
 }
 
 /// The largest power of two that is not above the brightest channel of all lights and the background: to divide by it changes no digit.

@@ -1,11 +1,12 @@
 //! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside out, a camera or a lamp shut
 //! in an opaque object.
 
+use super::curved::Curved;
 use super::meshes::{Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use crate::mesh::MeshData;
 use glam::{DAffine3, DVec3};
-use scene_format::desc::{Albedo, Light, Material, MaterialRef, Object};
+use scene_format::desc::{Albedo, Light, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ const MOST_COPIES: usize = 10_000;
 const MOST_PAIRS: usize = 10_000_000;
 
 /// Warns of all of it.
-pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, diagnostics: &mut Diagnostics) {
+pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved], diagnostics: &mut Diagnostics) {
     let materials: BTreeMap<&str, &Material> =
         desc.materials.iter().map(|named| (&*named.name.value, &named.material)).collect();
     for (k, object) in polygonal(desc).enumerate() {
@@ -52,7 +53,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, diagnostics: &mu
             );
         }
     }
-    shut_in(desc, placed, &materials, diagnostics);
+    shut_in(desc, placed, curved, &materials, diagnostics);
 }
 
 /// The material that an object names or has; `None` for the default and those of its file.
@@ -126,24 +127,31 @@ impl Solid {
 }
 
 /// The camera or lamps within opaque balls and boxes. One that holds the camera and a lamp is a room.
-fn shut_in(desc: &SceneDesc, placed: &Placed, materials: &BTreeMap<&str, &Material>, diagnostics: &mut Diagnostics) {
+fn shut_in(
+    desc: &SceneDesc,
+    placed: &Placed,
+    curved: &[Curved],
+    materials: &BTreeMap<&str, &Material>,
+    diagnostics: &mut Diagnostics,
+) {
     let mut solids: Vec<(Solid, usize)> = Vec::new();
     let mut lamps: Vec<(DVec3, f64, Span, String)> = Vec::new();
-    let mut flat = polygonal(desc).enumerate();
+    let mut flat = polygonal(desc).enumerate().peekable();
+    let mut curved = curved.iter().peekable();
     for (index, object) in desc.objects.iter().enumerate() {
         let material = material_of(materials, object.value.material());
         let shines = material.is_some_and(|material| material.shines().is_some());
         let opaque = !shines && !material.is_some_and(Material::transmits);
-        if let Object::Sphere(sphere) = &object.value {
-            let center = DVec3::from(sphere.center.value);
+        if let Some(curved) = curved.next_if(|curved| curved.number == index as u32) {
+            let Some((center, radius)) = curved.plain_ball() else { continue };
             if shines {
-                lamps.push((center, sphere.radius.value, object.span, format!("objects[{index}], which shines,")));
+                lamps.push((center, radius, object.span, format!("objects[{index}], which shines,")));
             } else if opaque {
-                solids.push((Solid::Ball { center, radius: sphere.radius.value }, index));
+                solids.push((Solid::Ball { center, radius }, index));
             }
             continue;
         }
-        let Some((k, polygonal)) = flat.next() else { continue };
+        let Some((k, polygonal)) = flat.next_if(|(_, flat)| flat.number == index as u32) else { continue };
         let maps = placed.maps_of(k).iter().take(MOST_COPIES);
         if shines {
             // Where the middle of it is tells enough of where it is.

@@ -10,11 +10,15 @@ impl PictureLayer for MaterialId {
     const NAME: &'static str = "material_id";
     const CHANNELS: &'static [&'static str] = &["Y"];
     const PIXEL: Pixel = Pixel::Nearest(|scene, primitive, instance| {
-        let first_triangle = scene.spheres.len();
+        let first_triangle = scene.spheres.len() + scene.shapes.len();
+        let shape = || scene.shapes.get((primitive as usize).checked_sub(scene.spheres.len())?);
         let material = match scene.instances.get(instance as usize) {
             Some(instance) if instance.material != NONE => instance.material,
             Some(_) => scene.triangles.material.get(primitive as usize - first_triangle).map_or(NONE, |&m| m),
-            None => scene.spheres.get(primitive as usize).map_or(NONE, |sphere| sphere.material),
+            None => match scene.spheres.get(primitive as usize) {
+                Some(sphere) => sphere.material,
+                None => shape().map_or(NONE, |shape| shape.material),
+            },
         };
         material.wrapping_add(1)
     });

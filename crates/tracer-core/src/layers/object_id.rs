@@ -10,7 +10,15 @@ impl PictureLayer for ObjectId {
     const CHANNELS: &'static [&'static str] = &["Y"];
     // Between two numbers there is a third object, so they have no mean.
     const PIXEL: Pixel = Pixel::Nearest(|scene, primitive, instance| {
+        let shape =
+            || scene.shapes.get((primitive as usize).checked_sub(scene.spheres.len())?).map(|shape| shape.object);
         let sphere = || scene.spheres.get(primitive as usize).map(|sphere| sphere.object);
-        scene.instances.get(instance as usize).map(|instance| instance.object).or_else(sphere).map_or(0, |k| k + 1)
+        scene
+            .instances
+            .get(instance as usize)
+            .map(|instance| instance.object)
+            .or_else(sphere)
+            .or_else(shape)
+            .map_or(0, |k| k + 1)
     });
 }

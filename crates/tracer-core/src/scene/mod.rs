@@ -11,6 +11,7 @@ mod frame;
 mod light;
 pub mod materials;
 mod mesh;
+mod shape;
 mod sphere;
 mod statistics;
 mod table;
@@ -25,6 +26,8 @@ pub use materials::{Albedo, Material};
 pub(crate) use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
+pub use shape::Shape;
+pub(crate) use shape::ShapeTable;
 pub use sphere::Sphere;
 pub(crate) use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
@@ -84,13 +87,15 @@ pub struct Scene {
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
+    /// Curved shapes that are no spheres. Shape k has primitive id `spheres.len() + k`.
+    pub shapes: Vec<Shape>,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
     /// Lights: the spheres, then the others.
     pub lights: Vec<Light>,
     /// Meshes, each once.
     pub meshes: Vec<Mesh>,
-    /// The triangles of all meshes. Triangle k has primitive id `spheres.len() + k`.
+    /// The triangles of all meshes. Triangle k has primitive id `spheres.len() + shapes.len() + k`.
     pub triangles: Triangles,
     /// Meshes placed in the scene.
     pub instances: Vec<Instance>,
@@ -135,6 +140,7 @@ impl Scene {
 /// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
 pub(crate) struct Tables {
     pub spheres: SphereTable,
+    pub shapes: ShapeTable,
     pub materials: MaterialTable,
     pub lights: LightTable,
     pub textures: TextureTable,

@@ -9,6 +9,8 @@ use glam::DVec3;
 pub struct Statistics {
     /// Spheres, those of lights among them.
     pub spheres: u64,
+    /// Other curved shapes, ellipsoids among them.
+    pub shapes: u64,
     /// Lights.
     pub lights: u64,
     /// Meshes, each counted once.
@@ -57,6 +59,7 @@ impl Scene {
             + size_of_val(&t.material[..]);
         Statistics {
             spheres: self.spheres.len() as u64,
+            shapes: self.shapes.len() as u64,
             lights: self.lights.len() as u64,
             meshes: self.meshes.len() as u64,
             instances: self.instances.len() as u64,
@@ -76,6 +79,10 @@ impl Scene {
         for sphere in &self.spheres {
             all.add(sphere.center - DVec3::splat(sphere.radius));
             all.add(sphere.center + DVec3::splat(sphere.radius));
+        }
+        for [low, high] in self.shapes.iter().map(super::Shape::bounds) {
+            all.add(low);
+            all.add(high);
         }
         let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| self.mesh_bounds(mesh)).collect();
         for instance in &self.instances {

@@ -86,8 +86,9 @@ impl Facts {
         let point = |p: [f64; 3]| format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]));
         let spheres = self.count(|object| matches!(object, Object::Sphere(_)));
         let total = self.desc.objects.len();
-        let flat_sided = self.count(|object| matches!(object, Object::Rectangle(_) | Object::Box(_)));
         let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
+        let flat_sided = self.count(|object| matches!(object, Object::Rectangle(_) | Object::Box(_)));
+        let curved = total - spheres - meshes - flat_sided;
         let tree = s.tree.map_or("none needed".to_owned(), |tree| {
             let (nodes, leaves) = (counted(tree.nodes as usize, "node"), counted(tree.leaves as usize, "leaf"));
             format!("{nodes}, {leaves}, {} deep, {}", tree.depth, human(tree.bytes))
@@ -100,18 +101,13 @@ impl Facts {
             "render",
             format!("{} samples, {} bounces, seed {}", self.scene.samples, self.scene.max_bounces, self.scene.seed),
         );
-        line(
-            "objects",
-            match flat_sided {
-                0 => format!("{total} ({}, {})", counted(spheres, "sphere"), counted(meshes, "mesh")),
-                n => format!(
-                    "{total} ({}, {}, {})",
-                    counted(spheres, "sphere"),
-                    counted(n, "flat-sided shape"),
-                    counted(meshes, "mesh")
-                ),
-            },
-        );
+        line("objects", {
+            let other = [(flat_sided, "flat-sided shape"), (curved, "other curved shape")];
+            let other = other.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what));
+            let spheres = std::iter::once(counted(spheres, "sphere"));
+            let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();
+            format!("{total} ({})", all.join(", "))
+        });
         line("lights", s.lights.to_string());
         line(
             "triangles",
@@ -163,6 +159,10 @@ impl Facts {
                 "spheres": self.count(|object| matches!(object, Object::Sphere(_))),
                 "rectangles": self.count(|object| matches!(object, Object::Rectangle(_))),
                 "boxes": self.count(|object| matches!(object, Object::Box(_))),
+                "disks": self.count(|object| matches!(object, Object::Disk(_))),
+                "cylinders": self.count(|object| matches!(object, Object::Cylinder(_))),
+                "cones": self.count(|object| matches!(object, Object::Cone(_))),
+                "capsules": self.count(|object| matches!(object, Object::Capsule(_))),
                 "meshes": self.count(|object| matches!(object, Object::Mesh(_))),
             },
             "lights": s.lights,

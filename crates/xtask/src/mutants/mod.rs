@@ -3,6 +3,7 @@
 //! A list of plausible slips, not of random ones: what a person gets wrong in a path tracer. One that no test notices is a missing
 //! test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
 
+mod curved;
 mod engine;
 mod environment;
 mod files;
@@ -54,9 +55,8 @@ const fn suite(program: &'static str, filters: &'static [&'static str]) -> Tests
 
 /// All faults.
 pub fn all() -> impl Iterator<Item = &'static Mutant> {
-    [engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS, environment::MUTANTS]
-        .into_iter()
-        .flatten()
+    let rooms = [curved::MUTANTS, engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS];
+    rooms.into_iter().chain([environment::MUTANTS]).flatten()
 }
 
 impl Mutant {

@@ -166,8 +166,10 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
     if once_in(random, 2) {
         return world.sphere(center, radius, material);
     }
-    match random.below(5) {
+    match random.below(8) {
         0 => return super::shining::cuboid(world, center, radius, material, random),
+        5 | 6 => return super::curved::shape(world, center, radius, material, random),
+        7 => return super::curved::ball(world, center, radius, material, random),
         // Glass without an inside is no glass.
         1 if !material.transmits() => {
             return super::shining::rectangle(world, center, radius, material, random);

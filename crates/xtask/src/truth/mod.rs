@@ -9,6 +9,7 @@
 //! fails (`shrink`) and kept with what was measured. `pairs` is a fixed list of scenes with exact truths, which CI
 //! runs.
 
+pub mod curved;
 pub mod draw;
 pub mod examine;
 pub mod judge;

@@ -65,18 +65,16 @@ fn mirror_x(p: [f64; 3]) -> [f64; 3] {
 fn mirrored(object: &Object) -> Object {
     let mut object = object.clone();
     let mirror = || Transform::Scale { factor: [-1.0, 1.0, 1.0], about: Some(Box::new([0.0; 3])) };
-    let (transform, placements) = match &mut object {
-        Object::Sphere(sphere) => {
-            sphere.center = mirror_x(sphere.center.value).into();
-            return object;
-        }
-        Object::Rectangle(rectangle) => (&mut rectangle.transform, &mut rectangle.placements),
-        Object::Box(cuboid) => (&mut cuboid.transform, &mut cuboid.placements),
-        Object::Mesh(mesh) => (&mut mesh.transform, &mut mesh.placements),
-    };
-    transform.push(mirror().into());
+    if let Object::Sphere(sphere) = &mut object
+        && sphere.transform.is_empty()
+        && sphere.placements == Placements::One
+    {
+        sphere.center = mirror_x(sphere.center.value).into();
+        return object;
+    }
+    object.transform_mut().push(mirror().into());
     // A copy P T becomes M P T = (M P M) (M T). What stands in a file is not drawn where scenes are mirrored.
-    if let Placements::List(list) = placements {
+    if let Placements::List(list) = object.placements_mut() {
         let copies = list.iter().map(|steps| {
             let mut mirrored = vec![mirror().into()];
             mirrored.extend_from_slice(steps);

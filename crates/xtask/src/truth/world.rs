@@ -40,8 +40,14 @@ impl World {
     /// Adds a sphere.
     pub fn sphere(&mut self, center: Point, radius: f64, material: Material) {
         let material = inline(material);
-        let sphere = Sphere { center: center.into(), radius: radius.into(), material };
-        self.desc.objects.push(Object::Sphere(sphere).into());
+        let sphere = Sphere {
+            center: center.into(),
+            radius: radius.into(),
+            material,
+            transform: Vec::new(),
+            placements: Placements::One,
+        };
+        self.desc.objects.push(Object::Sphere(Box::new(sphere)).into());
     }
 
     /// Adds a mesh as it stands.

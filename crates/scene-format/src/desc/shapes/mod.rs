@@ -1,12 +1,20 @@
 //! Shapes: one file each, with the shape's words.
 
 mod r#box;
+mod capsule;
+mod cone;
+mod cylinder;
+mod disk;
 mod mesh;
 mod placements;
 mod rectangle;
 mod sphere;
 
 pub use r#box::RectBox;
+pub use capsule::Capsule;
+pub use cone::Cone;
+pub use cylinder::Cylinder;
+pub use disk::Disk;
 pub use mesh::{Instances, Mesh, Shading};
 pub use placements::{PlacementList, Placements};
 pub use rectangle::Rectangle;

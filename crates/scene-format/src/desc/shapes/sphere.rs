@@ -1,12 +1,14 @@
 //! Spheres.
 
-use crate::desc::{MaterialRef, Vec3};
+use super::Placements;
+use crate::desc::{MaterialRef, Transform, Vec3};
 use crate::diagnostic::Spanned;
+use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// A sphere.
+    /// A sphere; an ellipsoid by `Scale` in `transform`.
     pub struct Sphere as "Sphere", "a sphere" {
         /// Centre.
         center: Spanned<Vec3> => Rule::point();
@@ -14,5 +16,10 @@ scene_struct! {
         radius: Spanned<f64> => Rule::length("a length");
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last; textures turn along.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }

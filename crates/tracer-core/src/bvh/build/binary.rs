@@ -50,6 +50,7 @@ pub(crate) enum Kind {
     /// Triangles of which at least one is a part of one.
     Parts,
     Spheres,
+    Shape,
     Instance,
 }
 

@@ -1,8 +1,8 @@
-//! What the leaves hold: triangles gathered from meshes, spheres, and the boxes of instances.
+//! What the leaves hold: triangles gathered from meshes, spheres, other curved shapes, and the boxes of instances.
 
 use super::super::bounds::Bounds;
-use super::super::geometry::{Geometry, MeshGeometry, NONE, SphereGeometry};
-use super::super::layout::{Parts4, Ref, Spheres4, Triangles4, Unit};
+use super::super::geometry::{Geometry, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
+use super::super::layout::{Parts4, Ref, Shape, Spheres4, Triangles4, Unit};
 use super::super::ray_space::{PAD, RANGE};
 use super::BuildError;
 use super::binary::Item;
@@ -16,6 +16,7 @@ use rayon::prelude::*;
 pub(crate) struct Contents<'a> {
     pub triangles: Triangles<'a>,
     pub spheres: Spheres<'a>,
+    pub shapes: Shapes<'a>,
     pub instances: Instances,
     /// The box of everything.
     pub bounds: Bounds,
@@ -30,6 +31,14 @@ pub(crate) struct Triangles<'a> {
 #[derive(Default)]
 pub(crate) struct Spheres<'a> {
     pub list: &'a [SphereGeometry],
+    pub order: Vec<u32>,
+}
+
+#[derive(Default)]
+pub(crate) struct Shapes<'a> {
+    pub list: &'a [ShapeGeometry],
+    /// The id of the first.
+    pub first: u32,
     pub order: Vec<u32>,
 }
 
@@ -104,6 +113,12 @@ impl WriteLeaves for Contents<'_> {
             leaf.curvature[place] = sphere.curvature;
             leaf.ids[place] = index;
         }
+        units.copy_from_slice(bytemuck::cast_slice(&[leaf]));
+    }
+
+    fn shape(&self, first: u32, units: &mut [Unit]) {
+        let index = self.shapes.order[first as usize];
+        let leaf = Shape::new(self.shapes.list[index as usize].row, self.shapes.first + index);
         units.copy_from_slice(bytemuck::cast_slice(&[leaf]));
     }
 

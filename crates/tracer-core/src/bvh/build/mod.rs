@@ -11,9 +11,10 @@ mod wide;
 
 use super::arena::Arena;
 use super::bounds::Bounds;
-use super::geometry::{Geometry, NONE};
+use super::geometry::{Geometry, NONE, ShapeGeometry};
 use super::kernels::{DEEPEST, MeshRecord};
 use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
+use super::ray_space::RANGE;
 use super::{Accel, AccelStats, Acceleration};
 use crate::level::Level;
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
@@ -57,6 +58,20 @@ pub enum BuildError {
         first: u32,
         /// One past the last id before it.
         taken: u64,
+    },
+    /// The primitive ids of shapes overlap those of spheres.
+    #[error("shapes: their primitive ids start at {first}, but those of spheres reach to {taken}")]
+    ShapeIds {
+        /// The first id.
+        first: u32,
+        /// One past the last id before it.
+        taken: u64,
+    },
+    /// A curved shape is not finite, or beyond the range of single precision.
+    #[error("shape {shape}: it is beyond the range of single precision")]
+    Shape {
+        /// Index of the shape.
+        shape: u32,
     },
     /// An instance is flattened, not finite, or out of range.
     #[error("instance {instance}: its placement has no inverse, or is beyond the range of single precision")]
@@ -162,6 +177,7 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
         parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),
         spheres: world.contents.spheres.order.len() as u64,
+        shapes: world.contents.shapes.order.len() as u64,
         instances: world.contents.instances.order.len() as u64,
         nodes: plans.iter().map(|plan| plan.nodes).sum(),
         leaves: plans.iter().map(|plan| plan.leaves).sum(),
@@ -187,6 +203,16 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
 
 fn check(geometry: &Geometry) -> Result<(), BuildError> {
     let mut taken = geometry.spheres.len() as u64;
+    if !geometry.shapes.is_empty() {
+        if u64::from(geometry.first_shape) < taken {
+            return Err(BuildError::ShapeIds { first: geometry.first_shape, taken });
+        }
+        taken = u64::from(geometry.first_shape) + geometry.shapes.len() as u64;
+        let usable = |shape: &ShapeGeometry| shape.lower.iter().chain(&shape.upper).all(|x| x.abs() <= RANGE);
+        if let Some(at) = geometry.shapes.iter().position(|shape| !usable(shape)) {
+            return Err(BuildError::Shape { shape: at as u32 });
+        }
+    }
     for (mesh, data) in geometry.meshes.iter().enumerate() {
         // The two largest words are no ids.
         let end = u64::from(data.first_primitive) + data.triangles.len() as u64;
@@ -266,7 +292,7 @@ fn write_records(geometry: &Geometry, direct: &[u32], trees: &[Option<Tree>], re
     });
 }
 
-/// The tree over spheres, the triangles that are in the world already, and placed instances.
+/// The tree over spheres, other curved shapes, the triangles that are in the world already, and placed instances.
 fn world_tree<'a>(
     geometry: &Geometry<'a>,
     direct: &[u32],
@@ -286,25 +312,35 @@ fn world_tree<'a>(
         .collect();
     let instance_items: Vec<Item> =
         (0u32..).zip(boxes).filter_map(|(index, bounds)| Some(Item::new(bounds.as_ref()?, index))).collect();
-    for item in sphere_items.iter().chain(&instance_items) {
+    let shape_items: Vec<Item> = (0u32..)
+        .zip(geometry.shapes)
+        .map(|(index, shape)| Item::new(&Bounds::new(shape.lower, shape.upper), index))
+        .collect();
+    for item in sphere_items.iter().chain(&shape_items).chain(&instance_items) {
         world.contents.bounds.include(&item.bounds());
     }
-    let (spheres, instances) = match acceleration {
-        Acceleration::Bvh => {
-            (BinaryTree::build(sphere_items, Kind::Spheres, 4), BinaryTree::build(instance_items, Kind::Instance, 1))
-        }
+    let (spheres, shapes, instances) = match acceleration {
+        Acceleration::Bvh => (
+            BinaryTree::build(sphere_items, Kind::Spheres, 4),
+            BinaryTree::build(shape_items, Kind::Shape, 1),
+            BinaryTree::build(instance_items, Kind::Instance, 1),
+        ),
         _ => {
             let mut instances = BinaryTree::in_given_order(&instance_items, Kind::Instance, 1);
             if acceleration == Acceleration::BoundingBox {
                 instances.restore_leaf_bounds(&instance_items);
             }
-            (BinaryTree::in_given_order(&sphere_items, Kind::Spheres, 4), instances)
+            let shapes = BinaryTree::in_given_order(&shape_items, Kind::Shape, 1);
+            (BinaryTree::in_given_order(&sphere_items, Kind::Spheres, 4), shapes, instances)
         }
     };
     world.contents.spheres.list = geometry.spheres;
     world.contents.spheres.order = spheres.order;
+    world.contents.shapes.list = geometry.shapes;
+    world.contents.shapes.first = geometry.first_shape;
+    world.contents.shapes.order = shapes.order;
     world.contents.instances.order = instances.order;
-    world.nodes = join(vec![world.nodes, spheres.nodes, instances.nodes]);
+    world.nodes = join(vec![world.nodes, spheres.nodes, shapes.nodes, instances.nodes]);
     Ok(world)
 }
 

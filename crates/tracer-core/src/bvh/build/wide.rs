@@ -66,6 +66,7 @@ pub(crate) trait WriteLeaves: Sync {
     fn triangles(&self, first: u32, count: u32, units: &mut [Unit]);
     fn parts(&self, first: u32, count: u32, units: &mut [Unit]);
     fn spheres(&self, first: u32, count: u32, units: &mut [Unit]);
+    fn shape(&self, first: u32, units: &mut [Unit]);
     /// The reference of an instance leaf.
     fn instance(&self, first: u32) -> Ref;
 }
@@ -173,7 +174,7 @@ impl Chunk {
 
 fn leaf_kind(node: &BinaryNode) -> u32 {
     match node.content {
-        Content::Leaf { kind: Kind::Spheres, .. } => Ref::SPHERES,
+        Content::Leaf { kind: Kind::Spheres | Kind::Shape, .. } => Ref::SPHERES,
         Content::Leaf { kind: Kind::Parts, .. } => Ref::PARTS,
         _ => Ref::TRIANGLES,
     }
@@ -190,6 +191,7 @@ fn write_leaf(node: &BinaryNode, leaves: &impl WriteLeaves, units: &mut [Unit]) 
         Content::Leaf { kind: Kind::Spheres, first, count } => {
             leaves.spheres(first, count, &mut units[..SPHERES_UNITS as usize])
         }
+        Content::Leaf { kind: Kind::Shape, first, .. } => leaves.shape(first, &mut units[..SPHERES_UNITS as usize]),
         _ => {}
     }
 }

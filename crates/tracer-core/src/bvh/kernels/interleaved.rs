@@ -18,10 +18,10 @@
 //! nearer hit drops whatever lies behind it, on both levels, without losing an exact tie.
 
 use super::super::geometry::NONE;
-use super::super::layout::{Node, Parts4, Ref, Spheres4, Triangles4, Unit};
+use super::super::layout::{Node, Parts4, Ref, Shape, Spheres4, Triangles4, Unit};
 use super::super::ray_space::RaySpace;
 use super::isa::{Isa, Isa16, WordLanes};
-use super::leaves::{LeafHits, Passage, hits4, parts_hits4, passage4, places_of, spheres4};
+use super::leaves::{LeafHits, Passage, hits4, parts_hits4, passage4, places_of, shape, spheres4};
 use super::packet::run_of;
 use super::packet_space::PacketSpace;
 use super::query::{Batch, Goal, TreeView, WORLD};
@@ -236,7 +236,13 @@ pub(crate) fn trace<I: Isa16, G: Goal, const COUNT: bool>(
                 let leaf = unsafe { item::<Spheres4>(tree, node & Ref::UNIT) };
                 let ray = flight.ray as usize;
                 let (o, d) = (batch.origin(ray), batch.direction(ray));
-                let mut hits = spheres4(isa, leaf, o, d, flight.from, flight.t);
+                let mut hits = if leaf.is_shape() {
+                    // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
+                    let leaf = unsafe { item::<Shape>(tree, node & Ref::UNIT) };
+                    shape(leaf, o, d, flight.from, flight.t)
+                } else {
+                    spheres4(isa, leaf, o, d, flight.from, flight.t)
+                };
                 if G::ANY_HIT
                     && let Some(hits) = &mut hits
                 {

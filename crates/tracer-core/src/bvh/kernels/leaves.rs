@@ -1,7 +1,7 @@
-//! Leaf tests: one ray against four triangles or four spheres. The formulas are those of [`triangle`](super::super::triangle)
+//! Leaf tests: one ray against four triangles, four spheres or one other shape. The formulas are those of [`triangle`](super::super::triangle)
 //! and [`sphere`](super::super::sphere), operation by operation.
 
-use super::super::layout::{Parts4, Spheres4, Triangles4};
+use super::super::layout::{Parts4, Shape, Spheres4, Triangles4};
 use super::super::ray_space::{PAD, RaySpace};
 use super::super::triangle::{SLACK, SLACK_OF_ZERO};
 use super::isa::Isa;
@@ -273,6 +273,14 @@ pub(crate) fn spheres4<I: Isa>(
         return None;
     }
     Some(LeafHits { mask, t: isa.array4(t) })
+}
+
+/// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves. One function for all levels and widths
+/// ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits.
+#[inline(always)]
+pub(crate) fn shape(leaf: &Shape, origin: [f32; 3], direction: [f32; 3], from: u32, limit: f32) -> Option<LeafHits> {
+    let t = leaf.row.hit(origin, direction, leaf.ids[0] == from)?;
+    (t <= limit).then_some(LeafHits { mask: 1, t: [t; 4] })
 }
 
 /// One coordinate of one vertex of the four triangles.

@@ -47,7 +47,7 @@ pub struct Counters {
     pub nodes: u64,
     /// Leaves of up to four triangles tested.
     pub triangle_leaves: u64,
-    /// Leaves of up to four spheres tested.
+    /// Leaves of up to four spheres, or of one other shape, tested.
     pub sphere_leaves: u64,
     /// Instances entered.
     pub instances: u64,

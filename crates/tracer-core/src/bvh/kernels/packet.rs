@@ -10,10 +10,10 @@
 //! smaller than the gaps between the rays), the next rays go one by one, and after a while a packet is tried again.
 
 use super::super::geometry::NONE;
-use super::super::layout::{Node, Parts4, Ref, Spheres4, Triangles4};
+use super::super::layout::{Node, Parts4, Ref, Shape, Spheres4, Triangles4};
 use super::interleaved::{self, item, prefetch};
 use super::isa::{Isa16, Lanes, WordLanes};
-use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, parts4, places_of, spheres4, triangles4};
+use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, parts4, places_of, shape, spheres4, triangles4};
 use super::packet_space::PacketSpace;
 use super::query::{Batch, Goal, TreeView, WORLD};
 use super::{Counters, STACK};
@@ -378,7 +378,13 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             left &= left - 1;
             let ray = self.rays[lane] as usize;
             let (o, d) = (self.batch.origin(ray), self.batch.direction(ray));
-            let mut hits = spheres4(self.isa, leaf, o, d, self.from.0[lane], self.t.0[lane]);
+            let mut hits = if leaf.is_shape() {
+                // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
+                let leaf = unsafe { item::<Shape>(self.tree, unit) };
+                shape(leaf, o, d, self.from.0[lane], self.t.0[lane])
+            } else {
+                spheres4(self.isa, leaf, o, d, self.from.0[lane], self.t.0[lane])
+            };
             if G::ANY_HIT
                 && let Some(hits) = &mut hits
             {

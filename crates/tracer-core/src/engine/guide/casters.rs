@@ -18,7 +18,7 @@ pub struct Caster {
 pub struct Casters {
     /// The casters.
     pub list: Vec<Caster>,
-    /// Caster of each sphere of the scene, or [`NONE`]; never empty.
+    /// Caster of each sphere of the scene, and behind them of each shape, or [`NONE`]; never empty.
     pub of_sphere: Vec<u32>,
     /// Caster of each instance, or [`NONE`]; never empty.
     pub of_instance: Vec<u32>,
@@ -27,7 +27,7 @@ pub struct Casters {
 /// An object that may become part of a caster.
 struct Object {
     caster: Caster,
-    /// Sphere, or the number of spheres plus the instance.
+    /// Sphere, behind them shapes, behind them instances.
     id: u32,
 }
 
@@ -45,6 +45,15 @@ impl Casters {
                 }
             }
         }
+        for (id, shape) in scene.shapes.iter().enumerate() {
+            let reflectance = passes_on(scene, shape.material);
+            if reflectance > 0.0 {
+                let [low, high] = shape.bounds();
+                let caster = Caster { center: (low + high) * 0.5, radius: 0.5 * low.distance(high), reflectance };
+                objects.push(Object { caster, id: (spheres + id) as u32 });
+            }
+        }
+        let loose = spheres + scene.shapes.len();
         let mut bounds = MeshBounds::new(scene);
         for (id, instance) in scene.instances.iter().enumerate() {
             if let Some((center, radius, reflectance)) = bounds.of(instance.mesh, instance.material) {
@@ -53,10 +62,10 @@ impl Casters {
                     Some(rows) => placed(rows, center, radius),
                 };
                 let caster = Caster { center, radius, reflectance };
-                objects.push(Object { caster, id: (spheres + id) as u32 });
+                objects.push(Object { caster, id: (loose + id) as u32 });
             }
         }
-        let mut of_object = vec![NONE; spheres + scene.instances.len()];
+        let mut of_object = vec![NONE; loose + scene.instances.len()];
         let mut list = Vec::new();
         if objects.len() <= most {
             for object in &objects {
@@ -66,7 +75,7 @@ impl Casters {
         } else {
             cluster(&mut objects, most.max(1), &mut list, &mut of_object);
         }
-        let of_instance = of_object.split_off(spheres);
+        let of_instance = of_object.split_off(loose);
         let never_empty = |mut table: Vec<u32>| {
             table.resize(table.len().max(1), NONE);
             table

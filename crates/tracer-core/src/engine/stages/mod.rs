@@ -12,6 +12,7 @@ pub mod points;
 pub mod reach;
 pub mod shade;
 pub mod shaft;
+pub mod shapes;
 pub mod share;
 pub mod spheres;
 pub mod surface;

@@ -177,7 +177,7 @@ mod tests {
             };
             let instances: Vec<_> =
                 (0..placed).map(|_| InstanceGeometry { mesh: 0, placement: Some(place()) }).collect();
-            let geometry = Geometry { spheres: &[], meshes: &[mesh], instances: &instances };
+            let geometry = Geometry { meshes: &[mesh], instances: &instances, ..Geometry::default() };
             let accel = Accel::build(&geometry, Acceleration::Bvh).expect("a tree");
             let mut batch = Batch::new();
             let (mut hit, mut sorted_out) = (0, 0);

@@ -1,5 +1,6 @@
 //! From a hit to the surface there: point, normals, texture coordinates, material.
 
+use super::shapes::on_shapes;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, acos, atan2_turns};
 use crate::scene::{NONE, Scene};
@@ -20,7 +21,7 @@ pub struct Surface<F: Lanes> {
     pub outside: F::M,
     /// Interpolated normals: `ns` may differ from `ng`.
     pub smooth: F::M,
-    /// Bound of the error of `p` along `ng`; zero on spheres, whose rays know the sphere that they leave.
+    /// Bound of the error of `p` along `ng`; zero on curved shapes, whose rays know the one that they leave.
     pub offset: F,
     /// Texture coordinates: u to the right, v upwards.
     pub u: F,
@@ -60,28 +61,40 @@ pub fn surface_and_uv<F: Lanes>(
     wants_uv: bool,
 ) -> Surface<F> {
     let spheres = F::U::splat(scene.tables.spheres.len);
+    let shapes = &scene.tables.shapes;
+    let first_triangle = F::U::splat(scene.tables.spheres.len + shapes.rows.len() as u32);
     let on_sphere = primitive.lt(spheres);
-    let on_triangle = valid & !on_sphere;
+    let on_triangle = valid & !primitive.lt(first_triangle);
     let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)), wants_uv);
     if on_triangle.any() {
-        let triangle = F::U::select(on_triangle, primitive - spheres, F::U::splat(0));
+        let triangle = F::U::select(on_triangle, primitive - first_triangle, F::U::splat(0));
         let m = on_triangles(scene, origin, direction, triangle, instance, on_triangle, wants_uv);
-        let pick = on_triangle;
-        s = Surface {
-            p: V3::select(pick, m.p, s.p),
-            start: V3::select(pick, m.start, s.start),
-            ng: V3::select(pick, m.ng, s.ng),
-            ns: V3::select(pick, m.ns, s.ns),
-            outside: (m.outside & pick) | (s.outside & !pick),
-            smooth: m.smooth & pick,
-            offset: F::select(pick, m.offset, s.offset),
-            u: F::select(pick, m.u, s.u),
-            v: F::select(pick, m.v, s.v),
-            material: F::U::select(pick, m.material, s.material),
-            light: F::U::select(pick, m.light, s.light),
-        };
+        s = chosen(on_triangle, m, s);
+    }
+    let on_shape = valid & !on_sphere & !on_triangle;
+    if !shapes.rows.is_empty() && on_shape.any() {
+        let index = F::U::select(on_shape, primitive - spheres, F::U::splat(0));
+        s = chosen(on_shape, on_shapes(shapes, origin, direction, t, index, on_shape), s);
     }
     s
+}
+
+/// The first where it is picked, else the second.
+#[inline(always)]
+fn chosen<F: Lanes>(pick: F::M, m: Surface<F>, s: Surface<F>) -> Surface<F> {
+    Surface {
+        p: V3::select(pick, m.p, s.p),
+        start: V3::select(pick, m.start, s.start),
+        ng: V3::select(pick, m.ng, s.ng),
+        ns: V3::select(pick, m.ns, s.ns),
+        outside: (m.outside & pick) | (s.outside & !pick),
+        smooth: (m.smooth & pick) | (s.smooth & !pick),
+        offset: F::select(pick, m.offset, s.offset),
+        u: F::select(pick, m.u, s.u),
+        v: F::select(pick, m.v, s.v),
+        material: F::U::select(pick, m.material, s.material),
+        light: F::U::select(pick, m.light, s.light),
+    }
 }
 
 #[inline(always)]

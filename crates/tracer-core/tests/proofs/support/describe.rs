@@ -60,7 +60,13 @@ pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
 
 /// A sphere.
 pub fn sphere(center: Vec3, radius: f64, material: Material) -> Object {
-    Object::Sphere(Sphere { center: center.into(), radius: radius.into(), material: inline(material) })
+    Object::Sphere(Box::new(Sphere {
+        center: center.into(),
+        radius: radius.into(),
+        material: inline(material),
+        transform: Vec::new(),
+        placements: Placements::One,
+    }))
 }
 
 /// A mesh from a file.

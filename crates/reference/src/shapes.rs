@@ -1,0 +1,142 @@
+//! Curved shapes that are no spheres, by their equations in the space where each is of a size of one.
+
+use crate::Ray;
+use crate::surface::Surface;
+use glam::{DMat3, DVec3};
+use std::f64::consts::{PI, TAU};
+use tracer_core::scene::Shape;
+use tracer_core::shapes::UnitShape;
+
+/// Nearer hits are the surface that the ray leaves.
+const NEAREST: f64 = 1e-9;
+
+/// A quadric x.A x + b.x + c = 0 with A diagonal, b along z, and the z between which it counts.
+struct Sheet {
+    squares: [f64; 3],
+    linear: f64,
+    constant: f64,
+    between: [f64; 2],
+}
+
+/// A piece of a plane z = height that faces along `normal`, between two radii.
+struct Flat {
+    height: f64,
+    normal: f64,
+    radii: [f64; 2],
+}
+
+/// All pieces of a shape's surface.
+fn pieces(unit: &UnitShape) -> (Vec<Sheet>, Vec<Flat>) {
+    let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+    match *unit {
+        UnitShape::Sphere => {
+            (vec![Sheet { squares: [1.0; 3], linear: 0.0, constant: -1.0, between: everywhere }], Vec::new())
+        }
+        UnitShape::Disk { inner } => (Vec::new(), vec![Flat { height: 0.0, normal: 1.0, radii: [inner, 1.0] }]),
+        UnitShape::Cone { radii: [first, last], caps, .. } => {
+            let (m, s) = ((first + last) / 2.0, (last - first) / 2.0);
+            // x^2 + y^2 - (m + s z)^2
+            let side =
+                Sheet { squares: [1.0, 1.0, -s * s], linear: -2.0 * m * s, constant: -m * m, between: [-1.0, 1.0] };
+            let caps = match caps {
+                true => vec![
+                    Flat { height: -1.0, normal: -1.0, radii: [0.0, first] },
+                    Flat { height: 1.0, normal: 1.0, radii: [0.0, last] },
+                ],
+                false => Vec::new(),
+            };
+            (vec![side], caps)
+        }
+        UnitShape::Capsule { half } => {
+            let ball = |z: f64, between| Sheet { squares: [1.0; 3], linear: -2.0 * z, constant: z * z - 1.0, between };
+            let side = Sheet { squares: [1.0, 1.0, 0.0], linear: 0.0, constant: -1.0, between: [-half, half] };
+            (vec![side, ball(-half, [-half - 2.0, -half]), ball(half, [half, half + 2.0])], Vec::new())
+        }
+    }
+}
+
+/// The ray in object space; t is the same.
+fn object_ray(ray: &Ray, shape: &Shape) -> (DVec3, DVec3, DMat3) {
+    let inverse = shape.placement.matrix3.inverse();
+    (inverse * (ray.origin - shape.placement.translation), inverse * ray.direction, inverse)
+}
+
+/// The nearest hit ahead.
+pub fn meet(ray: &Ray, shape: &Shape) -> Option<f64> {
+    let (o, d, _) = object_ray(ray, shape);
+    let (sheets, flats) = pieces(&shape.unit);
+    let mut nearest = f64::INFINITY;
+    for Sheet { squares, linear, constant, between } in sheets {
+        let squares = DVec3::from(squares);
+        let (a, b) = ((squares * d).dot(d), 2.0 * (squares * o).dot(d) + linear * d.z);
+        let c = (squares * o).dot(o) + linear * o.z + constant;
+        let root = (b * b - 4.0 * a * c).sqrt();
+        for t in [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)] {
+            let z = o.z + t * d.z;
+            if t > NEAREST && t < nearest && z >= between[0] && z <= between[1] {
+                nearest = t;
+            }
+        }
+    }
+    for Flat { height, radii: [inner, outer], .. } in flats {
+        let t = (height - o.z) / d.z;
+        let r = (o + t * d).truncate().length();
+        if t > NEAREST && t < nearest && r >= inner && r <= outer {
+            nearest = t;
+        }
+    }
+    nearest.is_finite().then_some(nearest)
+}
+
+/// The surface at a hit: that of the piece whose equation holds best there.
+pub fn surface(shape: &Shape, p: DVec3, direction: DVec3) -> Surface {
+    let inverse = shape.placement.matrix3.inverse();
+    let q = inverse * (p - shape.placement.translation);
+    let (sheets, flats) = pieces(&shape.unit);
+    let mut best = (f64::INFINITY, DVec3::Z, None);
+    for Sheet { squares, linear, constant, between } in sheets {
+        let value = (DVec3::from(squares) * q).dot(q) + linear * q.z + constant;
+        if q.z > between[0] - 1e-7 && q.z < between[1] + 1e-7 && value.abs() < best.0 {
+            best = (value.abs(), 2.0 * DVec3::from(squares) * q + DVec3::new(0.0, 0.0, linear), None);
+        }
+    }
+    for Flat { height, normal, radii: [_, outer] } in flats {
+        let away = (q.z - height).abs();
+        if away < best.0 && q.truncate().length() < outer + 1e-7 {
+            best = (away, DVec3::new(0.0, 0.0, normal), Some((normal, outer)));
+        }
+    }
+    let (_, gradient, flat) = best;
+    let outward = (inverse.transpose() * gradient).normalize();
+    let outside = outward.dot(direction) < 0.0;
+    let n = if outside { outward } else { -outward };
+    let uv = uv(&shape.unit, q, flat);
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material }
+}
+
+/// Texture coordinates as the manual says them.
+fn uv(unit: &UnitShape, q: DVec3, flat: Option<(f64, f64)>) -> [f64; 2] {
+    let round = 0.5 + q.x.atan2(-q.y) / TAU;
+    match (*unit, flat) {
+        (UnitShape::Sphere, _) => {
+            let n = q.normalize();
+            [0.5 + n.x.atan2(n.z) / TAU, 1.0 - n.y.clamp(-1.0, 1.0).acos() / PI]
+        }
+        (UnitShape::Cone { upright, .. }, Some((normal, radius))) if normal < 0.0 => {
+            let (right, up) = if upright { (q.x, -q.y) } else { (-q.x, q.y) };
+            [(right / radius + 1.0) / 2.0, (up / radius + 1.0) / 2.0]
+        }
+        (_, Some((_, radius))) => [(q.x / radius + 1.0) / 2.0, (q.y / radius + 1.0) / 2.0],
+        (UnitShape::Capsule { half }, None) => {
+            let along = if q.z > half {
+                PI / 2.0 + 2.0 * half + (q.z - half).clamp(-1.0, 1.0).asin()
+            } else if q.z < -half {
+                PI / 2.0 + (q.z + half).clamp(-1.0, 1.0).asin()
+            } else {
+                PI / 2.0 + half + q.z
+            };
+            [round, along / (PI + 2.0 * half)]
+        }
+        _ => [round, (q.z + 1.0) / 2.0],
+    }
+}

@@ -1,0 +1,29 @@
+//! Capsules.
+
+use super::Placements;
+use crate::desc::{MaterialRef, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A cylinder with half spheres on its ends: all points at most `radius` away from the way between two points.
+    /// Texture coordinates: u goes round it, v along its outline from 0 below `from` to 1 beyond `to`, by the length of
+    /// the way.
+    pub struct Capsule as "Capsule", "a capsule" {
+        /// Middle of its first half sphere.
+        from: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Middle of the other one.
+        to: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::point();
+        /// Radius.
+        radius: Spanned<f64> => Rule::length("a length");
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

@@ -1,0 +1,32 @@
+//! Cones.
+
+use super::Placements;
+use crate::desc::{MaterialRef, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A round cone, or a part of one: a lampshade, a bucket. With its caps it is closed; without them it has no
+    /// thickness and is seen from inside, too. Texture coordinates are those of a `Cylinder`.
+    pub struct Cone as "Cone", "a cone" {
+        /// Middle of the end of radius `radius`.
+        from: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// The tip, or the middle of the end of radius `tip_radius`.
+        to: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::point();
+        /// Radius at `from`.
+        radius: Spanned<f64> => Rule::length("a length");
+        /// Radius at `to`; 0: a tip.
+        tip_radius: Spanned<f64> = 0.0 => Rule::within("a radius", 0.0, 1e12).unit("in the scene's unit");
+        /// Whether disks close its ends.
+        caps: bool = true;
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

@@ -1,0 +1,31 @@
+//! Cylinders.
+
+use super::Placements;
+use crate::desc::{MaterialRef, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from
+    /// inside, too. Texture coordinates: u goes round it, v from 0 at `from` to 1 at `to`; on the caps both grow from 0
+    /// to 1 as on a `Disk`.
+    pub struct Cylinder as "Cylinder", "a cylinder" {
+        /// Middle of its first end.
+        from: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Middle of its other end.
+        to: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::point();
+        /// Radius.
+        radius: Spanned<f64> => Rule::length("a length");
+        /// Whether disks close its ends.
+        caps: bool = true;
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

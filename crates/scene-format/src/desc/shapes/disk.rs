@@ -1,0 +1,31 @@
+//! Flat disks and rings.
+
+use super::Placements;
+use crate::desc::{MaterialRef, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// A flat disk, or a ring. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is
+    /// upright; texture coordinates grow to the right and upwards from 0 to 1 over the square around it. It is open: it
+    /// has no inside.
+    pub struct Disk as "Disk", "a disk" {
+        /// Its middle.
+        center: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Direction that it faces.
+        normal: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Radius.
+        radius: Spanned<f64> = 1.0 => Rule::length("a length");
+        /// Radius of the hole in its middle, less than `radius`; 0: there is none.
+        inner_radius: Spanned<f64> = 0.0 => Rule::within("a radius", 0.0, 1e12).unit("in the scene's unit");
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+    }
+}

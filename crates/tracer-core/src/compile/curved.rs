@@ -1,0 +1,259 @@
+//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see [`crate::shapes`]).
+
+use super::materials::MaterialBuilder;
+use super::placing::{copies, place as place_matrix, sides};
+use crate::scene::{Frame, NONE, Shape, Sphere};
+use crate::shapes::UnitShape;
+use glam::{DAffine3, DMat3, DVec3};
+use scene_format::codes;
+use scene_format::desc::{Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3};
+use scene_format::diagnostic::{Span, Spanned};
+use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+
+/// An object with curved sides, as it is written.
+struct Written {
+    unit: UnitShape,
+    /// From object space to where it is before its transforms.
+    local: DAffine3,
+    /// What is wrong with its numbers.
+    fault: Option<Diagnostic>,
+    noun: &'static str,
+}
+
+/// The shape of an object with curved sides.
+fn written(object: &Object) -> Option<Written> {
+    match object {
+        Object::Sphere(sphere) => {
+            let matrix3 = DMat3::from_diagonal(DVec3::splat(sphere.radius.value));
+            let local = DAffine3 { matrix3, translation: DVec3::from(sphere.center.value) };
+            Some(Written { unit: UnitShape::Sphere, local, fault: None, noun: "sphere" })
+        }
+        Object::Disk(disk) => Some(of_disk(disk)),
+        Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
+        Object::Cone(cone) => Some(of_cone(cone)),
+        Object::Capsule(capsule) => Some(of_capsule(capsule)),
+        Object::Rectangle(_) | Object::Box(_) | Object::Mesh(_) => None,
+    }
+}
+
+fn of_disk(disk: &Disk) -> Written {
+    let [right, up, normal] = sides(DVec3::from(disk.normal.value));
+    let matrix3 = DMat3::from_cols(right, up, normal) * disk.radius.value;
+    let inner = disk.inner_radius.value / disk.radius.value;
+    let fault = (inner >= 1.0).then(|| {
+        let message = "the hole is as large as the disk: nothing of it is left";
+        Diagnostic::error(codes::NO_EXTENT, disk.inner_radius.span, message)
+            .expected(format!("`inner_radius` less than the radius, which is {}", disk.radius.value))
+    });
+    let local = DAffine3 { matrix3, translation: DVec3::from(disk.center.value) };
+    Written { unit: UnitShape::Disk { inner }, local, fault, noun: "disk" }
+}
+
+/// Half the way from one end to the other, and the frame about it: right and up as they are on a disk that faces that
+/// way.
+struct Axis {
+    middle: DVec3,
+    half: f64,
+    frame: [DVec3; 3],
+    upright: bool,
+    fault: Option<Diagnostic>,
+}
+
+fn axis(from: &Spanned<Vec3>, to: &Spanned<Vec3>, noun: &str) -> Axis {
+    let [a, b] = [from, to].map(|p| DVec3::from(p.value));
+    let half = 0.5 * (b - a).length();
+    let fault = (half <= 0.0).then(|| {
+        let at = if to.span == Span::NONE { from.span } else { to.span };
+        Diagnostic::error(codes::NO_EXTENT, at, format!("the {noun} has no length"))
+            .expected("`from` and `to` at different points")
+    });
+    let along = if half > 0.0 { b - a } else { DVec3::Y };
+    let frame = sides(along);
+    Axis { middle: 0.5 * (a + b), half, frame, upright: frame[2].y.abs() > 0.9999, fault }
+}
+
+impl Axis {
+    /// The map that takes x and y to so much across, z to so much along.
+    fn map(&self, across: f64, along: f64) -> DAffine3 {
+        let [right, up, axis] = self.frame;
+        DAffine3 { matrix3: DMat3::from_cols(right * across, up * across, axis * along), translation: self.middle }
+    }
+}
+
+fn of_cylinder(cylinder: &Cylinder) -> Written {
+    let axis = axis(&cylinder.from, &cylinder.to, "cylinder");
+    let unit = UnitShape::Cone { radii: [1.0; 2], caps: cylinder.caps, upright: axis.upright };
+    Written { unit, local: axis.map(cylinder.radius.value, axis.half), fault: axis.fault, noun: "cylinder" }
+}
+
+fn of_cone(cone: &Cone) -> Written {
+    let axis = axis(&cone.from, &cone.to, "cone");
+    let radii = [cone.radius.value, cone.tip_radius.value];
+    let most = radii[0].max(radii[1]);
+    let unit = UnitShape::Cone { radii: radii.map(|r| r / most), caps: cone.caps, upright: axis.upright };
+    Written { unit, local: axis.map(most, axis.half), fault: axis.fault, noun: "cone" }
+}
+
+fn of_capsule(capsule: &Capsule) -> Written {
+    let axis = axis(&capsule.from, &capsule.to, "capsule");
+    let radius = capsule.radius.value;
+    let unit = UnitShape::Capsule { half: axis.half / radius };
+    Written { unit, local: axis.map(radius, radius), fault: axis.fault, noun: "capsule" }
+}
+
+/// An object with curved sides in the scene.
+pub struct Curved {
+    /// Its place among the objects of the scene.
+    pub number: u32,
+    /// What it is in its object space.
+    pub unit: UnitShape,
+    /// From there to the world, one per copy.
+    pub maps: Vec<DAffine3>,
+    /// Index of its material.
+    pub material: u32,
+    /// How it shines, where it does.
+    pub emissive: Option<Emissive>,
+    /// It is nothing but a sphere where it is written.
+    plain: bool,
+}
+
+/// Finds materials and places of the objects with curved sides, in order.
+pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut Diagnostics) -> Vec<Curved> {
+    let mut all = Vec::new();
+    for (number, object) in (0..).zip(&desc.objects) {
+        let Some(Written { unit, local, fault, noun }) = written(&object.value) else { continue };
+        let (transform, placements) = (object.value.transform(), object.value.placements());
+        let material = builder.resolve(object.value.material(), diagnostics);
+        let emissive = builder.emissive(material).cloned();
+        // A placements file is read even when something else is wrong: all faults in one run.
+        let copies = copies(desc, placements, diagnostics);
+        if let Some(fault) = fault {
+            diagnostics.push(fault);
+            continue;
+        }
+        let lowest = |map: &DAffine3| unit.bounds(&(*map * local))[0].y;
+        let map = place_matrix(transform, local.translation, &lowest) * local;
+        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+        super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
+        let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
+        if emissive.is_some() && (unit != UnitShape::Sphere || !maps.iter().all(is_similar)) {
+            let span = match object.value.material() {
+                MaterialRef::Inline(material) => material.span,
+                MaterialRef::Named { span, .. } => *span,
+                MaterialRef::Default => object.span,
+            };
+            let what = if unit == UnitShape::Sphere { "an ellipsoid" } else { noun };
+            let article = if unit == UnitShape::Sphere { "" } else { "a " };
+            diagnostics.push(
+                Diagnostic::error(codes::NO_LIGHT, span, format!("{article}{what} cannot shine"))
+                    .expected("`Emissive` on a sphere, a rectangle, a box or a mesh")
+                    .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open"),
+            );
+        }
+        all.push(Curved { number, unit, maps, material, emissive, plain });
+    }
+    all
+}
+
+/// Whether a map keeps all angles (up to rounding): it turns, moves and scales.
+fn is_similar(map: &DAffine3) -> bool {
+    let m = map.matrix3;
+    let (x, y, z) = (m.x_axis.length(), m.y_axis.length(), m.z_axis.length());
+    let off = m.x_axis.dot(m.y_axis).abs().max(m.y_axis.dot(m.z_axis).abs()).max(m.z_axis.dot(m.x_axis).abs());
+    let near = |a: f64| (a - x).abs() <= 1e-12 * x;
+    near(y) && near(z) && off <= 1e-12 * x * x
+}
+
+impl Curved {
+    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines, and how it is turned does
+    /// not show.
+    fn ball(&self, map: &DAffine3) -> Option<(DVec3, f64)> {
+        let m = map.matrix3;
+        let upright = m == DMat3::from_diagonal(DVec3::splat(m.x_axis.x)) && m.x_axis.x > 0.0;
+        let ball = self.unit == UnitShape::Sphere && (upright || self.emissive.is_some() && is_similar(map));
+        ball.then(|| (map.translation, if upright { m.x_axis.x } else { m.x_axis.length() }))
+    }
+
+    /// Centre and radius of an object that is one sphere, written where it is.
+    pub fn plain_ball(&self) -> Option<(DVec3, f64)> {
+        self.maps.first().filter(|_| self.plain).and_then(|map| self.ball(map))
+    }
+
+    /// One point per copy near what the camera looks at, on its surface or in its box; of many copies of every so many,
+    /// 1024 at most.
+    pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
+        self.maps.iter().step_by(self.maps.len().div_ceil(1024).max(1)).map(move |map| match self.ball(map) {
+            Some((center, radius)) => center + (look_at - center).try_normalize().unwrap_or(DVec3::Z) * radius,
+            None => {
+                let [low, high] = self.unit.bounds(map);
+                look_at.clamp(low, high)
+            }
+        })
+    }
+
+    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both
+    /// sides where it has two.
+    pub fn radiances(&self) -> Vec<[f64; 3]> {
+        let Some(emissive) = &self.emissive else { return Vec::new() };
+        let pi = std::f64::consts::PI;
+        let sides = if emissive.two_sided { 2.0 } else { 1.0 };
+        let radiance = |map: &DAffine3| {
+            let radius = self.ball(map).map_or(0.0, |(_, radius)| radius);
+            let area = 4.0 * pi * radius * radius * sides;
+            match emissive.amount.value {
+                Amount::Radiance(l) => l,
+                Amount::Power(p) => p.map(|x| x / (pi * area)),
+            }
+        };
+        self.maps.iter().map(radiance).collect()
+    }
+
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index.
+    pub fn build(
+        &self,
+        frame: &Frame,
+        light: &mut dyn FnMut([f64; 3], bool) -> u32,
+        spheres: &mut Vec<Sphere>,
+        shapes: &mut Vec<Shape>,
+    ) {
+        let radiances = self.radiances();
+        for (copy, map) in self.maps.iter().enumerate() {
+            let (material, object) = (self.material, self.number);
+            if let Some((center, radius)) = self.ball(map) {
+                let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
+                let light = radiances.get(copy).map_or(NONE, |&radiance| light(radiance, two_sided));
+                let (center, radius) = (frame.point(center), frame.length(radius));
+                spheres.push(Sphere { center, radius, material, object, light });
+            } else {
+                let placement =
+                    DAffine3 { matrix3: map.matrix3 * frame.scale, translation: frame.point(map.translation) };
+                shapes.push(Shape { unit: self.unit, placement, material, object });
+            }
+        }
+    }
+}
+
+/// Warns of glass that has no inside.
+pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
+    for object in &desc.objects {
+        let named = |name: &str| desc.materials.iter().find(|m| &*m.name.value == name).map(|m| &m.material);
+        let material = match object.value.material() {
+            MaterialRef::Default => None,
+            MaterialRef::Named { name, .. } => named(name),
+            MaterialRef::Inline(material) => Some(&material.value),
+        };
+        let Some(Material::Transparent { .. }) = material else { continue };
+        if let Some(Written { unit, noun, .. }) = written(&object.value)
+            && !unit.is_closed()
+        {
+            diagnostics.push(
+                Diagnostic::warning(codes::OPEN_GLASS, object.span, format!("glass of an open {noun} has no inside"))
+                    .expected("a closed shape: a ray is bent by glass on its way in, and back on its way out")
+                    .hint(match unit {
+                        UnitShape::Disk { .. } => "a pane of glass is a thin `Cylinder`",
+                        _ => "close it: `caps: true`",
+                    }),
+            );
+        }
+    }
+}

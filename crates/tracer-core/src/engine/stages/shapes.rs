@@ -1,0 +1,92 @@
+//! The surface of curved shapes that are no spheres, lane by lane: the formulas are those of [`crate::shapes`], in
+//! `f64`.
+
+use super::surface::Surface;
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
+use crate::scene::ShapeTable;
+use glam::DVec3;
+
+/// The most lanes that there are.
+const MOST: usize = 32;
+
+/// The surface at the hits of `mask`, on the shapes with these places in the table; other lanes hold anything.
+#[inline(always)]
+pub fn on_shapes<F: Lanes>(
+    table: &ShapeTable,
+    origin: V3<F>,
+    direction: V3<F>,
+    t: F,
+    index: F::U,
+    mask: F::M,
+) -> Surface<F> {
+    let mut at = At { t: [0.0; MOST], origin: [[0.0; MOST]; 3], direction: [[0.0; MOST]; 3], index: [0; MOST] };
+    t.store(&mut at.t);
+    index.store(&mut at.index);
+    for (axis, (o, d)) in
+        [(origin.0, direction.0), (origin.1, direction.1), (origin.2, direction.2)].into_iter().enumerate()
+    {
+        o.store(&mut at.origin[axis]);
+        d.store(&mut at.direction[axis]);
+    }
+    let found = find(table, &at, mask.bits());
+    let load = |columns: &[[f32; MOST]; 3]| V3(F::load(&columns[0]), F::load(&columns[1]), F::load(&columns[2]));
+    let p = load(&found.p);
+    let n = load(&found.n);
+    let outside = F::M::from_bits(found.outside);
+    let facing = V3::select(outside, n, n.neg());
+    Surface {
+        p,
+        start: p,
+        ng: facing,
+        ns: facing,
+        outside,
+        smooth: F::M::from_bits(0),
+        offset: F::splat(0.0),
+        u: F::load(&found.uv[0]),
+        v: F::load(&found.uv[1]),
+        material: F::U::load(&found.material),
+        light: F::U::splat(0),
+    }
+}
+
+/// Hits, column by column.
+struct At {
+    t: [f32; MOST],
+    origin: [[f32; MOST]; 3],
+    direction: [[f32; MOST]; 3],
+    index: [u32; MOST],
+}
+
+/// What is there; `n` is outwards.
+struct Found {
+    p: [[f32; MOST]; 3],
+    n: [[f32; MOST]; 3],
+    uv: [[f32; MOST]; 2],
+    material: [u32; MOST],
+    outside: u32,
+}
+
+#[inline(never)]
+fn find(table: &ShapeTable, at: &At, mut lanes: u32) -> Found {
+    let zero = [0.0; MOST];
+    let mut found = Found { p: [zero; 3], n: [zero; 3], uv: [zero; 2], material: [0; MOST], outside: 0 };
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize & (MOST - 1);
+        lanes &= lanes - 1;
+        let index = at.index[lane] as usize;
+        let (Some(row), Some(&material)) = (table.rows.get(index), table.material.get(index)) else { continue };
+        let of = |columns: &[[f32; MOST]; 3]| DVec3::from([0, 1, 2].map(|axis: usize| f64::from(columns[axis][lane])));
+        let direction = of(&at.direction);
+        let on = row.surface(of(&at.origin) + f64::from(at.t[lane]) * direction);
+        for axis in 0..3 {
+            found.p[axis][lane] = on.q[axis] as f32;
+            found.n[axis][lane] = on.n[axis] as f32;
+        }
+        found.uv[0][lane] = on.uv.x as f32;
+        found.uv[1][lane] = on.uv.y as f32;
+        found.material[lane] = material;
+        found.outside |= u32::from(on.n.dot(direction) < 0.0) << lane;
+    }
+    found
+}

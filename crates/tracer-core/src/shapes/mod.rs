@@ -1,0 +1,238 @@
+//! Curved shapes: each a unit shape, of a size of about one about the origin of its object space, under an affine map.
+//!
+//! What knows a kind of shape is its own file and its lines in [`UnitShape`] here; tree, surfaces, compiler and casters
+//! ask by [`Row`].
+//!
+//! A hit is one scalar function of ray and row in `f64`, without fused operations: rows hold the inverse of the map in
+//! `f64`, so that nothing is lost wherever the shape lies and however thin or large it is, and t is the root rounded
+//! once to `f32`. The same function is called by all kernels for one ray at a time, hence the same bits at all levels
+//! and widths. A scalar `f64` operation takes as long as one in `f32`. Closed shapes are one primitive each: their hits
+//! are the ends of the interval in which the line is within all of their parts, so that no ray slips between cap and
+//! side.
+//!
+//! A ray that leaves a shape knows it and starts on it but for a rounding: the part that it starts on is found from the
+//! point, and its root there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards; no
+//! epsilon.
+
+mod capsule;
+mod cone;
+mod disk;
+mod sphere;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+/// A unit shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UnitShape {
+    /// About the origin, of radius 1; an ellipsoid under a map. Texture coordinates are those of spheres.
+    Sphere,
+    /// In the plane z = 0, of radius 1, facing +z; x is to the right, y up. Open.
+    Disk {
+        /// Radius of its hole.
+        inner: f64,
+    },
+    /// About the z axis from z = -1 to 1.
+    Cone {
+        /// Radii at z = -1 and 1, of which the larger is 1.
+        radii: [f64; 2],
+        /// Disks close its ends.
+        caps: bool,
+        /// Its axis is upright where it was written: "right" on a cap is +x on both then.
+        upright: bool,
+    },
+    /// All points at most 1 away from the z axis between z = -half and half.
+    Capsule {
+        /// Half the distance between its centres.
+        half: f64,
+    },
+}
+
+/// Bits of the third parameter of cones.
+const CAPS: u32 = 1;
+const UPRIGHT: u32 = 2;
+
+/// A ray in object space.
+#[derive(Clone, Copy, Debug)]
+struct ObjectRay {
+    /// The point of the ray that is nearest to the anchor in render space, or its origin where it leaves the shape.
+    o: DVec3,
+    d: DVec3,
+    /// The ray's own t at `o`.
+    t0: f64,
+}
+
+/// The surface of a unit shape near a point of object space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnUnit {
+    /// The nearest point of the part that the given one lies on, about.
+    pub q: DVec3,
+    /// Normal there, outwards, of any length.
+    pub n: DVec3,
+    /// Texture coordinates, v upwards.
+    pub uv: DVec2,
+}
+
+/// A shape as rays are tested with it, 112 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Row {
+    /// Rows of the linear part of the map from render space to object space.
+    object: [[f64; 3]; 3],
+    /// Where the origin of object space is in render space.
+    anchor: [f64; 3],
+    kind: u32,
+    parameters: [f32; 3],
+}
+
+impl UnitShape {
+    const DISK: u32 = 0;
+    const CONE: u32 = 1;
+    const CAPSULE: u32 = 2;
+    const SPHERE: u32 = 3;
+
+    fn numbers(&self) -> (u32, [f32; 3]) {
+        match *self {
+            UnitShape::Sphere => (Self::SPHERE, [0.0; 3]),
+            UnitShape::Disk { inner } => (Self::DISK, [inner as f32, 0.0, 0.0]),
+            UnitShape::Cone { radii, caps, upright } => {
+                let bits = if caps { CAPS } else { 0 } + if upright { UPRIGHT } else { 0 };
+                (Self::CONE, [radii[0] as f32, radii[1] as f32, f32::from_bits(bits)])
+            }
+            UnitShape::Capsule { half } => (Self::CAPSULE, [half as f32, 0.0, 0.0]),
+        }
+    }
+
+    /// The largest w.q over its points q: with w a row of a map it says how far the shape reaches along an axis.
+    pub fn reach(&self, w: DVec3) -> f64 {
+        match *self {
+            UnitShape::Sphere => w.length(),
+            UnitShape::Disk { .. } => w.truncate().length(),
+            UnitShape::Cone { radii: [first, last], .. } => {
+                let across = w.truncate().length();
+                (first * across - w.z).max(last * across + w.z)
+            }
+            UnitShape::Capsule { half } => w.length() + half * w.z.abs(),
+        }
+    }
+
+    /// Whether it has an inside.
+    pub fn is_closed(&self) -> bool {
+        match self {
+            UnitShape::Disk { .. } => false,
+            UnitShape::Cone { caps, .. } => *caps,
+            UnitShape::Sphere | UnitShape::Capsule { .. } => true,
+        }
+    }
+
+    /// The exact box of the shape under a map.
+    pub fn bounds(&self, map: &DAffine3) -> [DVec3; 2] {
+        let reach = |sign: f64| DVec3::from([0, 1, 2].map(|axis| self.reach(sign * map.matrix3.row(axis))));
+        [map.translation - reach(-1.0), map.translation + reach(1.0)]
+    }
+}
+
+impl Row {
+    /// The shape under a map from object space to render space that can be undone.
+    pub fn new(shape: &UnitShape, map: &DAffine3) -> Self {
+        let inverse = map.matrix3.inverse();
+        let (kind, parameters) = shape.numbers();
+        Row {
+            object: [0, 1, 2].map(|k| inverse.row(k).to_array()),
+            anchor: map.translation.to_array(),
+            kind,
+            parameters,
+        }
+    }
+
+    /// Rows of the linear part of the map from render space to object space.
+    fn to_object(&self) -> DMat3 {
+        DMat3::from_cols_array_2d(&self.object).transpose()
+    }
+
+    /// The least t > 0 at which the ray meets the shape; `leaves`: it starts on this very shape and is not met there.
+    /// The direction need not be unit.
+    // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
+    #[inline(never)]
+    pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
+        let map = self.to_object();
+        let d = DVec3::from(direction.map(f64::from));
+        let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.anchor);
+        let t0 = if leaves { 0.0 } else { -(from_anchor.dot(d) / d.dot(d)) };
+        let ray = ObjectRay { o: map * (from_anchor + t0 * d), d: map * d, t0 };
+        let t = match self.kind {
+            UnitShape::DISK => disk::hit(&self.parameters, &ray, leaves),
+            UnitShape::CONE => cone::hit(&self.parameters, &ray, leaves),
+            UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
+            _ => sphere::hit(&ray, leaves),
+        }?;
+        let t = t as f32;
+        (t > 0.0 && t < f32::INFINITY).then_some(t)
+    }
+
+    /// The surface at a point of render space near the shape: point and outward unit normal in render space, texture
+    /// coordinates.
+    #[inline(never)]
+    pub fn surface(&self, point: DVec3) -> OnUnit {
+        let map = self.to_object();
+        let q = map * (point - DVec3::from(self.anchor));
+        let on = match self.kind {
+            UnitShape::DISK => disk::surface(&self.parameters, q),
+            UnitShape::CONE => cone::surface(&self.parameters, q),
+            UnitShape::CAPSULE => capsule::surface(&self.parameters, q),
+            _ => sphere::surface(q),
+        };
+        OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }
+    }
+}
+
+/// Where a line is within a convex solid: t from the first to the second.
+type Interval = [f64; 2];
+
+/// What two solids have in common.
+fn both(a: Interval, b: Interval) -> Option<Interval> {
+    let [near, far] = [a[0].max(b[0]), a[1].min(b[1])];
+    (near <= far).then_some([near, far])
+}
+
+/// Where a line is between the planes z = -h and h.
+fn slab(ray: &ObjectRay, h: f64) -> Option<Interval> {
+    if ray.d.z == 0.0 {
+        return (ray.o.z.abs() <= h).then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let [a, b] = [(-h - ray.o.z) / ray.d.z, (h - ray.o.z) / ray.d.z];
+    Some([a.min(b), a.max(b)])
+}
+
+/// Where a line is within the sphere of radius 1 about a point of the z axis; `on`: it starts on it.
+fn ball(ray: &ObjectRay, z: f64, on: bool) -> Option<Interval> {
+    let g = ray.o - DVec3::new(0.0, 0.0, z);
+    quadratic(ray.d.dot(ray.d), g.dot(ray.d), if on { 0.0 } else { g.dot(g) - 1.0 })
+}
+
+/// Where a t^2 + 2 beta t + gamma <= 0 for a > 0.
+fn quadratic(a: f64, beta: f64, gamma: f64) -> Option<Interval> {
+    let disc = beta * beta - a * gamma;
+    if disc < 0.0 {
+        return None;
+    }
+    let q = -(beta + disc.sqrt().copysign(beta));
+    if q == 0.0 {
+        return Some([0.0; 2]);
+    }
+    // -0 + 0 = 0: of a line that starts on the surface the root there is no number below zero.
+    let [first, second] = [gamma / q + 0.0, q / a];
+    Some([first.min(second), first.max(second)])
+}
+
+/// The first end of an interval ahead of the ray's origin; of a ray that leaves the solid the way out of it.
+fn first_end(ray: &ObjectRay, [near, far]: Interval, leaves: bool) -> Option<f64> {
+    let [near, far] = [ray.t0 + near, ray.t0 + far];
+    let t = if near > 0.0 && !leaves { near } else { far };
+    (t > 0.0).then_some(t)
+}
+
+/// u around the z axis: 1/2 where -y is, growing towards x.
+fn longitude(q: DVec3) -> f64 {
+    0.5 + libm::atan2(q.x, -q.y) / std::f64::consts::TAU
+}

@@ -1,0 +1,58 @@
+//! Faults in curved shapes.
+
+use super::{Mutant, proofs, suite};
+
+const CONE: &str = "crates/tracer-core/src/shapes/cone.rs";
+
+/// The faults.
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "cones-are-double",
+        file: CONE,
+        find: "Some(if widens { after(first.max(second)) } else { before(first.min(second)) })",
+        replace: "Some(if widens { after(first.min(second)) } else { before(first.max(second)) })",
+        caught_by: suite("shapes", &[]),
+    },
+    Mutant {
+        name: "rays-come-back-to-the-cap-that-they-leave",
+        file: CONE,
+        find: "&& z * ray.d.z >= 0.0",
+        replace: "&& z * ray.d.z >= 1e9",
+        caught_by: suite("shapes", &[]),
+    },
+    Mutant {
+        name: "capsules-are-met-on-their-balls-only",
+        file: "crates/tracer-core/src/shapes/capsule.rs",
+        find: "let parts = [side, ball_at(-half), ball_at(half)];",
+        replace: "let parts = [None, ball_at(-half), ball_at(half)];",
+        caught_by: suite("shapes", &[]),
+    },
+    Mutant {
+        name: "disks-have-no-hole",
+        file: "crates/tracer-core/src/shapes/disk.rs",
+        find: "at.dot(at) >= inner * inner",
+        replace: "at.dot(at) >= -inner * inner",
+        caught_by: proofs(&["curved::curved_shapes"]),
+    },
+    Mutant {
+        name: "normals-of-curved-shapes-go-by-the-map",
+        file: "crates/tracer-core/src/shapes/mod.rs",
+        find: "(map.transpose() * on.n).normalize()",
+        replace: "(map.inverse() * on.n).normalize()",
+        caught_by: proofs(&["curved::curved_shapes"]),
+    },
+    Mutant {
+        name: "curved-glass-has-no-side",
+        file: "crates/tracer-core/src/engine/stages/shapes.rs",
+        find: "u32::from(on.n.dot(direction) < 0.0) << lane",
+        replace: "1 << lane",
+        caught_by: proofs(&["curved::curved_shapes"]),
+    },
+    Mutant {
+        name: "shapes-in-the-tree-are-nowhere-left",
+        file: "crates/tracer-core/src/bvh/kernels/leaves.rs",
+        find: "leaf.row.hit(origin, direction, leaf.ids[0] == from)",
+        replace: "leaf.row.hit(origin, direction, leaf.ids[1] == from)",
+        caught_by: suite("shapes", &["the_tree"]),
+    },
+];

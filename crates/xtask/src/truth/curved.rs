@@ -1,0 +1,81 @@
+//! Disks, cylinders, cones and capsules.
+
+use super::draw::once_in;
+use super::meshes::Point;
+use super::world::{World, inline};
+use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Material, Object, Placements, Transform};
+use scene_format::diagnostic::Spanned;
+use tracer_reference::Random;
+
+/// Steps that turn a shape about its middle, and sometimes mirror it or make it longer.
+fn steps(random: &mut Random) -> Vec<Spanned<Transform>> {
+    let axis = random.direction().to_array();
+    let turn = Transform::Rotate { axis, degrees: random.between(0.0, 360.0), about: None };
+    let stretch = Transform::Scale { factor: [1.0, random.between(0.4, 1.0), -1.0], about: None };
+    if once_in(random, 3) { vec![turn.into(), stretch.into()] } else { vec![turn.into()] }
+}
+
+/// Adds a curved shape within a sphere, written where it is or copied there. Glass is closed.
+pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let glass = matches!(material, Material::Transparent { .. });
+    let copied = once_in(random, 4);
+    let middle = if copied { [0.0; 3] } else { center };
+    let axis = random.direction();
+    let (long, wide) = (random.between(0.2, 0.8) * radius, random.between(0.2, 0.6) * radius);
+    let [from, to] = [-long, long].map(|way| [0, 1, 2].map(|k: usize| middle[k] + way * axis[k]));
+    let caps = glass || once_in(random, 2);
+    let material = inline(material);
+    let transform = if once_in(random, 2) { steps(random) } else { Vec::new() };
+    let there = vec![Transform::Translate(center).into()];
+    let placements =
+        if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
+    let object = match random.below(4) {
+        0 if !glass => Object::Disk(Box::new(Disk {
+            center: middle.into(),
+            normal: axis.to_array().into(),
+            radius: radius.into(),
+            inner_radius: if once_in(random, 2) { wide } else { 0.0 }.into(),
+            material,
+            transform,
+            placements,
+        })),
+        0 | 1 => Object::Cylinder(Box::new(Cylinder {
+            from: from.into(),
+            to: to.into(),
+            radius: wide.into(),
+            caps,
+            material,
+            transform,
+            placements,
+        })),
+        2 => Object::Cone(Box::new(Cone {
+            from: from.into(),
+            to: to.into(),
+            radius: wide.into(),
+            tip_radius: if once_in(random, 2) { random.between(0.1, 0.5) * radius } else { 0.0 }.into(),
+            caps,
+            material,
+            transform,
+            placements,
+        })),
+        _ => Object::Capsule(Box::new(Capsule {
+            from: from.into(),
+            to: to.into(),
+            radius: (0.7 * wide).into(),
+            material,
+            transform,
+            placements,
+        })),
+    };
+    world.desc.objects.push(object.into());
+}
+
+/// Adds a sphere that is turned and copied, or an ellipsoid.
+pub fn ball(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    world.sphere([0.0; 3], radius, material);
+    if let Some(object) = world.desc.objects.last_mut() {
+        let there = vec![Transform::Translate(center).into()];
+        *object.value.transform_mut() = steps(random);
+        *object.value.placements_mut() = Placements::List(Box::new(std::iter::once(there).collect()));
+    }
+}
