@@ -509,6 +509,13 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
+    /// A `Scatter` with `spacing` found no room for all of its copies: those that it found none for in 32 tries are left out. After 256 of
+    /// them in a row no more are tried. Make the box larger, or `spacing` or `count` smaller.
+    ///
+    /// ```text
+    /// placements: Scatter(count: 1000, min: (0, 0, 0), max: (1, 0, 1), spacing: 0.5)
+    /// ```
+    FEWER_COPIES "W0310" "fewer copies than asked for";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -29,7 +29,7 @@ pub use material::{Material, MaterialRef, NamedMaterial};
 pub use object::Object;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
-pub use shapes::{Instances, Mesh, PlacementList, Placements, RectBox, Rectangle, Shading, Sphere};
+pub use shapes::{Instances, Mesh, PlacementList, PlacementPattern, Placements, RectBox, Rectangle, Shading, Sphere};
 pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
 pub(crate) use textures::{MappingWords, Pattern};
 pub use transform::Transform;

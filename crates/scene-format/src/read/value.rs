@@ -324,7 +324,7 @@ macro_rules! optional {
     )+};
 }
 
-optional!(crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>);
+optional!(f64, crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>);
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

@@ -5,6 +5,7 @@
 //! carry matrices.
 
 use super::materials::MaterialBuilder;
+use super::patterns;
 use super::placing::place as place_matrix;
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
@@ -194,6 +195,7 @@ fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnosti
                 Vec::new()
             }
         },
+        Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
     }
 }
 

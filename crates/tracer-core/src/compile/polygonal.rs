@@ -109,7 +109,7 @@ fn of_box(cuboid: &RectBox) -> DAffine3 {
 
 /// Where right and up are on a surface that faces along n (any length), as it is seen from the front, and n as a unit vector: right is y x n,
 /// or x where n is upright.
-fn sides(n: DVec3) -> [DVec3; 3] {
+pub(super) fn sides(n: DVec3) -> [DVec3; 3] {
     let n = (n / n.abs().max_element()).normalize();
     let right = if n.y.abs() > 0.9999 { DVec3::X } else { DVec3::Y.cross(n).normalize() };
     // Where n is nearly upright x is not quite across it.

@@ -2,12 +2,14 @@
 
 mod r#box;
 mod mesh;
+mod pattern;
 mod placements;
 mod rectangle;
 mod sphere;
 
 pub use r#box::RectBox;
 pub use mesh::{Instances, Mesh, Shading};
+pub use pattern::PlacementPattern;
 pub use placements::{PlacementList, Placements};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
