@@ -12,8 +12,8 @@ use lsp_types::{
     CompletionTextEdit, DocumentColorParams, DocumentFormattingParams, DocumentHighlight, DocumentHighlightParams,
     DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, Documentation, GotoDefinitionParams,
     GotoDefinitionResponse, Hover, HoverContents, HoverParams, InsertTextFormat, Location, MarkupContent, MarkupKind,
-    PrepareRenameResponse, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentPositionParams, TextEdit,
-    Uri, WorkspaceEdit,
+    PrepareRenameResponse, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentPositionParams, TextEdit, Uri,
+    WorkspaceEdit,
 };
 use scene_format::FileKind;
 use scene_format::analysis::{self, CompletionKind, Symbol};

@@ -56,7 +56,10 @@ impl Editor {
     /// Asks about a place.
     fn at(&mut self, method: &str, line: u32, character: u32) -> Value {
         let uri = self.uri.clone();
-        self.ask(method, json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } }))
+        self.ask(
+            method,
+            json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } }),
+        )
     }
 
     fn write(&mut self, text: &str) {
@@ -104,10 +107,8 @@ fn a_scene_is_mended_and_laid_out() {
     let range = told[0]["range"].clone();
     let context = json!({ "diagnostics": told });
     let document = json!({ "uri": uri });
-    let actions = editor.ask(
-        "textDocument/codeAction",
-        json!({ "textDocument": document, "range": range, "context": context }),
-    );
+    let actions =
+        editor.ask("textDocument/codeAction", json!({ "textDocument": document, "range": range, "context": context }));
     assert_eq!(actions[0]["edit"]["changes"][&uri][0]["newText"], "radius");
     editor.write(&SCENE.replace("radus", "radius"));
     assert_eq!(editor.diagnostics(), Vec::<Value>::new());
@@ -145,8 +146,10 @@ fn words_and_names_are_known() {
     assert_eq!(colors[0]["color"], json!({ "red": 1.0, "green": 0.0, "blue": 0.0, "alpha": 1.0 }));
     let blue = json!({ "red": 0.0, "green": 0.0, "blue": 1.0, "alpha": 1.0 });
     let range = colors[0]["range"].clone();
-    let texts = editor
-        .ask("textDocument/colorPresentation", json!({ "textDocument": { "uri": uri }, "color": blue, "range": range }));
+    let texts = editor.ask(
+        "textDocument/colorPresentation",
+        json!({ "textDocument": { "uri": uri }, "color": blue, "range": range }),
+    );
     assert_eq!(texts[0]["label"], "\"#0000ff\"");
     assert!(editor.response("textDocument/nothing", json!({})).error.is_some());
     assert!(editor.response("textDocument/hover", json!({ "wrong": 1 })).error.is_some());

@@ -213,12 +213,9 @@ codes! {
     ///
     /// ```ron
     /// Scene(
-    /// <<<<<<< HEAD
-    ///     background: 1,
-    /// =======
-    ///     background: 0.5,
-    /// >>>>>>> darker
-    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    ///     ///     background: 1,
+    ///     ///     background: 0.5,
+    ///     ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
     /// )
     /// ```
     MERGE_CONFLICT "E0122" "a merge that was not finished";
@@ -527,6 +524,13 @@ codes! {
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
     /// ```
     OPEN_GLASS "W0310" "glass without an inside";
+    /// A `Scatter` with `spacing` found no room for all of its copies: those that it found none for in 32 tries are left out. After 256 of
+    /// them in a row no more are tried. Make the box larger, or `spacing` or `count` smaller.
+    ///
+    /// ```text
+    /// placements: Scatter(count: 1000, min: (0, 0, 0), max: (1, 0, 1), spacing: 0.5)
+    /// ```
+    FEWER_COPIES "W0311" "fewer copies than asked for";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

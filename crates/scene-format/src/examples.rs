@@ -4,7 +4,7 @@ use crate::desc::{
     Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Metal, Object, PixelFilter, Reuse,
     Shading, TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, PlacementPattern, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -40,7 +40,7 @@ const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_b
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 21] = [
+pub(crate) const CHOICES: [&EnumDef; 22] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -62,11 +62,12 @@ pub(crate) const CHOICES: [&EnumDef; 21] = [
     &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
+    &PlacementPattern::DEF,
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
 /// materials' own words.
-const SNIPPETS: [(&str, &str, &str); 65] = [
+const SNIPPETS: [(&str, &str, &str); 72] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -151,6 +152,13 @@ const SNIPPETS: [(&str, &str, &str); 65] = [
     ("TransformWords", "Scale", "Scale((1, 2, 1))"),
     ("TransformWords", "Rotate", "Rotate(axis: (0, 1, 0), degrees: 30)"),
     ("TransformWords", "DropTo", "DropTo(y: -1)"),
+    ("PlacementPattern", "Grid", "placements: Grid(count: (3, 1, 2), spacing: (1.5, 1, 1.5))"),
+    ("PlacementPattern", "Ring", "placements: Ring(count: 7, radius: 1.5)"),
+    (
+        "PlacementPattern",
+        "Scatter",
+        "placements: Scatter(count: 20, min: (-2, -0.8, -2), max: (2, -0.8, 2), spacing: 0.6, turn: (0, 1, 0), scale: (0.5, 1.5))",
+    ),
     ("Scene", "Scene", ""),
 ];
 
@@ -205,6 +213,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             object = mesh(words);
             files = &[TETRAHEDRON];
         }
+        "PlacementPattern" => object = format!("Box(size: 0.4, {words})"),
         "TransformWords" => {
             object = mesh(&format!("transform: [{words}]"));
             files = &[TETRAHEDRON];

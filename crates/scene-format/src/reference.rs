@@ -66,7 +66,8 @@ Scene(
 - `+ - * / % ^`, comparisons, `&& || !`; `%` has the divisor's sign; `-2^2` is -4. Vectors go component by component, also with
   numbers; `p.x`, `c.r` and `list[0]` are their parts.
 - Functions: `abs sign floor ceil round sqrt exp log`, `sin cos tan asin acos atan atan2(y, x)` in degrees, `min max clamp(x, low, high)
-  mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `length normalize dot cross`, `hsv(hue, saturation, value)`,
+  mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `keyframes(t, t0, value0, t1, value1, ..)`
+  (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, value)`,
   `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`.
 
 `Repeat`, an item of any list, puts its items into the list so many times; `i`, or what `index` says, counts from 0:
@@ -228,6 +229,7 @@ fn title(name: &'static str) -> &'static str {
     match name {
         "TransformWords" => "Transform",
         "Pattern" => "Texture",
+        "PlacementPattern" => "Patterns of placements",
         "PixelFilter" => "Antialiasing",
         name => name,
     }

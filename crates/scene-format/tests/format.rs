@@ -79,7 +79,8 @@ Sphere = {center=[0,0,0],radius=1}
 fn messy_scenes_become_tidy() {
     assert_eq!(format("messy.ron", MESSY_RON, Syntax::Ron).expect("right"), TIDY_RON);
     let tidy = format("messy.toml", MESSY_TOML, Syntax::Toml).expect("right");
-    let lines = ["# Head\n\nbackground = 1 # sky\n", "position = [0, 0, 5]\n\nfov = 40\n", "# a ball\ncenter = [0, 0, 0]\n"];
+    let lines =
+        ["# Head\n\nbackground = 1 # sky\n", "position = [0, 0, 5]\n\nfov = 40\n", "# a ball\ncenter = [0, 0, 0]\n"];
     for line in lines {
         assert!(tidy.contains(line), "{line:?} is not in\n{tidy}");
     }

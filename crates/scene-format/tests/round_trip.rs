@@ -113,6 +113,29 @@ fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Tran
     (0..random.below(4)).map(|_| transform(random).into()).collect()
 }
 
+fn pattern(random: &mut Random) -> PlacementPattern {
+    let count = |random: &mut Random| 1 + random.below(5) as u32;
+    match random.below(3) {
+        0 => PlacementPattern::Grid { count: [count(random), 1, count(random)], spacing: vector(random) },
+        1 => PlacementPattern::Ring {
+            count: count(random),
+            radius: length(random),
+            axis: [0.0, number(random, 0.1, 1.0), 1.0],
+            start: number(random, -90.0, 90.0),
+            turn: random.below(2) == 0,
+        },
+        _ => PlacementPattern::Scatter {
+            count: count(random),
+            min: vector(random),
+            max: vector(random),
+            seed: count(random),
+            spacing: (random.below(2) == 0).then(|| length(random)),
+            turn: (random.below(2) == 0).then_some([0.0, 1.0, 0.0]),
+            scale: [0.5, number(random, 1.0, 2.0)],
+        },
+    }
+}
+
 /// A valid scene that uses much of the language.
 fn scene(random: &mut Random) -> SceneDesc {
     let names: Vec<Arc<str>> = (0..random.below(4)).map(|index| format!("{index}{}", text(random)).into()).collect();
@@ -124,9 +147,10 @@ fn scene(random: &mut Random) -> SceneDesc {
     let mut objects = Vec::new();
     for _ in 0..1 + random.below(5) {
         let material = material_ref(random);
-        let placements = match random.below(3) {
+        let placements = match random.below(4) {
             0 => Placements::One,
             1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
+            2 => Placements::Pattern(Box::new(pattern(random).into())),
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let object = match random.below(9) {

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use xtask::truth::kinds;
 
 /// Words that are not drawn, and why.
-const NOT_DRAWN: [(&str, &str); 22] = [
+const NOT_DRAWN: [(&str, &str); 26] = [
     ("Render.samples", "the command says how many"),
     ("Render.seed", "the command says which"),
     ("Render.clamp", "takes light on purpose"),
@@ -24,6 +24,10 @@ const NOT_DRAWN: [(&str, &str); 22] = [
     ("Indirect.", "the default is what is tested"),
     ("Scene.vars", "expressions are values before anything is compiled"),
     ("Repeat.", "says the same as writing its items out"),
+    ("PlacementPattern.", "says the same as writing its placements out: compile::patterns"),
+    ("Grid.", "says the same as writing its placements out: compile::patterns"),
+    ("Ring.", "says the same as writing its placements out: compile::patterns"),
+    ("Scatter.", "says the same as writing its placements out: compile::patterns"),
     ("Scene.output", "the picture is the same with layers: proofs::layers"),
     ("Output.", "the picture is the same with layers: proofs::layers"),
     ("Layer.", "the picture is the same with layers: proofs::layers"),

@@ -163,7 +163,9 @@ fn value(
                     snippet: escaped(&written(name)),
                 }));
             }
-            all.iter().filter(|kind| !matches!(kind, Type::Text)).for_each(|kind| value(text, syntax, *kind, field, way, out));
+            all.iter()
+                .filter(|kind| !matches!(kind, Type::Text))
+                .for_each(|kind| value(text, syntax, *kind, field, way, out));
             return;
         }
         Type::Enum(def) if !quoted || syntax == Syntax::Toml => {
@@ -197,7 +199,10 @@ fn value(
         && !matches!(kind, Type::Bool | Type::Enum(_) | Type::Struct(_))
         && let Some(default) = default_text(field, syntax)
     {
-        let item = Completion { documentation: of_field(field, syntax), ..plain(&default, &format!("default; {}", takes(field))) };
+        let item = Completion {
+            documentation: of_field(field, syntax),
+            ..plain(&default, &format!("default; {}", takes(field)))
+        };
         if !out.items.iter().any(|other| other.label == item.label) {
             out.items.push(item);
         }

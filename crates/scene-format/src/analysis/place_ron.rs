@@ -52,7 +52,9 @@ pub(super) fn way(text: &str, cursor: usize) -> Way {
                 }
             }
             byte if byte == b'_' || byte.is_ascii_alphanumeric() || !byte.is_ascii() => {
-                while at < bytes.len() && (bytes[at] == b'_' || bytes[at].is_ascii_alphanumeric() || !bytes[at].is_ascii()) {
+                while at < bytes.len()
+                    && (bytes[at] == b'_' || bytes[at].is_ascii_alphanumeric() || !bytes[at].is_ascii())
+                {
                     at += 1;
                 }
                 last = text.get(from..at).unwrap_or("").to_owned();

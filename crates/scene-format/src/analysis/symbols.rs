@@ -63,7 +63,14 @@ pub fn symbols(text: &str, syntax: Syntax) -> Vec<Symbol> {
                         let head = visit.variant.map_or(whole.clone(), |(_, span)| super::hover::range(span));
                         let range = whole.start.min(head.start)..whole.end.max(head.end);
                         // Of items of a `Repeat` there may be many levels; the outline is flat.
-                        Symbol { name: word, detail: detail(&visit.item), kind: SymbolKind::Item, range, head, children: Vec::new() }
+                        Symbol {
+                            name: word,
+                            detail: detail(&visit.item),
+                            kind: SymbolKind::Item,
+                            range,
+                            head,
+                            children: Vec::new(),
+                        }
                     }
                     _ => return,
                 };

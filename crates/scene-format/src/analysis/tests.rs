@@ -61,7 +61,12 @@ fn values_are_offered_where_values_stand() {
     offers("Scene(effects: Effects(tone_map: |", Ron, &["Filmic", "None"], &[]);
     offers("Scene(objects: [Box(transform: [|", Ron, &["Rotate", "Translate"], &["Sphere"]);
     offers("Scene(vars: { \"high\": 2 }, objects: [Sphere(radius: \"=h|\")])", Ron, &["high", "sin"], &["Sphere"]);
-    offers("Scene(materials: { \"a\": Diffuse(albedo: |", Ron, &["Texture", "Checkerboard", "(0.8, 0.8, 0.8)"], &["Diffuse"]);
+    offers(
+        "Scene(materials: { \"a\": Diffuse(albedo: |",
+        Ron,
+        &["Texture", "Checkerboard", "(0.8, 0.8, 0.8)"],
+        &["Diffuse"],
+    );
     offers("[effects]\ntone_map = |", Toml, &["Filmic"], &[]);
     offers("[effects]\ntone_map = \"|", Toml, &["Filmic"], &[]);
     offers("[materials]\nred = |", Toml, &["Diffuse"], &["red"]);

@@ -1,5 +1,7 @@
 //! Numbers per axis, or one for all.
 
+use crate::codes;
+use crate::diagnostic::Diagnostic;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Type};
@@ -62,5 +64,27 @@ impl Words for [f64; 2] {
 
     fn form(&self, _all: bool) -> Form {
         Form::Vector(self.iter().map(|&x| Form::Number(x)).collect())
+    }
+}
+
+/// Three whole numbers.
+impl Words for [u32; 3] {
+    const TYPE: Type = Type::Vector;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let numbers = reader.numbers(item, at, NAMES)?;
+        if numbers.iter().all(|x| x.fract() == 0.0) {
+            return Some(numbers.map(|x| x as u32));
+        }
+        let message = format!("{} must be whole numbers", at.noun);
+        reader.report(
+            Diagnostic::error(codes::NOT_WHOLE, item.span(), message)
+                .expected("three whole numbers, such as (5, 1, 5)"),
+        );
+        None
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Vector(self.iter().map(|&x| Form::Number(f64::from(x))).collect())
     }
 }

@@ -96,10 +96,35 @@ functions! {
         [v @ (Value::Pair(_) | Value::Triple(_))] => Some(Value::Number(v.numbers().len() as f64)),
         _ => None,
     };
+    "keyframes" "keyframes(t, t0, value0, t1, value1, ..)" |a| match a {
+        [Value::Number(t), keys @ ..] => keyframes(*t, keys),
+        _ => None,
+    };
     "if" "if(condition, a, b)" |a| match a {
         [Value::Bool(condition), a, b] => Some(if *condition { a } else { b }.clone()),
         _ => None,
     };
+}
+
+/// The value at t, linear between keys, the first or last one outside; `None` unless times rise.
+fn keyframes(t: f64, keys: &[Value]) -> Option<Value> {
+    let (keys, rest) = keys.as_chunks::<2>();
+    let time = |key: &[Value; 2]| if let Value::Number(time) = key[0] { Some(time) } else { None };
+    let times: Vec<f64> = keys.iter().map(time).collect::<Option<_>>()?;
+    let rising = times.windows(2).all(|pair| pair[0] < pair[1]);
+    let count = keys.first()?[1].numbers().len();
+    let alike = keys.iter().all(|key| key[1].numbers().len() == count) && count > 0;
+    if !rest.is_empty() || !rising || !alike {
+        return None;
+    }
+    let after = times.partition_point(|&time| time <= t);
+    match (after.checked_sub(1).map(|k| &keys[k][1]), keys.get(after).map(|key| &key[1])) {
+        (Some(from), Some(to)) => {
+            let share = (t - times[after - 1]) / (times[after] - times[after - 1]);
+            from.zip(to, |a, b| a + (b - a) * share)
+        }
+        (from, to) => from.or(to).cloned(),
+    }
 }
 
 fn each(arguments: &[Value], f: impl Fn(f64) -> f64) -> Option<Value> {

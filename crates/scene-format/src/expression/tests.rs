@@ -43,6 +43,8 @@ fn arithmetic_as_on_paper() {
         ("length((3, 4)) + dot(p, p)", 19.0),
         ("if(r > 2 && !(r == 4) || false, 1, 2)", 1.0),
         ("len(list) + len(p)", 5.0),
+        ("keyframes(-1, 0, 5, 2, 7) + keyframes(9, 0, 5, 2, 7)", 12.0),
+        ("keyframes(1, 0, 5, 2, 7) + keyframes(2, 0, 5, 2, 7, 3, 0) + keyframes(1, 0, p, 2, 3*p).y", 17.0),
     ] {
         assert!((number(text) - expected).abs() < 1e-12, "{text} = {}", number(text));
     }
@@ -82,6 +84,15 @@ fn faults_say_where() {
     assert_eq!(fault("(1, 2) + (1, 2, 3)"), (codes::EXPRESSION_TYPE, 7..8));
     assert_eq!(fault("3/(2-2)"), (codes::EXPRESSION_NOT_FINITE, 1..2));
     assert_eq!(fault("(1,2,3)[7]"), (codes::EXPRESSION_INDEX, 8..9));
+    for wrong in [
+        "keyframes(1)",
+        "keyframes(1, 2)",
+        "keyframes(1, 0, 1, 0, 2)",
+        "keyframes(1, 0, (1, 2), 1, 2)",
+        "keyframes(0, 1, true)",
+    ] {
+        assert_eq!(fault(wrong), (codes::EXPRESSION_TYPE, 0..9));
+    }
     assert_eq!(fault("log(-1)"), (codes::EXPRESSION_NOT_FINITE, 0..3));
     assert_eq!(fault("é"), (codes::EXPRESSION_NAME, 0..2));
     assert_eq!(fault("1 €"), (codes::EXPRESSION_SYNTAX, 2..5));

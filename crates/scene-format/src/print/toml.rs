@@ -105,7 +105,8 @@ fn fits(entry: &Entry) -> bool {
 /// `name = value`; lists that are long or hold comments take several lines. Tables in braces cannot, so that the comments in
 /// them move up before the line.
 fn line(out: &mut String, entry: &Entry) {
-    let at_head = out.is_empty() || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
+    let at_head =
+        out.is_empty() || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
     comments(out, if at_head { after_blank(&entry.before) } else { &entry.before });
     let mut inner = Vec::new();
     hoisted(&entry.value, false, &mut inner);

@@ -153,7 +153,8 @@ const OBJECTS: Hints = &[
     ),
     (
         &["instance", "objectinstance", "copy", "array", "clone", "for", "loop"],
-        "copies of an object are its `placements`, and `Repeat(count: .., items: [..])` makes objects by a rule",
+        "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: .., items: [..])` makes \
+         objects by a rule",
     ),
     (
         &["difference", "intersection", "subtract", "csg", "boolean"],

@@ -12,7 +12,7 @@ use crate::words::Words;
 const MOST_TIMES: f64 = 1e6;
 /// `Repeat`s within each other, at most.
 const MOST_NESTED: usize = 8;
-/// Items that all repetitions of a scene make, at most.
+/// Items that all repetitions and patterns of a scene make, at most.
 const MOST_ITEMS: u64 = 10_000_000;
 
 /// Its fields.
@@ -141,6 +141,20 @@ impl Reader<'_> {
         let expected = "a name of letters, digits and `_` without a meaning of its own";
         self.report(Diagnostic::error(codes::BAD_VAR_NAME, item.span(), message).expected(expected));
         None
+    }
+
+    /// Whether so many copies more, which a pattern makes, are not too many; else it is reported.
+    pub(crate) fn takes_copies(&mut self, item: Item<'_, '_>, copies: u64) -> bool {
+        if self.repeated > MOST_ITEMS {
+            return false;
+        }
+        self.repeated += copies;
+        let too_many = self.repeated > MOST_ITEMS;
+        if too_many {
+            let message = format!("repetitions and patterns make more than {MOST_ITEMS} items");
+            self.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
+        }
+        !too_many
     }
 
     fn too_much(&mut self, item: Item<'_, '_>, message: &str) {

@@ -325,7 +325,7 @@ macro_rules! optional {
     )+};
 }
 
-optional!(crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>, crate::desc::Metal, crate::desc::Albedo);
+optional!(f64, crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>, crate::desc::Metal, crate::desc::Albedo);
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

@@ -7,6 +7,7 @@ mod files;
 mod materials;
 mod meshes;
 mod nearby;
+mod patterns;
 mod placing;
 mod polygonal;
 mod radiances;

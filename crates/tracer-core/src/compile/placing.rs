@@ -1,5 +1,6 @@
 //! Transforms of the scene language as matrices.
 
+use super::patterns;
 use crate::mesh::placements::{load_placements, rotation};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Placements, Transform};
@@ -46,6 +47,7 @@ pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagn
                 Vec::new()
             }
         },
+        Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
     }
 }
 

@@ -28,7 +28,8 @@ pub(super) fn run(args: &FmtArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         }
     }
     if args.check && untidy > 0 {
-        shell.error(&anyhow::anyhow!("{} of {many} would change; `tracer fmt` lays them out", counted(untidy, "scene")));
+        shell
+            .error(&anyhow::anyhow!("{} of {many} would change; `tracer fmt` lays them out", counted(untidy, "scene")));
     }
     Ok(ExitCode::from(match (wrong, args.check && untidy > 0) {
         (0, false) => exit::DONE,
@@ -50,8 +51,7 @@ fn tidy(args: &FmtArgs, scene: &Path, shell: &Shell) -> Result<bool, Failure> {
         }
     };
     let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
-    let tidy =
-        scene_format::format(&name, &text, syntax).map_err(|error| told(error, args.diagnostics, shell))?;
+    let tidy = scene_format::format(&name, &text, syntax).map_err(|error| told(error, args.diagnostics, shell))?;
     let changes = tidy != text;
     if is_dash(scene) && !args.check {
         let mut out = std::io::stdout().lock();

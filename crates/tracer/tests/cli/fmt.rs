@@ -3,8 +3,7 @@
 use crate::support::Sandbox;
 
 const UNTIDY: &str = "Scene(background: 1,\n\n\n  objects: [Sphere(center: (0,0,0), radius: 1)], // one\n)\n";
-const TIDY: &str =
-    "Scene(\n    background: 1,\n\n    objects: [Sphere(center: (0, 0, 0), radius: 1)], // one\n)\n";
+const TIDY: &str = "Scene(\n    background: 1,\n\n    objects: [Sphere(center: (0, 0, 0), radius: 1)], // one\n)\n";
 
 #[test]
 fn scenes_are_laid_out_in_their_files() {
@@ -22,7 +21,10 @@ fn scenes_are_laid_out_in_their_files() {
     sandbox.write("a.ron", UNTIDY);
     sandbox.write("wrong.ron", "Scene(objects: [Sphere(radus: 1)])");
     sandbox.run(&["fmt", "wrong.ron", "a.ron"]).ends(2).says(&["radus"]);
-    assert_eq!((sandbox.text("wrong.ron"), sandbox.text("a.ron")), ("Scene(objects: [Sphere(radus: 1)])".into(), TIDY.into()));
+    assert_eq!(
+        (sandbox.text("wrong.ron"), sandbox.text("a.ron")),
+        ("Scene(objects: [Sphere(radus: 1)])".into(), TIDY.into())
+    );
     sandbox.run(&["fmt", "none.ron"]).ends(2).says(&["none.ron"]);
     sandbox.write("latin.ron", b"Scene(background: 1) // \xe9");
     sandbox.run(&["fmt", "latin.ron"]).ends(2).says(&["UTF-8"]);

@@ -1,6 +1,7 @@
 //! Copies of an object.
 
-use crate::desc::Transform;
+use super::PlacementPattern;
+use crate::desc::{Transform, TransformWords};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::{Reader, make_room};
@@ -20,6 +21,8 @@ pub enum Placements {
     List(Box<PlacementList>),
     /// A text file of placements, one a line, relative to the scene file.
     File(Box<Spanned<Arc<Path>>>),
+    /// Copies by a rule.
+    Pattern(Box<Spanned<PlacementPattern>>),
 }
 
 /// Placements that a scene writes out. The steps of all of them stand in one list: a scene may have millions.
@@ -79,8 +82,18 @@ fn wrapped_text(item: Item<'_, '_>) -> Option<String> {
     Some(only.lexeme().to_owned())
 }
 
+/// Whether a pattern seems to be meant: a kind in brackets that is no single transform.
+fn names_a_pattern(item: Item<'_, '_>) -> bool {
+    let name = match item.kind() {
+        Kind::Struct | Kind::Tuple => item.name().map(str::to_owned),
+        Kind::Map => item.fields().next().map(|(key, _)| key.text().into_owned()),
+        _ => None,
+    };
+    name.is_some_and(|name| TransformWords::DEF.variant(&name).is_none()) && wrapped_text(item).is_none()
+}
+
 impl Words for Placements {
-    const TYPE: Type = Type::OneOf(&[Type::List(&Type::List(&Transform::TYPE)), Type::File]);
+    const TYPE: Type = Type::OneOf(&[Type::List(&Type::List(&Transform::TYPE)), Type::File, PlacementPattern::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         match item.kind() {
@@ -103,8 +116,13 @@ impl Words for Placements {
                 });
                 Some(if list.is_empty() { Placements::One } else { Placements::List(Box::new(list)) })
             }
+            _ if names_a_pattern(item) => {
+                let pattern = <Spanned<PlacementPattern>>::read(reader, item, at)?;
+                reader.takes_copies(item, pattern.value.count()).then(|| Placements::Pattern(Box::new(pattern)))
+            }
             _ => {
-                let expected = "a list of lists of transforms, or the name of a placements file between quotes";
+                let expected =
+                    "a list of lists of transforms, a pattern, or the name of a placements file between quotes";
                 reader.wrong_kind(item, at.noun, expected, wrapped_text(item))
             }
         }
@@ -118,6 +136,7 @@ impl Words for Placements {
                 Form::list(list.iter().map(placement))
             }
             Placements::File(file) => file.form(all),
+            Placements::Pattern(pattern) => pattern.form(all),
         }
     }
 }

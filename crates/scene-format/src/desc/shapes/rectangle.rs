@@ -23,7 +23,7 @@ scene_struct! {
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line.
+        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
     }
 }
