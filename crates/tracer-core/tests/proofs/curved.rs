@@ -96,7 +96,7 @@ fn stretch() -> Vec<Transform> {
 #[test]
 fn curved_shapes_as_the_reference_sees_them() {
     let samples = Samples { engine: 256, reference: 256 };
-    let glass = || Material::Transparent { ior: 1.5.into(), transmittance: Box::new([0.9, 0.95, 1.0].into()) };
+    let glass = || Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [0.9, 0.95, 1.0].into() }));
     let materials: [(&str, Material); 4] = [
         ("matt", diffuse([0.3, 0.5, 0.8])),
         ("mirror", mirror([0.9, 0.8, 0.7])),
@@ -164,7 +164,7 @@ fn faults_of_curved_shapes() {
     };
     let lamp =
         || Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([1.0; 3]).into(), two_sided: false }));
-    let glass = || Material::Transparent { ior: 1.5.into(), transmittance: Box::new([1.0; 3].into()) };
+    let glass = || Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [1.0; 3].into() }));
     let matt = || diffuse([0.5; 3]);
     let up = [0.0, 1.0, 0.0];
     assert_eq!(told(disk(up, up, [1.0, 0.0], lamp())), ["E0544: a disk cannot shine"]);
