@@ -133,6 +133,10 @@ impl Words for Conductor {
         let reflectance = match (words.metal, words.ior, words.k, words.reflectance) {
             (Some(metal), ..) => Reflectance::Metal(metal),
             (_, Some(ior), Some(k), _) => Reflectance::Complex { ior, k },
+            // It is there and could not be read: reported.
+            (_, Some(_), None, _) if item.is_damaged() || item.fields().any(|(key, _)| key.text() == "k") => {
+                return None;
+            }
             (_, Some(ior), None, _) => {
                 reader.report(
                     Diagnostic::error(codes::MISSING_FIELD, ior.span, "a conductor with `ior` needs the field `k`")
