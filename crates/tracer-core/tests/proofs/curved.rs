@@ -5,7 +5,7 @@ use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;
 use scene_format::desc::{
     Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, PerAxis, PlacementList, Placements,
-    Rectangle, Transform, Vec3,
+    Rectangle, Transform, Transparent, Vec3,
 };
 use scene_format::{SceneDesc, desc::Amount};
 use tracer_core::compile;
@@ -96,7 +96,8 @@ fn stretch() -> Vec<Transform> {
 #[test]
 fn curved_shapes_as_the_reference_sees_them() {
     let samples = Samples { engine: 256, reference: 256 };
-    let glass = || Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [0.9, 0.95, 1.0].into() }));
+    let glass =
+        || Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [0.9, 0.95, 1.0].into() }));
     let materials: [(&str, Material); 4] = [
         ("matt", diffuse([0.3, 0.5, 0.8])),
         ("mirror", mirror([0.9, 0.8, 0.7])),
