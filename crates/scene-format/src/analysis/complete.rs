@@ -126,6 +126,7 @@ fn kinds(kind: Type, each: &mut dyn FnMut(&'static EnumDef)) {
     }
 }
 
+// Long: one arm for every type of the language.
 fn value(
     text: &str,
     syntax: Syntax,

@@ -21,6 +21,7 @@ impl Frame {
 }
 
 /// The way to a byte.
+// Long: one arm for every sign of the syntax.
 pub(super) fn way(text: &str, cursor: usize) -> Way {
     let bytes = &text.as_bytes()[..cursor];
     let mut frames: Vec<Frame> = Vec::new();

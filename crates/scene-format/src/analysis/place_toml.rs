@@ -11,6 +11,7 @@ struct Frame {
 }
 
 /// The way to a byte.
+// Long: one arm for every sign of the syntax.
 pub(super) fn way(text: &str, cursor: usize) -> Way {
     let bytes = &text.as_bytes()[..cursor];
     let mut header: Vec<String> = Vec::new();
