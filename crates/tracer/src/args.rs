@@ -65,7 +65,7 @@ pub enum Command {
     BenchFigures(BenchFiguresArgs),
     /// Explain a diagnostic's code, or a word of the language
     Explain(ExplainArgs),
-    /// Help an editor: a language server on standard input and output
+    /// Help an editor, as a language server (LSP)
     #[command(after_help = LSP_EXAMPLES)]
     Lsp,
     /// Print the JSON Schema of scene files

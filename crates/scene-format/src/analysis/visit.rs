@@ -46,6 +46,7 @@ struct At<'t, 's> {
     depth: usize,
 }
 
+// Long: one arm for every type of the language.
 fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
     let mut variant = None;
     let At { kind, field, name, section, depth } = at;

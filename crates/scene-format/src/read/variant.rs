@@ -117,7 +117,7 @@ impl Reader<'_> {
             let fits: Vec<&VariantDef> = fits.collect();
             let most = fits.iter().map(needs).max();
             let fits: Vec<&str> =
-                fits.iter().filter(|variant| Some(needs(*variant)) == most).map(|variant| variant.name).collect();
+                fits.iter().filter(|variant| Some(needs(variant)) == most).map(|variant| variant.name).collect();
             if let [only] = fits.as_slice() {
                 let (start, lexeme) = (item.span().start, item.lexeme());
                 if item.syntax() == Syntax::Ron && lexeme.starts_with('(') {

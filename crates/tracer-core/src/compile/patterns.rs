@@ -7,7 +7,7 @@ use scene_format::codes;
 use scene_format::desc::PlacementPattern;
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// A copy that is to keep its distance gets so many tries.
 const TRIES: u64 = 32;
@@ -93,7 +93,7 @@ struct Room {
     /// The side of a cell: at least the distance, so that only neighbours matter, and not so small that cells could not be counted.
     cell: f64,
     /// The last point of each cell, and of each point the one before it in its cell.
-    last: HashMap<[i64; 3], u32>,
+    last: BTreeMap<[i64; 3], u32>,
     points: Vec<(DVec3, u32)>,
 }
 
@@ -103,7 +103,7 @@ const NONE: u32 = u32::MAX;
 impl Room {
     fn new(low: DVec3, extent: DVec3, spacing: f64) -> Room {
         let cell = spacing.max(extent.max_element() / f64::from(1 << 20));
-        Room { low, spacing, cell, last: HashMap::new(), points: Vec::new() }
+        Room { low, spacing, cell, last: BTreeMap::new(), points: Vec::new() }
     }
 
     /// Takes the place of a point if it is free.
@@ -133,7 +133,7 @@ mod tests {
     fn of(pattern: PlacementPattern) -> (Vec<DAffine3>, usize) {
         let mut diagnostics = Diagnostics::default();
         let maps = maps(&pattern.into(), &mut diagnostics);
-        (maps, diagnostics.iter().count())
+        (maps, diagnostics.len())
     }
 
     fn scatter(count: u32, max: [f64; 3], spacing: Option<f64>) -> PlacementPattern {

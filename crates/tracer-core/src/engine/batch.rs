@@ -291,7 +291,8 @@ impl Members {
     }
 }
 
-/// Added to [`Members::kind`] where `start` lies above the surface (see `Surface::start`), so that sinking rays may meet it.
+/// Added to [`Members::kind`] where `start` lies above the surface (see `Surface::start`), so that sinking rays
+/// may meet it.
 pub const RAISED: u32 = 1 << 31;
 
 /// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items,

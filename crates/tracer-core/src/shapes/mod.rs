@@ -146,7 +146,7 @@ impl Row {
     }
 
     /// Rows of the linear part of the map from render space to object space.
-    fn to_object(&self) -> DMat3 {
+    fn object_from_render(&self) -> DMat3 {
         DMat3::from_cols_array_2d(&self.object).transpose()
     }
 
@@ -155,7 +155,7 @@ impl Row {
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
     #[inline(never)]
     pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
-        let map = self.to_object();
+        let map = self.object_from_render();
         let d = DVec3::from(direction.map(f64::from));
         let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.anchor);
         let t0 = if leaves { 0.0 } else { -(from_anchor.dot(d) / d.dot(d)) };
@@ -174,7 +174,7 @@ impl Row {
     /// coordinates.
     #[inline(never)]
     pub fn surface(&self, point: DVec3) -> OnUnit {
-        let map = self.to_object();
+        let map = self.object_from_render();
         let q = map * (point - DVec3::from(self.anchor));
         let on = match self.kind {
             UnitShape::DISK => disk::surface(&self.parameters, q),

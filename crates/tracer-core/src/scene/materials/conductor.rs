@@ -30,7 +30,7 @@ pub enum Fresnel {
 pub struct Conductor {
     /// How much it reflects.
     pub fresnel: Fresnel,
-    /// Width of the lobe; below [`LEAST_ALPHA`] it is a specular one.
+    /// Width of the lobe; below `LEAST_ALPHA` it is a specular one.
     pub alpha: f64,
     /// Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017):
     /// F_ms (1 - E(mu_o)) (1 - E(mu_i)) / (pi (1 - E_avg)), F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)).
@@ -69,7 +69,8 @@ impl MaterialKind for Conductor {
         let color = match self.fresnel {
             Fresnel::Complex { ior, k } => {
                 // At normal incidence.
-                let at = |c: usize| ((ior[c] - 1.0).powi(2) + k[c] * k[c]) / ((ior[c] + 1.0).powi(2) + k[c] * k[c]);
+                let square = |x: f64| x * x;
+                let at = |c: usize| (square(ior[c] - 1.0) + square(k[c])) / (square(ior[c] + 1.0) + square(k[c]));
                 Albedo::Color([at(0), at(1), at(2)])
             }
             Fresnel::Tinted { reflectance, .. } => reflectance,

@@ -1,6 +1,6 @@
 //! Materials in linear RGB: one file each, one line each in the registry below, and their look-up tables.
 //!
-//! What a material is made of is told by its [`Row`], what others want to know of it by its [`Traits`]: nobody else has a `match` on kinds
+//! What a material is made of is told by its `Row`, what others want to know of it by its [`Traits`]: nobody else has a `match` on kinds
 //! of material. How the lobes scatter over lanes stands in `engine/stages/materials`.
 
 mod blinn_phong;
