@@ -35,7 +35,9 @@ fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
         counted.zmm += usize::from(line.contains("%zmm"));
         counted.ymm += usize::from(line.contains("%ymm"));
         let inlined = ["core_arch", "lanes::", "engine::stages::", "math::vector"];
-        if line.contains("call") && inlined.iter().any(|word| line.contains(word)) {
+        // Curved shapes are looked up one by one in double precision, by a call on purpose.
+        let one_by_one = line.contains("engine::stages::shapes::find");
+        if line.contains("call") && !one_by_one && inlined.iter().any(|word| line.contains(word)) {
             counted.calls.push(line.to_owned());
         }
     }

@@ -30,9 +30,8 @@ pub fn on_shapes<F: Lanes>(
         d.store(&mut at.direction[axis]);
     }
     let found = find(table, &at, mask.bits());
-    let load = |columns: &[[f32; MOST]; 3]| V3(F::load(&columns[0]), F::load(&columns[1]), F::load(&columns[2]));
-    let p = load(&found.p);
-    let n = load(&found.n);
+    let p = V3(F::load(&found.p[0]), F::load(&found.p[1]), F::load(&found.p[2]));
+    let n = V3(F::load(&found.n[0]), F::load(&found.n[1]), F::load(&found.n[2]));
     let outside = F::M::from_bits(found.outside);
     let facing = V3::select(outside, n, n.neg());
     Surface {
