@@ -9,7 +9,7 @@ use super::placing::place as place_matrix;
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
 use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
-use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
+use crate::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -394,8 +394,20 @@ impl Built {
         acceleration: bvh::Acceleration,
         spheres: &[bvh::SphereGeometry],
         first_primitive: u32,
+        materials: &[Material],
     ) -> Result<bvh::Accel, bvh::BuildError> {
         let t = &self.triangles;
+        // Of surfaces in one place: what shines, then what lets no light through.
+        let precedence = |primitive: u32, instance: u32| {
+            let triangle = (primitive - first_primitive) as usize;
+            let whole = self.instances[instance as usize].material;
+            let material = if whole == NONE { t.material[triangle] } else { whole };
+            match materials.get(material as usize) {
+                _ if t.light.get(triangle).is_some_and(|&light| light != NONE) => 0,
+                Some(Material::Transparent { .. }) => 2,
+                _ => 1,
+            }
+        };
         let meshes: Vec<bvh::MeshGeometry> = self
             .meshes
             .iter()
@@ -407,7 +419,8 @@ impl Built {
             .collect();
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
-        bvh::Accel::build(&bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
+        let geometry = bvh::Geometry { spheres, meshes: &meshes, instances: &instances };
+        bvh::Accel::build_with(&geometry, acceleration, &precedence)
     }
 
     /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].

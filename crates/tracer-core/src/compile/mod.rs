@@ -13,8 +13,8 @@ mod unmeant;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
-    Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, Scene, Sharing, Sphere,
+    SphereTable, Tables, TextureTable,
 };
 pub use files::check_files;
 use glam::DVec3;
@@ -128,14 +128,14 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built)
+    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &built, &materials)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built)
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &built, &materials)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
                 .map(|accel| boxes_of(&accel))
         }
@@ -275,6 +275,7 @@ fn build_tree(
     spheres: &[Sphere],
     in_tree: usize,
     built: &meshes::Built,
+    materials: &[Material],
 ) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
     if built.instances.is_empty() && in_tree == 0 {
         return Ok(None);
@@ -286,7 +287,7 @@ fn build_tree(
     };
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    built.tree(acceleration, &hung, spheres.len() as u32).map(Some).map_err(|error| {
+    built.tree(acceleration, &hung, spheres.len() as u32, materials).map(Some).map_err(|error| {
         Box::new(
             Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),
