@@ -48,7 +48,7 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
         (None, Some(&Material::Mirror { reflectance })) => DVec3::from(reflectance),
         (None, Some(&Material::Transparent { transmittance, .. })) => DVec3::from(transmittance),
         (None, Some(&Material::Diffuse { albedo } | &Material::BlinnPhong { albedo, .. })) => {
-            texture::albedo(scene, albedo, s.uv)
+            texture::albedo(scene, albedo, &s)
         }
     };
     let shines = light.filter(|light| light.two_sided() || s.outside);

@@ -18,6 +18,7 @@ mod random;
 mod scatter;
 pub mod statistics;
 mod surface;
+mod pattern;
 mod texture;
 mod world;
 
@@ -114,12 +115,12 @@ impl Tracer<'_> {
                 weight * self.radiance(Ray { origin: s.p, direction }, scatterings + 1, random)
             }
             Material::Diffuse { albedo } => {
-                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy: None };
+                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, &s), glossy: None };
                 self.rough(&s, wo, &lobes, scatterings, random)
             }
             Material::BlinnPhong { albedo, exponent, specular, energy_conserving } => {
                 let glossy = Some(scatter::Glossy { exponent, share: specular, energy_conserving });
-                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, s.uv), glossy };
+                let lobes = scatter::Rough { albedo: texture::albedo(self.scene, albedo, &s), glossy };
                 self.rough(&s, wo, &lobes, scatterings, random)
             }
         }

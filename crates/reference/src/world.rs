@@ -19,6 +19,8 @@ pub struct Triangle {
     pub light: u32,
     /// The object that it is of.
     pub object: u32,
+    /// The copy that it is of.
+    pub instance: u32,
 }
 
 /// What a ray hit.
@@ -43,9 +45,9 @@ pub struct World {
 
 impl World {
     pub fn new(scene: &Scene) -> Self {
-        let triangles = scene.instances.iter().flat_map(|instance| {
+        let triangles = (0..).zip(&scene.instances).flat_map(|(number, instance)| {
             let mesh = scene.meshes[instance.mesh as usize];
-            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).map(move |k| triangle(scene, instance, k))
+            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).map(move |k| triangle(scene, number, instance, k))
         });
         World { spheres: scene.spheres.clone(), triangles: triangles.collect() }
     }
@@ -94,7 +96,7 @@ impl World {
 }
 
 /// A triangle of a copy, brought to render space: points by the matrix, normals by its inverse transpose.
-fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
+fn triangle(scene: &Scene, number: u32, instance: &Instance, k: u32) -> Triangle {
     let [x, y, z] =
         instance.placement.map_or([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], |rows| {
             rows.map(|row| row.map(f64::from))
@@ -114,6 +116,7 @@ fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
         material: if instance.material == NONE { triangles.material[k as usize] } else { instance.material },
         light: triangles.light.get(k as usize).copied().unwrap_or(NONE),
         object: instance.object,
+        instance: number,
     }
 }
 

@@ -1,10 +1,10 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
-    Shading, TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, GradientAxis, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
+    LinesAlong, NoiseKind, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, MappingWords, TextureWords, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -40,7 +40,7 @@ const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_b
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 20] = [
+pub(crate) const CHOICES: [&EnumDef; 24] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -53,10 +53,14 @@ pub(crate) const CHOICES: [&EnumDef; 20] = [
     &Light::DEF,
     &BackgroundWords::DEF,
     &Material::DEF,
-    &Pattern::DEF,
+    &TextureWords::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
     &MappingWords::DEF,
+    &SolidMapping::DEF,
+    &GradientAxis::DEF,
+    &LinesAlong::DEF,
+    &NoiseKind::DEF,
     &Object::DEF,
     &Instances::DEF,
     &Shading::DEF,
@@ -64,7 +68,7 @@ pub(crate) const CHOICES: [&EnumDef; 20] = [
 ];
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words.
-const SNIPPETS: [(&str, &str, &str); 59] = [
+const SNIPPETS: [(&str, &str, &str); 78] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -101,12 +105,22 @@ const SNIPPETS: [(&str, &str, &str); 59] = [
     ("Material", "Transparent", "Transparent(ior: 1.5)"),
     ("Material", "BlinnPhong", "BlinnPhong(albedo: \"#3344dd\", exponent: 1000, specular: 0.05)"),
     ("Material", "Emissive", "Emissive(radiance: 3)"),
-    ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
+    ("TextureWords", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
     (
-        "Pattern",
+        "TextureWords",
         "Checkerboard",
         "Diffuse(albedo: Checkerboard(a: 0.2, b: (0.8, 0.7, 0.6), mapping: Uv(scale: (16, 8))))",
     ),
+    ("TextureWords", "Lines", "Diffuse(albedo: Lines(a: 0.3, b: 0.8, width: 0.1, mapping: Uv(scale: (16, 8))))"),
+    ("TextureWords", "Dots", "Diffuse(albedo: Dots(a: 0.7, b: \"#c03020\", radius: 0.35, mapping: Uv(scale: (16, 8))))"),
+    ("TextureWords", "Gradient", "Diffuse(albedo: Gradient(a: (0.1, 0.2, 0.5), b: (0.9, 0.7, 0.5)))"),
+    ("TextureWords", "Noise", "Diffuse(albedo: Noise(a: 0.1, b: 0.8, mapping: Object(scale: 3)))"),
+    (
+        "TextureWords",
+        "Wood",
+        "Diffuse(albedo: Wood(a: (0.5, 0.28, 0.13), b: (0.2, 0.09, 0.04), mapping: Object(scale: 6)))",
+    ),
+    ("TextureWords", "Marble", "Diffuse(albedo: Marble(a: 0.2, b: 0.8, mapping: Object(scale: 2)))"),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
     ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
@@ -117,6 +131,19 @@ const SNIPPETS: [(&str, &str, &str); 59] = [
         "Uv",
         "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Uv(scale: (4, 2), rotation: 30, offset: (0.5, 0))))",
     ),
+    ("SolidMapping", "Uv", "Diffuse(albedo: Checkerboard(mapping: Uv(scale: (16, 8))))"),
+    ("SolidMapping", "Object", "Diffuse(albedo: Checkerboard(mapping: Object(scale: 4)))"),
+    ("SolidMapping", "World", "Diffuse(albedo: Noise(mapping: World(scale: (1, 8, 1), offset: (0, 0.5, 0))))"),
+    ("GradientAxis", "X", "Diffuse(albedo: Gradient(axis: X))"),
+    ("GradientAxis", "Y", "Diffuse(albedo: Gradient(axis: Y, mapping: Object(scale: 0.5, offset: (0, 0.5, 0))))"),
+    ("GradientAxis", "Z", "Diffuse(albedo: Gradient(axis: Z, mapping: Object(scale: 0.5, offset: (0, 0, 0.5))))"),
+    ("GradientAxis", "Radial", "Diffuse(albedo: Gradient(axis: Radial, mapping: Object(offset: (0, -1, 0))))"),
+    ("LinesAlong", "Both", "Diffuse(albedo: Lines(along: Both, mapping: Uv(scale: (16, 8))))"),
+    ("LinesAlong", "U", "Diffuse(albedo: Lines(along: U, width: 0.5, mapping: Uv(scale: (16, 8))))"),
+    ("LinesAlong", "V", "Diffuse(albedo: Lines(along: V, width: 0.5, mapping: Uv(scale: (16, 8))))"),
+    ("NoiseKind", "Fbm", "Diffuse(albedo: Noise(kind: Fbm, octaves: 8, mapping: Object(scale: 3)))"),
+    ("NoiseKind", "Perlin", "Diffuse(albedo: Noise(kind: Perlin, mapping: Object(scale: 6)))"),
+    ("NoiseKind", "Turbulence", "Diffuse(albedo: Noise(kind: Turbulence, gain: 0.6, mapping: Object(scale: 3)))"),
     ("Object", "Sphere", "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))"),
     (
         "Object",
@@ -169,7 +196,8 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             files = &[SKY];
         }
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
-        "Pattern" | "TextureFilter" | "TextureWrap" | "MappingWords" => {
+        "TextureWords" | "TextureFilter" | "TextureWrap" | "MappingWords" | "SolidMapping" | "GradientAxis"
+        | "LinesAlong" | "NoiseKind" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
             files = &[CHECKER];
         }

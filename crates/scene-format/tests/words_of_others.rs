@@ -64,9 +64,10 @@ fn kinds_of_materials_and_textures() {
         ("Mix(a: 1)", "cannot be mixed"),
         ("Diffuse(bump: 1)", "no bumps"),
         ("Diffuse(roughness: 1)", "`exponent` of BlinnPhong"),
-        ("Diffuse(albedo: Noise())", "make a picture of it"),
+        ("Diffuse(albedo: Perlin())", "did you mean `Noise`?"),
         ("Diffuse(albedo: Checker())", "did you mean `Checkerboard`?"),
-        ("Diffuse(albedo: Gradient(a: 1))", "make a picture of it"),
+        ("Diffuse(albedo: Voronoi(a: 1))", "make a picture of it"),
+        ("Diffuse(albedo: Grid())", "did you mean `Lines`?"),
     ];
     check(&cases, |material| scene("", "", &format!("Box(size: 1, material: {material})")));
 }

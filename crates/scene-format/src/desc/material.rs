@@ -59,14 +59,15 @@ scene_enum! {
 impl Material {
     /// The picture that it takes its colour from.
     pub fn texture(&self) -> Option<&Texture> {
-        let albedo = match self {
-            Material::Diffuse { albedo } => albedo,
-            Material::BlinnPhong { albedo, .. } => &**albedo,
-            Material::Mirror { .. } | Material::Transparent { .. } | Material::Emissive(_) => return None,
-        };
-        match albedo {
-            Albedo::Texture(texture) => Some(texture),
-            Albedo::Color(_) | Albedo::Checkerboard(_) => None,
+        self.albedo()?.image()
+    }
+
+    /// Its albedo, where it has one.
+    pub fn albedo(&self) -> Option<&Albedo> {
+        match self {
+            Material::Diffuse { albedo } => Some(albedo),
+            Material::BlinnPhong { albedo, .. } => Some(albedo),
+            Material::Mirror { .. } | Material::Transparent { .. } | Material::Emissive(_) => None,
         }
     }
 }

@@ -81,7 +81,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 12] = [
+    const SYNONYMS: [(&str, &[&str]); 16] = [
         ("Diffuse", &["lambertian", "lambert", "matte", "matt", "roughdiffuse"]),
         ("Mirror", &["metal", "specular", "conductor", "reflective", "chrome"]),
         ("Transparent", &["glass", "dielectric", "refractive"]),
@@ -93,6 +93,10 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Box", &["cube", "cuboid", "brick"]),
         ("Emissive", &["emitter", "light", "area", "emission", "arealight", "glow", "areasource"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
+        ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "turbulence", "granite", "bozo", "windy", "noisetexture"]),
+        ("Lines", &["grid", "stripes", "gridtexture"]),
+        ("Dots", &["polkadots", "spots", "polka"]),
+        ("Gradient", &["ramp", "blend"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
     let lower = name.to_ascii_lowercase();
@@ -219,21 +223,8 @@ const MATERIALS: Hints = &[
 const TEXTURES: Hints = &[
     (
         &[
-            "noise",
-            "perlin",
-            "fbm",
-            "marble",
-            "wood",
             "voronoi",
-            "clouds",
-            "wrinkled",
-            "turbulence",
-            "granite",
-            "gradient",
-            "ramp",
             "colorramp",
-            "stripes",
-            "dots",
             "bricks",
             "brick",
             "wave",

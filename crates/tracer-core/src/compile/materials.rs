@@ -1,10 +1,10 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
-use crate::scene::{Albedo, Material, TextureUse};
+use crate::scene::{Albedo, Material, Pattern, TextureUse};
 use crate::texture::{self, Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{self, Emissive, MaterialRef, TextureFilter, TextureWrap};
+use scene_format::desc::{self, Emissive, MaterialRef, SolidMapping, TextureFilter, TextureWrap};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
@@ -25,6 +25,14 @@ fn squares(colors: [desc::Color; 2]) -> Texture {
     Texture { width: 2, height: 2, texels: Texels::Linear(vec![b, a, a, b]), warnings: Diagnostics::new() }
 }
 
+/// Rows of a pattern's mapping, if it goes by texture coordinates.
+fn flat_rows(albedo: &desc::Albedo) -> Option<[[f64; 3]; 2]> {
+    match albedo.pattern()?.mapping() {
+        SolidMapping::Uv(uv) => Some(uv.rows()),
+        _ => None,
+    }
+}
+
 /// Collects materials and texture uses.
 pub struct MaterialBuilder<'a> {
     desc: &'a SceneDesc,
@@ -39,6 +47,7 @@ pub struct MaterialBuilder<'a> {
     /// By the bits of both colours.
     index_of_squares: BTreeMap<[[u64; 3]; 2], usize>,
     uses: Vec<TextureUse>,
+    patterns: Vec<Pattern>,
     /// Per image the indices of its uses, at most one for each filter, wrap and mapping.
     uses_of_image: Vec<Vec<u32>>,
 }
@@ -56,6 +65,7 @@ impl<'a> MaterialBuilder<'a> {
             index_of_file: BTreeMap::new(),
             index_of_squares: BTreeMap::new(),
             uses: Vec::new(),
+            patterns: Vec::new(),
             uses_of_image: Vec::new(),
         };
         for named in &desc.materials {
@@ -125,10 +135,14 @@ impl<'a> MaterialBuilder<'a> {
         let (image, filter, wrap, mapping) = match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
             desc::Albedo::Texture(t) => (self.file(t, base), t.filter, t.wrap, t.mapping.rows()),
-            desc::Albedo::Checkerboard(t) => {
-                // The squares are the texels of a picture that is laid over two of them.
-                let mapping = t.mapping.rows().map(|row| row.map(|x| 0.5 * x));
-                (self.squares([t.a.value, t.b.value]), TextureFilter::Nearest, TextureWrap::Repeat, mapping)
+            other => {
+                if let (desc::Albedo::Checkerboard(t), Some(mapping)) = (other, flat_rows(other)) {
+                    // The squares are the texels of a picture that is laid over two of them.
+                    let mapping = mapping.map(|row| row.map(|x| 0.5 * x));
+                    (self.squares([t.a.value, t.b.value]), TextureFilter::Nearest, TextureWrap::Repeat, mapping)
+                } else {
+                    return self.pattern(other);
+                }
             }
         };
         let same = |&&index: &&u32| {
@@ -141,6 +155,15 @@ impl<'a> MaterialBuilder<'a> {
         self.uses.push(TextureUse { image, filter, wrap, mapping });
         self.uses_of_image[image].push(index);
         Albedo::Texture(index)
+    }
+
+    /// A texture that is reckoned.
+    fn pattern(&mut self, words: &desc::Albedo) -> Albedo {
+        let known = self.patterns.iter().position(|pattern| pattern.words == *words);
+        Albedo::Pattern(known.unwrap_or_else(|| {
+            self.patterns.extend(Pattern::new(words));
+            self.patterns.len() - 1
+        }) as u32)
     }
 
     fn add_image(&mut self, image: Image) -> usize {
@@ -181,7 +204,7 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// Loads the textures.
-    pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>) {
+    pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>, Vec<Pattern>) {
         let load = |image: &Image| match image {
             Image::File(path, span) => texture::load(path).map_err(|error| Box::new(error.to_diagnostic(*span))),
             Image::Squares(colors) => Ok(squares(*colors)),
@@ -203,6 +226,6 @@ impl<'a> MaterialBuilder<'a> {
             let texture = |path: &Path| self.index_of_file.get(path).and_then(|&index| images.get(index));
             super::energy::warn(self.desc, texture, diagnostics);
         }
-        (self.materials, images, self.uses)
+        (self.materials, images, self.uses, self.patterns)
     }
 }

@@ -260,6 +260,8 @@ pub struct Built {
     pub triangles: Triangles,
     /// Copies.
     pub instances: Vec<Instance>,
+    /// Per copy from the coordinates that its shape is written in to the world; empty where nobody asks.
+    pub objects: Vec<DAffine3>,
 }
 
 /// A mesh as it enters the scene: a file, smooth or flat.
@@ -299,6 +301,8 @@ pub struct Parts<'a> {
     pub radiances: &'a [Vec<[f64; 3]>],
     /// The engine's unit of radiance.
     pub radiance_unit: f64,
+    /// Whether a texture goes by points in space.
+    pub solid: bool,
     /// Index of the first light that is made of triangles.
     pub first_light: u32,
 }
@@ -340,6 +344,10 @@ pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
         let worlds = placed.maps[object]
             .iter()
             .map(|map| DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre });
+        if parts.solid {
+            let to_local = polygonal.local.inverse();
+            built.objects.extend(placed.maps[object].iter().map(|map| *map * to_local));
+        }
         let emissive = assigned.emissive[object].as_ref();
         if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
             for (copy, world) in worlds.enumerate() {

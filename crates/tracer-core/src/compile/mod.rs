@@ -14,7 +14,7 @@ mod unmeant;
 use crate::bvh;
 use crate::scene::{
     Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
-    Tables, TextureTable,
+    PatternTable, Space, Tables, TextureTable,
 };
 pub use files::check_files;
 use glam::DVec3;
@@ -80,7 +80,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let named = named.into_iter().map(|path| desc.base_dir.join(path));
     let files: BTreeSet<PathBuf> =
         named.chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
-    let (materials, images, uses) = builder.finish(&mut diagnostics);
+    let (materials, images, uses, patterns) = builder.finish(&mut diagnostics);
     let background = environment::load(desc, &mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
@@ -116,12 +116,13 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         assigned: &assigned,
         radiances: &mesh_radiances,
         radiance_unit,
+        solid: patterns.iter().any(|pattern| pattern.space != Space::Uv),
         first_light: lights.len() as u32,
     };
     let mut built = meshes::build(&frame, &parts);
     lights.append(&mut built.lights);
     drop((loaded, placed));
-    let material_table = MaterialTable::new(&materials);
+    let material_table = MaterialTable::new(&materials, uses.len() as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
@@ -178,6 +179,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
             materials: material_table,
             lights: light_table,
             textures: TextureTable::new(images, &uses),
+            patterns: PatternTable::new(patterns, &frame, &built.objects),
             instances: instance_table,
         },
         accel,

@@ -9,6 +9,8 @@ pub enum Albedo {
     Color([f64; 3]),
     /// Index into the scene's textures.
     Texture(u32),
+    /// Index into the scene's patterns.
+    Pattern(u32),
 }
 
 /// How a surface scatters light. The words are those of the scene language.
@@ -66,12 +68,15 @@ pub(crate) struct MaterialTable {
     pub kinds: u32,
     /// Whether any material has a texture.
     pub textured: bool,
+    /// How many pictures there are: texture numbers from here on are patterns'.
+    pub first_pattern: u32,
     /// The emitters' entry.
     pub emitter: u32,
 }
 
 impl MaterialTable {
-    pub fn new(materials: &[Material]) -> Self {
+    /// `first_pattern`: how many pictures there are, behind which patterns are numbered.
+    pub fn new(materials: &[Material], first_pattern: u32) -> Self {
         struct Row {
             kind: u32,
             color: [f64; 3],
@@ -82,11 +87,12 @@ impl MaterialTable {
         const EMITTER: Row = Row { kind: kind::EMITTER, color: [0.0; 3], parameter: 0.0, specular: 0.0, texture: 0 };
         let color = |albedo: Albedo| match albedo {
             Albedo::Color(c) => c,
-            Albedo::Texture(_) => [1.0; 3],
+            Albedo::Texture(_) | Albedo::Pattern(_) => [1.0; 3],
         };
         let texture = |albedo: Albedo| match albedo {
             Albedo::Color(_) => 0,
             Albedo::Texture(t) => t + 1,
+            Albedo::Pattern(p) => first_pattern + p + 1,
         };
         let mut rows: Vec<Row> = materials
             .iter()
@@ -124,6 +130,7 @@ impl MaterialTable {
             parameters: Table::new(rows.iter().map(|r| [r.parameter as f32, r.specular as f32])),
             kinds: rows.iter().fold(0, |bits, r| bits | 1 << r.kind),
             textured: rows.iter().any(|r| r.texture != 0),
+            first_pattern,
             emitter,
         }
     }

@@ -14,6 +14,7 @@ mod mesh;
 mod sphere;
 mod statistics;
 mod table;
+mod pattern;
 mod texture;
 
 pub use camera::{Camera, Filter};
@@ -28,6 +29,8 @@ pub use mesh::{Instance, Mesh, Triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
+pub use pattern::{Pattern, Space};
+pub(crate) use pattern::{PatternTable, STRIDE, kind as pattern_kind};
 pub use texture::{Texel, TextureView};
 pub(crate) use texture::{TextureTable, TextureUse};
 
@@ -130,6 +133,18 @@ impl Scene {
     pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
         self.tables.textures.view(index)
     }
+
+    /// A texture that is reckoned, by the index in [`Albedo::Pattern`].
+    pub fn pattern(&self, index: u32) -> Option<&Pattern> {
+        self.tables.patterns.patterns.get(index as usize)
+    }
+
+    /// Rows of the 3x4 matrix from render space to the coordinates that the shape of an instance is written in; of `None`, which spheres
+    /// are, to the world. `None` where no pattern asks for it.
+    pub fn to_object(&self, instance: Option<u32>) -> Option<[[f64; 4]; 3]> {
+        let patterns = &self.tables.patterns;
+        patterns.maps.get(instance.unwrap_or(patterns.world) as usize).copied()
+    }
 }
 
 /// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
@@ -138,5 +153,6 @@ pub(crate) struct Tables {
     pub materials: MaterialTable,
     pub lights: LightTable,
     pub textures: TextureTable,
+    pub patterns: PatternTable,
     pub instances: InstanceTable,
 }

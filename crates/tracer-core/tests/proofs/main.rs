@@ -17,6 +17,7 @@ mod glints;
 mod layers;
 mod matrix;
 mod random_scenes;
+mod patterns;
 mod range;
 mod reuse;
 mod same_bytes;

@@ -89,6 +89,9 @@ fn passes_on(scene: &Scene, material: u32) -> f64 {
             let color = match albedo {
                 Albedo::Color(color) => largest(color),
                 Albedo::Texture(_) => 1.0,
+                Albedo::Pattern(index) => {
+                    scene.pattern(*index).map_or(1.0, |pattern| largest(&pattern.a).max(largest(&pattern.b)))
+                }
             };
             // At normal incidence.
             let lobe = if *energy_conserving { *specular } else { 4.0 * specular };

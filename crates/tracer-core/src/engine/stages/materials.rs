@@ -1,6 +1,7 @@
 //! Scattering, over lanes. wo points to the viewer, wi to the light, both unit and away from the surface; `f` has no cosine;
 //! densities are in solid angle. Mirror and transparent surfaces are delta lobes: sampled only.
 
+use super::patterns::pattern_color;
 use super::surface::Surface;
 use super::textures::texture_color;
 use crate::engine::guide::casters::LEAST_EXPONENT;
@@ -63,7 +64,18 @@ impl<F: Lanes> Bsdf<F> {
     pub fn at(tables: &Tables, s: &Surface<F>, valid: F::M) -> Self {
         let (mut bsdf, texture) = Bsdf::<F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
-            let textured = valid & !texture.eq(F::U::splat(0));
+            let mut textured = valid & !texture.eq(F::U::splat(0));
+            if !tables.patterns.patterns.is_empty() {
+                // Patterns are numbered behind the pictures.
+                let pattern = F::U::splat(tables.materials.first_pattern);
+                let reckoned = textured & pattern.lt(texture);
+                if reckoned.any() {
+                    let id = texture - F::U::splat(1) - pattern;
+                    let color = pattern_color(&tables.patterns, id, s, reckoned);
+                    bsdf.color = V3::select(reckoned, color, bsdf.color);
+                }
+                textured = textured & !reckoned;
+            }
             if textured.any() {
                 let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
                 bsdf.color = V3::select(textured, texel, bsdf.color);

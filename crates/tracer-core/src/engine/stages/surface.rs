@@ -30,6 +30,8 @@ pub struct Surface<F: Lanes> {
     pub material: F::U,
     /// Light + 1, or 0.
     pub light: F::U,
+    /// The instance, or [`NONE`].
+    pub instance: F::U,
 }
 
 /// The surface at the hits; lanes outside `valid` hold anything. Without textures there are no texture coordinates.
@@ -63,6 +65,7 @@ pub fn surface_and_uv<F: Lanes>(
     let on_sphere = primitive.lt(spheres);
     let on_triangle = valid & !on_sphere;
     let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)), wants_uv);
+    s.instance = instance;
     if on_triangle.any() {
         let triangle = F::U::select(on_triangle, primitive - spheres, F::U::splat(0));
         let m = on_triangles(scene, origin, direction, triangle, instance, on_triangle, wants_uv);
@@ -79,6 +82,7 @@ pub fn surface_and_uv<F: Lanes>(
             v: F::select(pick, m.v, s.v),
             material: F::U::select(pick, m.material, s.material),
             light: F::U::select(pick, m.light, s.light),
+            instance,
         };
     }
     s
@@ -119,6 +123,7 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
         v,
         material: material.to_bits(),
         light: light.to_bits(),
+        instance: F::U::splat(NONE),
     }
 }
 
@@ -280,7 +285,7 @@ fn on_triangles<F: Lanes>(
     if !triangles.light.is_empty() {
         light = F::U::gather(&triangles.light, triangle) + F::U::splat(1);
     }
-    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light }
+    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light, instance }
 }
 
 /// The matrix of an instance: rows of its linear part, and the translation.

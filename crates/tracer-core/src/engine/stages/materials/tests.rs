@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::lanes::ArrayF;
-use crate::scene::{Albedo, Material};
+use crate::scene::{Albedo, Material, NONE};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use tracer_reference::Random;
@@ -43,7 +43,7 @@ impl Rough {
                 Material::BlinnPhong { albedo, exponent, specular, energy_conserving: self.conserving }
             }
         };
-        Bsdf::new(&MaterialTable::new(&[material]), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
+        Bsdf::new(&MaterialTable::new(&[material], 0), <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
     }
 
     /// f for albedo 1, by the formula of the scene language.
@@ -332,6 +332,7 @@ fn surface(ng: DVec3, ns: DVec3, outside: bool) -> Surface<S> {
         v: zero,
         material: <S as Lanes>::U::splat(0),
         light: <S as Lanes>::U::splat(0),
+        instance: <S as Lanes>::U::splat(NONE),
     }
 }
 
