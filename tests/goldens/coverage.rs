@@ -12,18 +12,8 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 10] = [
-    "rectangle",
-    "box",
-    "emissive",
-    "checkerboard",
-    "lines",
-    "dots",
-    "gradient",
-    "noise",
-    "wood",
-    "marble",
-];
+const FOLDERS: [&str; 10] =
+    ["rectangle", "box", "emissive", "checkerboard", "lines", "dots", "gradient", "noise", "wood", "marble"];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
 pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {

@@ -14,11 +14,11 @@ mod camera;
 mod environment;
 mod first_hit;
 mod light;
+mod pattern;
 mod random;
 mod scatter;
 pub mod statistics;
 mod surface;
-mod pattern;
 mod texture;
 mod world;
 

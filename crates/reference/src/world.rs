@@ -47,7 +47,8 @@ impl World {
     pub fn new(scene: &Scene) -> Self {
         let triangles = (0..).zip(&scene.instances).flat_map(|(number, instance)| {
             let mesh = scene.meshes[instance.mesh as usize];
-            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).map(move |k| triangle(scene, number, instance, k))
+            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count)
+                .map(move |k| triangle(scene, number, instance, k))
         });
         World { spheres: scene.spheres.clone(), triangles: triangles.collect() }
     }

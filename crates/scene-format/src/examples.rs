@@ -1,10 +1,10 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, GradientAxis, Indirect, Instances, Integrator, Layer, Light, Material, Object, PixelFilter, Reuse,
-    LinesAlong, NoiseKind, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
+    NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{BackgroundWords, DepthOfField, MappingWords, TextureWords, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, MappingWords, PatternWords, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -53,7 +53,7 @@ pub(crate) const CHOICES: [&EnumDef; 24] = [
     &Light::DEF,
     &BackgroundWords::DEF,
     &Material::DEF,
-    &TextureWords::DEF,
+    &PatternWords::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
     &MappingWords::DEF,
@@ -105,22 +105,26 @@ const SNIPPETS: [(&str, &str, &str); 78] = [
     ("Material", "Transparent", "Transparent(ior: 1.5)"),
     ("Material", "BlinnPhong", "BlinnPhong(albedo: \"#3344dd\", exponent: 1000, specular: 0.05)"),
     ("Material", "Emissive", "Emissive(radiance: 3)"),
-    ("TextureWords", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
+    ("PatternWords", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
     (
-        "TextureWords",
+        "PatternWords",
         "Checkerboard",
         "Diffuse(albedo: Checkerboard(a: 0.2, b: (0.8, 0.7, 0.6), mapping: Uv(scale: (16, 8))))",
     ),
-    ("TextureWords", "Lines", "Diffuse(albedo: Lines(a: 0.3, b: 0.8, width: 0.1, mapping: Uv(scale: (16, 8))))"),
-    ("TextureWords", "Dots", "Diffuse(albedo: Dots(a: 0.7, b: \"#c03020\", radius: 0.35, mapping: Uv(scale: (16, 8))))"),
-    ("TextureWords", "Gradient", "Diffuse(albedo: Gradient(a: (0.1, 0.2, 0.5), b: (0.9, 0.7, 0.5)))"),
-    ("TextureWords", "Noise", "Diffuse(albedo: Noise(a: 0.1, b: 0.8, mapping: Object(scale: 3)))"),
+    ("PatternWords", "Lines", "Diffuse(albedo: Lines(a: 0.3, b: 0.8, width: 0.1, mapping: Uv(scale: (16, 8))))"),
     (
-        "TextureWords",
+        "PatternWords",
+        "Dots",
+        "Diffuse(albedo: Dots(a: 0.7, b: \"#c03020\", radius: 0.35, mapping: Uv(scale: (16, 8))))",
+    ),
+    ("PatternWords", "Gradient", "Diffuse(albedo: Gradient(a: (0.1, 0.2, 0.5), b: (0.9, 0.7, 0.5)))"),
+    ("PatternWords", "Noise", "Diffuse(albedo: Noise(a: 0.1, b: 0.8, mapping: Object(scale: 3)))"),
+    (
+        "PatternWords",
         "Wood",
         "Diffuse(albedo: Wood(a: (0.5, 0.28, 0.13), b: (0.2, 0.09, 0.04), mapping: Object(scale: 6)))",
     ),
-    ("TextureWords", "Marble", "Diffuse(albedo: Marble(a: 0.2, b: 0.8, mapping: Object(scale: 2)))"),
+    ("PatternWords", "Marble", "Diffuse(albedo: Marble(a: 0.2, b: 0.8, mapping: Object(scale: 2)))"),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
     ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
@@ -196,7 +200,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             files = &[SKY];
         }
         "Material" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
-        "TextureWords" | "TextureFilter" | "TextureWrap" | "MappingWords" | "SolidMapping" | "GradientAxis"
+        "PatternWords" | "TextureFilter" | "TextureWrap" | "MappingWords" | "SolidMapping" | "GradientAxis"
         | "LinesAlong" | "NoiseKind" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
             files = &[CHECKER];

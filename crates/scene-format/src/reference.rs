@@ -225,7 +225,7 @@ fn choice(out: &mut String, def: &'static EnumDef, done: &mut Vec<&'static str>)
 fn title(name: &'static str) -> &'static str {
     match name {
         "TransformWords" => "Transform",
-        "TextureWords" => "Texture",
+        "PatternWords" => "Texture",
         "PixelFilter" => "Antialiasing",
         name => name,
     }

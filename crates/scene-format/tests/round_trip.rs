@@ -48,11 +48,11 @@ fn mapping(random: &mut Random) -> Mapping {
 }
 
 fn solid_mapping(random: &mut Random) -> SolidMapping {
-    let words = InSpace { scale: PerAxis([(); 3].map(|()| number(random, -9.0, 9.0))), offset: vector(random) };
+    let (scale, offset) = (PerAxis([(); 3].map(|()| number(random, -9.0, 9.0))), vector(random));
     match random.below(4) {
-        0 => SolidMapping::Object(InSpace::default()),
-        1 => SolidMapping::Object(words),
-        2 => SolidMapping::World(words),
+        0 => SolidMapping::object(),
+        1 => SolidMapping::Object { scale, offset },
+        2 => SolidMapping::World { scale, offset },
         _ => mapping(random).into(),
     }
 }

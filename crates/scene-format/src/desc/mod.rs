@@ -31,10 +31,10 @@ pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{Instances, Mesh, PlacementList, Placements, RectBox, Rectangle, Shading, Sphere};
 pub use textures::{
-    Albedo, Checkerboard, Dots, Gradient, GradientAxis, InSpace, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind,
-    Pattern, SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Wood,
+    Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,
+    SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Wood,
 };
-pub(crate) use textures::{MappingWords, TextureWords, is_texture};
+pub(crate) use textures::{MappingWords, PatternWords, is_texture};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};

@@ -222,13 +222,7 @@ const MATERIALS: Hints = &[
 
 const TEXTURES: Hints = &[
     (
-        &[
-            "voronoi",
-            "colorramp",
-            "bricks",
-            "brick",
-            "wave",
-        ],
+        &["voronoi", "colorramp", "bricks", "brick", "wave"],
         "there is no such pattern: make a picture of it, and name its file: Texture(file: \"wood.png\")",
     ),
     (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),

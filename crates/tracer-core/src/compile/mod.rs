@@ -13,8 +13,8 @@ mod unmeant;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Sharing, Sphere, SphereTable,
-    PatternTable, Space, Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, PatternTable, Scene, Sharing, Space,
+    Sphere, SphereTable, Tables, TextureTable,
 };
 pub use files::check_files;
 use glam::DVec3;

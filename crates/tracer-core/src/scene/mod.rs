@@ -11,10 +11,10 @@ mod frame;
 mod light;
 mod material;
 mod mesh;
+mod pattern;
 mod sphere;
 mod statistics;
 mod table;
-mod pattern;
 mod texture;
 
 pub use camera::{Camera, Filter};
@@ -26,11 +26,11 @@ pub use material::{Albedo, Material};
 pub(crate) use material::{MaterialTable, kind};
 pub(crate) use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
+pub use pattern::{Pattern, Space};
+pub(crate) use pattern::{PatternTable, STRIDE, kind as pattern_kind};
 pub use sphere::Sphere;
 pub(crate) use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
-pub use pattern::{Pattern, Space};
-pub(crate) use pattern::{PatternTable, STRIDE, kind as pattern_kind};
 pub use texture::{Texel, TextureView};
 pub(crate) use texture::{TextureTable, TextureUse};
 

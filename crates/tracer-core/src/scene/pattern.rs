@@ -38,8 +38,8 @@ impl Pattern {
                 let [[ux, vx, x], [uy, vy, y]] = uv.rows();
                 (Space::Uv, [[ux, vx, 0.0, x], [uy, vy, 0.0, y], [0.0; 4]])
             }
-            SolidMapping::Object(by) => (Space::Object, scaled_and_moved(&by)),
-            SolidMapping::World(by) => (Space::World, scaled_and_moved(&by)),
+            SolidMapping::Object { scale, offset } => (Space::Object, scaled_and_moved(scale.0, offset)),
+            SolidMapping::World { scale, offset } => (Space::World, scaled_and_moved(scale.0, offset)),
         };
         let [a, b] = pattern.colors();
         Some(Pattern { words: words.clone(), space, map, a, b })
@@ -88,8 +88,7 @@ pub const WOOD_OCTAVES: u32 = 4;
 /// Octaves of the turbulence that bends the veins of marble.
 pub const MARBLE_OCTAVES: u32 = 6;
 
-fn scaled_and_moved(by: &desc::InSpace) -> [[f64; 4]; 3] {
-    let ([x, y, z], [dx, dy, dz]) = (by.scale.0, by.offset);
+fn scaled_and_moved([x, y, z]: [f64; 3], [dx, dy, dz]: [f64; 3]) -> [[f64; 4]; 3] {
     [[x, 0.0, 0.0, dx], [0.0, y, 0.0, dy], [0.0, 0.0, z, dz]]
 }
 

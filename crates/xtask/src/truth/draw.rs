@@ -5,10 +5,9 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Background, Checkerboard, Color, Dots, Emission, Environment, Gradient, GradientAxis, InSpace, Instances,
-    Light, Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, NamedMaterial, Noise, NoiseKind, Object,
-    PerAxis, PixelFilter, Placements, SolidMapping, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform,
-    Wood,
+    Albedo, Background, Checkerboard, Color, Dots, Emission, Environment, Gradient, GradientAxis, Instances, Light,
+    Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, NamedMaterial, Noise, NoiseKind, Object, PerAxis,
+    PixelFilter, Placements, SolidMapping, Texture, TextureFilter, TextureWrap, ThinLens, ToneMap, Transform, Wood,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -91,9 +90,9 @@ fn solid_mapping(random: &mut Random) -> SolidMapping {
     let scale = PerAxis(if once_in(random, 2) { [cells(random); 3] } else { [0; 3].map(|_| cells(random)) });
     let offset = if once_in(random, 2) { [0.0; 3] } else { [0; 3].map(|_| random.between(-3.0, 3.0)) };
     match random.below(4) {
-        0 => SolidMapping::Object(InSpace::default()),
-        1 => SolidMapping::Object(InSpace { scale, offset }),
-        2 => SolidMapping::World(InSpace { scale, offset }),
+        0 => SolidMapping::object(),
+        1 => SolidMapping::Object { scale, offset },
+        2 => SolidMapping::World { scale, offset },
         _ => mapping(random).into(),
     }
 }
@@ -114,8 +113,7 @@ fn pattern(random: &mut Random) -> Albedo {
         }
         2 => Albedo::Dots(Box::new(Dots { a, b, radius: half(random, 0.3, 0.5), mapping: mapping(random) })),
         3 => {
-            let axis =
-                one_of(random, &[GradientAxis::X, GradientAxis::Y, GradientAxis::Z, GradientAxis::Radial]);
+            let axis = one_of(random, &[GradientAxis::X, GradientAxis::Y, GradientAxis::Z, GradientAxis::Radial]);
             Albedo::Gradient(Box::new(Gradient { a, b, axis, mapping: solid }))
         }
         4 => {

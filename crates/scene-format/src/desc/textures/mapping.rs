@@ -24,16 +24,6 @@ scene_struct! {
     }
 }
 
-scene_struct! {
-    /// By coordinates in space: scaled, then moved.
-    pub struct InSpace as "InSpace", "a mapping by coordinates in space" {
-        /// So many cells of the texture a unit along each axis, or one number for all.
-        scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);
-        /// Added at last.
-        offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
-    }
-}
-
 impl Uv {
     /// Rows of the matrix (x, y, 1) from a surface's coordinates to the texture's: R(rotation)(scale uv) + offset.
     pub fn rows(&self) -> [[f64; 3]; 2] {
@@ -52,12 +42,6 @@ impl Uv {
 impl Default for Uv {
     fn default() -> Self {
         Uv { scale: PerAxis([1.0; 2]), rotation: 0.0, offset: [0.0; 2] }
-    }
-}
-
-impl Default for InSpace {
-    fn default() -> Self {
-        InSpace { scale: PerAxis([1.0; 3]), offset: [0.0; 3] }
     }
 }
 
@@ -93,9 +77,26 @@ scene_enum! {
         /// By the surface's texture coordinates: scaled, then turned, then moved.
         Uv(Uv);
         /// By the coordinates that the shape is written in, before its `transform` and `placements`: the texture goes with the object.
-        Object(InSpace);
+        Object as "a mapping by an object's coordinates" {
+            /// So many cells of the texture a unit along each axis, or one number for all.
+            scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);
+            /// Added at last.
+            offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
+        };
         /// By the scene's coordinates: objects move through the texture.
-        World(InSpace);
+        World as "a mapping by the scene's coordinates" {
+            /// So many cells of the texture a unit along each axis, or one number for all.
+            scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);
+            /// Added at last.
+            offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
+        };
+    }
+}
+
+impl SolidMapping {
+    /// By the object's coordinates as they are.
+    pub fn object() -> Self {
+        SolidMapping::Object { scale: PerAxis([1.0; 3]), offset: [0.0; 3] }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Veins of marble.
 
-use super::{InSpace, Pattern, SolidMapping};
+use super::{Pattern, SolidMapping};
 use crate::desc::Color;
 use crate::diagnostic::Spanned;
 use crate::schema::Rule;
@@ -16,7 +16,7 @@ scene_struct! {
         /// How far turbulence bends the veins, in veins.
         distortion: f64 = 1.0 => Rule::within("a distance", -1e3, 1e3);
         /// How it lies: `Object(scale: 4)` makes it four times finer.
-        mapping: SolidMapping = SolidMapping::Object(InSpace::default());
+        mapping: SolidMapping = SolidMapping::object();
     }
 }
 

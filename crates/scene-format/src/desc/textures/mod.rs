@@ -16,7 +16,7 @@ pub use gradient::{Gradient, GradientAxis};
 pub use image::{Texture, TextureFilter, TextureWrap};
 pub use lines::{Lines, LinesAlong};
 pub(crate) use mapping::MappingWords;
-pub use mapping::{InSpace, Mapping, SolidMapping, Uv};
+pub use mapping::{Mapping, SolidMapping, Uv};
 pub use marble::Marble;
 pub use noise::{Noise, NoiseKind};
 pub use wood::Wood;
@@ -56,7 +56,7 @@ macro_rules! textures {
 
         scene_enum! {
             /// A colour that differs from place to place.
-            pub(crate) enum TextureWords, "texture" {
+            pub(crate) enum PatternWords, "texture" {
                 $(#[doc = $image_doc])+
                 $Image($Image);
                 $( $(#[doc = $doc])+ $Name(Box<$Name>); )*
@@ -72,18 +72,18 @@ macro_rules! textures {
                 }
             }
 
-            fn of(words: TextureWords) -> Self {
+            fn of(words: PatternWords) -> Self {
                 match words {
-                    TextureWords::$Image(image) => Albedo::$Image(image),
-                    $( TextureWords::$Name(pattern) => Albedo::$Name(pattern), )*
+                    PatternWords::$Image(image) => Albedo::$Image(image),
+                    $( PatternWords::$Name(pattern) => Albedo::$Name(pattern), )*
                 }
             }
 
             fn as_form(&self, all: bool) -> Form {
                 match self {
                     Albedo::Color(color) => color.form(all),
-                    Albedo::$Image(image) => TextureWords::$Image(image.clone()).form(all),
-                    $( Albedo::$Name(pattern) => TextureWords::$Name(pattern.clone()).form(all), )*
+                    Albedo::$Image(image) => PatternWords::$Image(image.clone()).form(all),
+                    $( Albedo::$Name(pattern) => PatternWords::$Name(pattern.clone()).form(all), )*
                 }
             }
         }
@@ -132,7 +132,7 @@ impl Default for Albedo {
 
 /// Whether a name is that of a texture.
 pub(crate) fn is_texture(name: &str) -> bool {
-    TextureWords::DEF.variant(name).is_some()
+    PatternWords::DEF.variant(name).is_some()
 }
 
 /// Whether a name before brackets is other languages' for a colour.
@@ -141,7 +141,7 @@ fn is_color(name: &str) -> bool {
 }
 
 impl Words for Albedo {
-    const TYPE: Type = Type::OneOf(&[Type::Color, TextureWords::TYPE]);
+    const TYPE: Type = Type::OneOf(&[Type::Color, PatternWords::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         // `rgb(..)` and `red`: a colour, if not ours.
@@ -150,7 +150,7 @@ impl Words for Albedo {
             return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
-            return TextureWords::read(reader, item, at).map(Albedo::of);
+            return PatternWords::read(reader, item, at).map(Albedo::of);
         }
         <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
     }

@@ -1,6 +1,6 @@
 //! Clouds of noise.
 
-use super::{InSpace, Pattern, SolidMapping};
+use super::{Pattern, SolidMapping};
 use crate::desc::Color;
 use crate::diagnostic::Spanned;
 use crate::schema::Rule;
@@ -22,7 +22,7 @@ scene_struct! {
         /// Each octave counts so many times what the last does.
         gain: f64 = 0.5 => Rule::within("a factor", 0.0, 1.0);
         /// How it lies: `Object(scale: 4)` puts four cells of noise along a unit of length.
-        mapping: SolidMapping = SolidMapping::Object(InSpace::default());
+        mapping: SolidMapping = SolidMapping::object();
     }
 }
 
