@@ -10,6 +10,7 @@ mod explain;
 mod info;
 mod man;
 mod new;
+mod preview;
 mod render;
 mod schema;
 
@@ -28,6 +29,7 @@ use std::time::Instant;
 pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     match command {
         Command::Render(args) => render::run(args, shell, started),
+        Command::Preview(args) => preview::run(args, shell),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),

@@ -9,6 +9,7 @@ fn printing() -> Vec<Vec<&'static str>> {
     vec![
         vec!["render", "scene.ron", "-o", "-", "--format", "png"],
         vec!["render", "scene.ron", "-o", "a.png", "--report", "-"],
+        vec!["preview", "scene.ron"],
         vec!["check", "scene.ron"],
         vec!["info", "scene.ron"],
         vec!["info", "scene.ron", "--json"],

@@ -28,7 +28,7 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, LayerSet, RenderOptions, Scene, develop, render, resume};
+use tracer_core::{Counters, Crop, Film, LayerSet, Look, RenderOptions, Scene, develop, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
@@ -86,7 +86,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let image = develop(&film, &scene.look);
     let developed = clock.lap();
 
-    let provenance = provenance(args, &desc, &film);
+    let provenance = provenance(&args.scene.set, &desc, &film, &scene.look);
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -247,7 +247,8 @@ fn check_memory(crop: Crop, desc: &SceneDesc) -> Result<(), Failure> {
     }
 }
 
-fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
+/// What a film was made from, with these arguments of `--set`, for a picture in this look.
+pub(super) fn provenance(set: &[String], desc: &SceneDesc, film: &Film, look: &Look) -> Provenance {
     let (fewest, most) = film.samples().into_inner();
     let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let [width, height] = film.size();
@@ -256,14 +257,14 @@ fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
         Setting { name: "seed", value: film.seed().to_string() },
         Setting { name: "size", value: format!("{width}x{height}") },
         Setting { name: "max_bounces", value: desc.render.max_bounces.value.to_string() },
-        Setting { name: "exposure", value: desc.effects.exposure.value.to_string() },
-        Setting { name: "tone_map", value: format!("{:?}", desc.effects.tone_map) },
+        Setting { name: "exposure", value: look.exposure.to_string() },
+        Setting { name: "tone_map", value: format!("{:?}", look.tone_map) },
     ];
     let Crop { x, y, width, height } = film.crop();
     if film.crop() != Crop::whole(film.size()) {
         settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
     }
-    settings.extend(args.scene.set.iter().map(|set| Setting { name: "set", value: set.clone() }));
+    settings.extend(set.iter().map(|set| Setting { name: "set", value: set.clone() }));
     let source = desc.sources.first();
     let name = source.map_or("", |source| source.name.as_str());
     Provenance {
