@@ -49,7 +49,7 @@ pub mod sampling;
 pub mod scene;
 pub mod texture;
 
-pub use compile::{CompileError, CompileTimes, check_files, compile, named_files};
+pub use compile::{CompileError, CompileTimes, Kept, check_files, compile, compile_keeping, named_files};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{
     Costs, Counters, Misfit, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render, resume,

@@ -4,11 +4,12 @@
 //! ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to a size of about one, and its instances
 //! carry matrices.
 
+use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
 use super::placing::place as place_matrix;
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
-use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
+use crate::mesh::{MeshData, NO_INDEX, normals::vertex_normals, placements::load_placements};
 use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -18,11 +19,12 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The meshes of a scene: its files, and the shapes that are made of triangles.
 pub struct Loaded {
     /// Each file once, then each shape once.
-    files: Vec<MeshData>,
+    files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
 }
@@ -30,7 +32,7 @@ pub struct Loaded {
 impl Loaded {
     /// The mesh of an object of triangles, if it could be loaded.
     pub fn file(&self, object: usize) -> Option<&MeshData> {
-        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file))
+        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file)).map(|file| &**file)
     }
 
     /// The MTL files that were read.
@@ -40,7 +42,7 @@ impl Loaded {
 }
 
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
-pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
+pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
@@ -67,14 +69,14 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
             }
         });
     }
-    let results: Vec<_> = paths.par_iter().map(|(path, _)| mesh::load(path)).collect();
+    let results: Vec<_> = paths.par_iter().map(|(path, _)| load_mesh(kept, path)).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
     for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
-            Ok(mut data) => {
-                let told = data.warnings.drain(..).filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
-                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w }));
+            Ok(data) => {
+                let told = data.warnings.iter().filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
+                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w.clone() }));
                 file_of_path.push(Some(files.len()));
                 files.push(data);
             }
@@ -85,7 +87,7 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
         }
     }
     let first_shape = files.len();
-    files.extend(shapes.iter().map(|shape| shape.mesh()));
+    files.extend(shapes.iter().map(|shape| Arc::new(shape.mesh())));
     let of_geometry = |geometry| match geometry {
         Geometry::File(path) => file_of_path[path],
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
@@ -394,7 +396,8 @@ impl Built {
         acceleration: bvh::Acceleration,
         spheres: &[bvh::SphereGeometry],
         first_primitive: u32,
-    ) -> Result<bvh::Accel, bvh::BuildError> {
+        kept: Option<&Kept>,
+    ) -> Result<Arc<bvh::Accel>, bvh::BuildError> {
         let t = &self.triangles;
         let meshes: Vec<bvh::MeshGeometry> = self
             .meshes
@@ -407,7 +410,7 @@ impl Built {
             .collect();
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
-        bvh::Accel::build(&bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
+        build_tree(kept, &bvh::Geometry { spheres, meshes: &meshes, instances: &instances }, acceleration)
     }
 
     /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].
