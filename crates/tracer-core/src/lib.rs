@@ -55,6 +55,7 @@ pub use engine::{
     Costs, Counters, Misfit, Observer, Progress, RenderOptions, Stage, Statistics, TreeWork, Unobserved, render, resume,
 };
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
+pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use layers::LayerSet;
 pub use level::Level;
 pub use scene::Scene;

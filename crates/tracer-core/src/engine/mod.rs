@@ -21,7 +21,7 @@ pub(crate) use batch::LayerSamples;
 pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};
 pub use statistics::{Costs, Stage, Statistics, TreeWork};
 
-use crate::film::{Cells, Crop, Film, FilmState};
+use crate::film::{Cells, Crop, Film, FilmState, Part};
 use crate::layers::LayerSet;
 use crate::level::Level;
 use crate::sampling::blocks::{BLOCK_PIXELS, Block, ITEM_PIXELS, Item, QUARTERS, TILE};
@@ -50,6 +50,9 @@ pub struct RenderOptions {
     pub seed: Option<u32>,
     /// The part of the picture to render; the same bytes as that part of the whole.
     pub crop: Option<Crop>,
+    /// A part of the rendering, to be merged with the others later ([`Film::merge`]): its crop and samples are then those of the rendering. Goals
+    /// of the scene (noise, time) are for whole renderings, and do not count.
+    pub part: Option<Part>,
     /// Worker threads; 0: one per core.
     pub threads: usize,
     /// The vector instructions of stages and tree; the bytes are the same for all.
@@ -153,13 +156,15 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
 /// When it has more samples than are asked for.
 pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
     let fresh = new_film(scene, options);
+    fits("set of samples", !film.has_gaps())?;
     fits("size", film.size() == fresh.size())?;
     fits("crop", film.crop() == fresh.crop())?;
+    fits("part", film.part() == fresh.part())?;
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
     fits("set of layers", film.has_layers_of(&fresh))?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
-    let samples = options.samples.unwrap_or(scene.samples);
+    let samples = samples(scene, options);
     let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
     if samples < held {
         return Err(Misfit::Samples { held, asked: samples });
@@ -173,18 +178,25 @@ fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
 
 /// A film without samples.
 fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
-    let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
+    let crop =
+        options.part.map(|part| part.crop).or(options.crop).unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
     let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
     film.keep_layers(options.layers.unwrap_or(scene.layers), scene);
+    film.keep_part(options.part);
     film
+}
+
+/// The sample index that a rendering ends before.
+fn samples(scene: &Scene, options: &RenderOptions) -> u32 {
+    options.part.map(|part| part.end).or(options.samples).unwrap_or(scene.samples)
 }
 
 /// Adds the samples that a film lacks.
 fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
     let level = options.level.unwrap_or_else(Level::best);
     let kernels = Kernels::new(level);
-    let samples = options.samples.unwrap_or(scene.samples);
+    let samples = samples(scene, options);
     let crop = film.crop();
     let threads = if options.threads == 0 { available_threads() } else { options.threads };
     (film.level, film.threads) = (level, threads);
@@ -202,7 +214,8 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         task: trace::Task::Picture,
         layers: LayerSet::default(),
     };
-    let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
+    let samples_total =
+        u64::from(crop.width) * u64::from(crop.height) * u64::from(samples.saturating_sub(film.first()));
     let workers: Vec<Mutex<Worker>> = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
     for worker in &workers {
         lock(worker).batch.watch.start(options.statistics);
@@ -223,9 +236,10 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         fits("caustics", film.caustics == guides.is_some())?;
         let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
         fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= grid.len()))?;
+    }
+    if let Some(last) = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end).checked_sub(1) {
         // What was made before is made again, and counted no second time.
         if let Some(guides) = &mut guides {
-            let last = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end) - 1;
             guides.prepare(scene, &kernels, &(last..last + 1), &workers);
         }
         workers.iter().for_each(|worker| lock(worker).batch.counters = Counters::default());
@@ -234,9 +248,10 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     let before = (film.counters, film.costs);
     let done = AtomicU64::new(if resumed { film.camera_samples() } else { 0 });
     let stopped = AtomicBool::new(false);
-    let noise = options.noise.or(scene.noise);
+    let of_scene = options.part.is_none();
+    let noise = options.noise.or(scene.noise.filter(|_| of_scene));
     // A time that no clock can hold is none.
-    let time = scene.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     let until = options.until.or_else(|| Instant::now().checked_add(time?));
     let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(noise.is_some());
     let mut keeper = None;
@@ -266,7 +281,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
             share_of_blocks,
             observer,
             samples_total,
-            until: until.filter(|_| film.whole > 0),
+            until: until.filter(|_| film.whole > film.first()),
             done: &done,
             stopped: &stopped,
         };
