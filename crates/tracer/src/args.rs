@@ -20,8 +20,8 @@ Examples:
   tracer render scenes/fig4.ron -o fig4.png --samples 100
 Exit codes: 0 done, 1 failed, 2 wrong input, 130 interrupted (TERM 143, HUP 129)";
 
-/// No headings and no empty lines but these: help fits a screen of 24 lines.
-const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n\n{options}{after-help}";
+/// No headings, and no empty line but before the examples: help fits a screen of 24 lines.
+const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
