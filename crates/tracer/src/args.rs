@@ -11,6 +11,7 @@ use std::time::Duration;
 use tracer_core::{Crop, LayerSet};
 
 const EXAMPLES: &str = "\
+More: bench-acceleration, bench-figures, schema, completions, man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100

@@ -12,9 +12,13 @@ use tracer_core::mesh::MeshFormat;
 /// The parts of a command's help, without headings.
 const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{options}{after-help}";
 
+/// The commands that a screen of help names in its line "More" alone.
+const MORE: [&str; 5] = ["bench-acceleration", "bench-figures", "schema", "completions", "man"];
+
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
-    Cli::command()
+    MORE.into_iter()
+        .fold(Cli::command(), |cli, name| cli.mut_subcommand(name, |command| command.hide(true)))
         .mut_subcommands(|command| command.help_template(TEMPLATE))
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
@@ -129,6 +133,13 @@ fn of_option(option: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_help_hides_its_last_lines_name() {
+        let help = command().render_help().to_string();
+        let more = help.lines().find_map(|line| line.strip_prefix("More: ")).expect("a line of the other commands");
+        assert!(more.split(", ").eq(MORE), "{more}");
+    }
 
     #[test]
     fn help_and_scenes_are_commands() {
