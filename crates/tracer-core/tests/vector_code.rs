@@ -37,9 +37,7 @@ fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
         let inlined = ["core_arch", "lanes::", "engine::stages::", "math::vector"];
         // Curved shapes are looked up one by one in double precision, by a call on purpose.
         let one_by_one = line.contains("engine::stages::shapes::find");
-        // The profile `dev` leaves twelve loads of `shade` standing as calls since metals came; the release has none.
-        let left_by_dev = cfg!(debug_assertions) && line.contains("_mm512_loadu_ps");
-        if line.contains("call") && !one_by_one && !left_by_dev && inlined.iter().any(|word| line.contains(word)) {
+        if line.contains("call") && !one_by_one && inlined.iter().any(|word| line.contains(word)) {
             counted.calls.push(line.to_owned());
         }
     }

@@ -7,7 +7,8 @@
 //! A hit is a pure function of the ray and the primitive (and the instance it is in): `triangle` and
 //! [`sphere_hit`] say which, operation by operation, and [`Row::hit`](crate::shapes::Row::hit) of other shapes. A triangle that leaves its box empty is cut, and is hit where the first
 //! of its parts is; how it is cut depends on nothing but the geometry. Of all hits with 0 < t the closest wins, and of those
-//! equally far the one with the smaller (primitive, instance). Boxes only leave out what cannot win. So the answer
+//! equally far the one with the smaller (primitive, instance). Of triangles in one plane that overlap, one wins wherever
+//! both are (`coplanar`). Boxes only leave out what cannot win. So the answer
 //! depends neither on the [`Acceleration`], nor on the [`Level`] of vector instructions, the batch, the order of its
 //! rays, or the threads that built the tree.
 //!
@@ -18,6 +19,7 @@
 mod arena;
 mod bounds;
 mod build;
+mod coplanar;
 mod geometry;
 mod kernels;
 mod layout;
@@ -38,6 +40,7 @@ pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
 
 use crate::level::Level;
 use arena::Arena;
+use coplanar::{Coplanar, Precedence};
 use kernels::{Batch, MeshRecord, TreeView};
 use layout::{INSTANCE_UNITS, InstanceRecord, Ref};
 
@@ -117,6 +120,7 @@ pub struct Accel {
     instances: u32,
     size: f32,
     level: Level,
+    coplanar: Option<Coplanar>,
     stats: AccelStats,
 }
 
@@ -151,7 +155,16 @@ impl Accel {
     /// # Errors
     /// Geometry that refers to what is not there, lies beyond the range of f32 arithmetic, or is too large.
     pub fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<Self, BuildError> {
-        build::build(geometry, acceleration)
+        Self::build_with(geometry, acceleration, &|_, _| 0)
+    }
+
+    /// As [`build`](Self::build), where of triangles in one plane those of the least precedence win.
+    pub(crate) fn build_with(
+        geometry: &Geometry,
+        acceleration: Acceleration,
+        precedence: Precedence,
+    ) -> Result<Self, BuildError> {
+        build::build(geometry, acceleration, precedence)
     }
 
     /// The same structure, asked by itself with another level of vector instructions. The answers are the same. A
@@ -200,6 +213,9 @@ impl Accel {
     ) -> Counters {
         let mut counters = Counters::default();
         kernels::closest::<COUNT>(level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
+        if let Some(coplanar) = &self.coplanar {
+            coplanar.settle(rays, active, hits);
+        }
         counters
     }
 
@@ -236,7 +252,20 @@ impl Accel {
         coherence: Coherence,
     ) -> Counters {
         let mut counters = Counters::default();
-        kernels::occluded::<COUNT>(level, coherence, &self.view(), Batch { rays, active }, occlusion, &mut counters);
+        let (view, batch) = (self.view(), Batch { rays, active });
+        let Some(coplanar) = &self.coplanar else {
+            kernels::occluded::<COUNT>(level, coherence, &view, batch, occlusion, &mut counters);
+            return counters;
+        };
+        let ends = coplanar.ends(rays, active, occlusion);
+        let mut shorter = Occlusion {
+            tmax: &ends,
+            target_primitive: occlusion.target_primitive,
+            target_instance: occlusion.target_instance,
+            occluded: &mut *occlusion.occluded,
+        };
+        kernels::occluded::<COUNT>(level, coherence, &view, batch, &mut shorter, &mut counters);
+        coplanar.cover(rays, active, occlusion);
         counters
     }
 
@@ -248,6 +277,12 @@ impl Accel {
     /// The boxes one level further down: what has been said of those above holds for these, too.
     pub(crate) fn second_boxes(&self) -> &SecondBoxes {
         &self.second
+    }
+
+    /// How far rays start off each triangle at least, by its place among the triangles: 0 but for those that lie in
+    /// one plane with others and overlap them. `None` where there are none.
+    pub(crate) fn coplanar_offsets(&self) -> Option<&[f32]> {
+        self.coplanar.as_ref().map(Coplanar::offsets)
     }
 
     /// The tree's bytes, for comparing builds.

@@ -91,6 +91,11 @@ pub(crate) fn hit_of_part(ray: &RaySpace, tmin: f32, triangle: [[f32; 3]; 3], pa
     here.then(|| clamped(passage.t, near, far) - tmin).filter(|t| *t > 0.0)
 }
 
+/// Whether a ray's line passes through a triangle.
+pub(crate) fn passes(ray: &RaySpace, triangle: [[f32; 3]; 3]) -> bool {
+    Passage::of(ray, triangle).is_some()
+}
+
 /// How a ray's line passes through a triangle.
 struct Passage {
     /// The corners, sheared.

@@ -9,7 +9,7 @@ use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
 use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals};
-use crate::scene::{FlatLight, Frame, Instance, Light, Mesh, NONE, Triangles};
+use crate::scene::{BxdfFlags, FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -369,9 +369,21 @@ impl Built {
         spheres: &[bvh::SphereGeometry],
         shapes: &[bvh::ShapeGeometry],
         first_shape: u32,
+        materials: &[Material],
     ) -> Result<bvh::Accel, bvh::BuildError> {
         let first_primitive = first_shape + shapes.len() as u32;
         let t = &self.triangles;
+        // Of surfaces in one place: what shines, then what lets no light through.
+        let precedence = |primitive: u32, instance: u32| {
+            let triangle = (primitive - first_primitive) as usize;
+            let whole = self.instances[instance as usize].material;
+            let material = if whole == NONE { t.material[triangle] } else { whole };
+            match materials.get(material as usize) {
+                _ if t.light.get(triangle).is_some_and(|&light| light != NONE) => 0,
+                Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => 2,
+                _ => 1,
+            }
+        };
         let meshes: Vec<bvh::MeshGeometry> = self
             .meshes
             .iter()
@@ -384,7 +396,8 @@ impl Built {
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
-        bvh::Accel::build(&bvh::Geometry { spheres, shapes, first_shape, meshes, instances }, acceleration)
+        let geometry = bvh::Geometry { spheres, shapes, first_shape, meshes, instances };
+        bvh::Accel::build_with(&geometry, acceleration, &precedence)
     }
 
     /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].

@@ -15,8 +15,8 @@ mod unmeant;
 
 use crate::bvh;
 use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, Scene, Shape, ShapeTable, Sharing,
-    Sphere, SphereTable, Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, Scene, Shape, ShapeTable,
+    Sharing, Sphere, SphereTable, Tables, TextureTable,
 };
 use curved::Curved;
 pub use files::check_files;
@@ -123,14 +123,14 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built)
+    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built)
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built, &materials)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
                 .map(|accel| boxes_of(&accel))
         }
@@ -251,6 +251,7 @@ fn build_tree(
     in_tree: usize,
     shapes: &[Shape],
     built: &meshes::Built,
+    materials: &[Material],
 ) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
     if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
         return Ok(None);
@@ -263,7 +264,7 @@ fn build_tree(
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
     let shapes: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
-    built.tree(acceleration, &hung, &shapes, spheres.len() as u32).map(Some).map_err(|error| {
+    built.tree(acceleration, &hung, &shapes, spheres.len() as u32, materials).map(Some).map_err(|error| {
         Box::new(
             Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),

@@ -254,16 +254,19 @@ impl Lanes for F16 {
     }
     #[inline(always)]
     fn gather(table: &[f32], index: U16) -> Self {
-        // Small tables are looked up by a permutation within one or two registers: a fifth of a gather's time.
+        // Small tables are looked up by a permutation within one or two registers: a fifth of a gather's time. Plain reads, since the
+        // compiler leaves some of the intrinsic's loads standing as calls in functions as large as `shade`.
         // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
         unsafe {
             let n = table.len();
             if n == 32 {
                 let index = index.clamped(n);
-                let (a, b) = (_mm512_loadu_ps(table.as_ptr()), _mm512_loadu_ps(table.as_ptr().add(16)));
+                let table: *const __m512 = table.as_ptr().cast();
+                let (a, b) = (table.read_unaligned(), table.add(1).read_unaligned());
                 F16(_mm512_permutex2var_ps(a, index, b))
             } else if n == 16 {
-                F16(_mm512_permutexvar_ps(index.clamped(n), _mm512_loadu_ps(table.as_ptr())))
+                let table: *const __m512 = table.as_ptr().cast();
+                F16(_mm512_permutexvar_ps(index.clamped(n), table.read_unaligned()))
             } else {
                 F16(_mm512_i32gather_ps::<4>(index.clamped(n), table.as_ptr().cast()))
             }

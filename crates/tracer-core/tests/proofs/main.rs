@@ -11,6 +11,7 @@ mod caustics;
 mod clamp;
 mod compiling;
 mod convergence;
+mod coplanar;
 mod curved;
 mod environment;
 mod figures;

@@ -12,8 +12,47 @@ const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
 const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
 const SRGB: &str = "crates/tracer-core/src/develop/srgb.rs";
 
+const TREE: &str = "crates/tracer-core/src/bvh/mod.rs";
+const COPLANAR: &str = "crates/tracer-core/src/bvh/coplanar/mod.rs";
+const COPLANAR_FIND: &str = "crates/tracer-core/src/bvh/coplanar/find.rs";
+
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "coplanar-whoever-is-found-wins",
+        file: TREE,
+        find: "coplanar.settle(rays, active, hits);",
+        replace: "let _ = coplanar;",
+        caught_by: suite("bvh_coplanar", &[]),
+    },
+    Mutant {
+        name: "coplanar-rays-end-in-the-plane",
+        file: COPLANAR,
+        find: "if before < ends[ray] { ends[ray] - before } else { 0.0 };",
+        replace: "if before < ends[ray] { ends[ray] } else { 0.0 };",
+        caught_by: suite("bvh_coplanar", &["rays_to_what_loses"]),
+    },
+    Mutant {
+        name: "coplanar-losers-are-reached",
+        file: TREE,
+        find: "coplanar.cover(rays, active, occlusion);",
+        replace: "",
+        caught_by: suite("bvh_coplanar", &["rays_to_what_loses"]),
+    },
+    Mutant {
+        name: "coplanar-lamps-lose",
+        file: COPLANAR_FIND,
+        find: "let rank = |face: &Face| (face.precedence, face.primitive, face.instance);",
+        replace: "let rank = |face: &Face| (0, face.primitive, face.instance);",
+        caught_by: proofs(&["coplanar::"]),
+    },
+    Mutant {
+        name: "coplanar-real-gaps-are-none",
+        file: COPLANAR_FIND,
+        find: "let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2.0, corners);",
+        replace: "let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2000.0, corners);",
+        caught_by: suite("bvh_coplanar", &["what_is_apart"]),
+    },
     Mutant {
         name: "one-bounce-too-many",
         file: COMPILE,

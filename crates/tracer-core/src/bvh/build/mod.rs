@@ -11,6 +11,7 @@ mod wide;
 
 use super::arena::Arena;
 use super::bounds::Bounds;
+use super::coplanar::{Coplanar, Precedence};
 use super::geometry::{Geometry, NONE, ShapeGeometry};
 use super::kernels::{DEEPEST, MeshRecord};
 use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
@@ -103,7 +104,11 @@ struct Tree<'a> {
     contents: Contents<'a>,
 }
 
-pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<Accel, BuildError> {
+pub(crate) fn build(
+    geometry: &Geometry,
+    acceleration: Acceleration,
+    precedence: Precedence,
+) -> Result<Accel, BuildError> {
     let start = Instant::now();
     check(geometry)?;
     let mut direct = vec![NONE; geometry.meshes.len()];
@@ -173,6 +178,7 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
     // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
     assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
     let table_bytes = meshes.len() * size_of::<MeshRecord>();
+    let coplanar = Coplanar::find(geometry, precedence);
     let stats = AccelStats {
         triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
         parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),
@@ -197,6 +203,7 @@ pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<A
         instances: instances as u32,
         size: size_of_scene(&world.contents.bounds),
         level: Level::best(),
+        coplanar,
         stats,
     })
 }

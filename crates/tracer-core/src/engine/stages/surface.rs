@@ -1,6 +1,7 @@
 //! From a hit to the surface there: point, normals, texture coordinates, material.
 
 use super::shapes::on_shapes;
+use crate::bvh::Accel;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, acos, atan2_turns};
 use crate::scene::{NONE, Scene};
@@ -233,7 +234,10 @@ fn on_triangles<F: Lanes>(
     let ng = V3::select(outside, n, n.neg());
     // All of it along the normal, whatever its direction: a ray that starts on the edge of two coplanar triangles must not meet the
     // other one, whose distance is wrong by its vertices' coordinates, not by those across the plane (which may be zero).
-    let offset = error.0 + error.1 + error.2;
+    let mut offset = error.0 + error.1 + error.2;
+    if let Some(offsets) = scene.accel.as_ref().and_then(Accel::coplanar_offsets) {
+        offset = offset.max(F::gather(offsets, triangle));
+    }
 
     let mut ns = ng;
     let mut start = p;

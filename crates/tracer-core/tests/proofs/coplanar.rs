@@ -1,0 +1,220 @@
+//! Surfaces in one plane do not speckle: one of them wins everywhere, whatever the distance, the angle, the attitude and the kind
+//! of ray. Under a white sky a plane's radiance is its albedo, sample by sample, so there is no noise to hide anything.
+
+use crate::support::describe::*;
+use crate::support::meshes::square;
+use crate::support::{compiled, film};
+use glam::{DQuat, DVec3};
+use scene_format::SceneDesc;
+use scene_format::desc::{
+    Amount, Emissive, Material, MaterialRef, Object, PerAxis, PixelFilter, Placements, RectBox, Rectangle, Shading,
+    Transform,
+};
+use scene_format::diagnostic::Spanned;
+
+const SIZE: u32 = 32;
+const RED: [f64; 3] = [0.8, 0.1, 0.2];
+const BLUE: [f64; 3] = [0.1, 0.3, 0.9];
+
+/// Where the plane y = 0 of a description stands.
+#[derive(Clone, Copy, Debug)]
+struct Attitude {
+    axis: DVec3,
+    degrees: f64,
+    place: DVec3,
+}
+
+impl Attitude {
+    fn point(&self, p: DVec3) -> DVec3 {
+        self.place + DQuat::from_axis_angle(self.axis, self.degrees.to_radians()) * p
+    }
+
+    /// The transforms of something that is turned by `turn` degrees in the plane, at `at`.
+    fn steps(&self, turn: f64, at: [f64; 3]) -> Vec<Transform> {
+        let about = |axis: [f64; 3], degrees: f64| Transform::Rotate { axis, degrees, about: Some(Box::new([0.0; 3])) };
+        vec![
+            about([0.0, 1.0, 0.0], turn),
+            Transform::Translate(at),
+            about(self.axis.to_array(), self.degrees),
+            Transform::Translate(self.place.to_array()),
+        ]
+    }
+}
+
+fn of(material: Material) -> MaterialRef {
+    MaterialRef::Inline(Box::new(material.into()))
+}
+
+fn rectangle(size: f64, material: Material, transform: Vec<Transform>) -> Object {
+    Object::Rectangle(Box::new(Rectangle {
+        size: PerAxis([size; 2]).into(),
+        material: of(material),
+        transform: transform.into_iter().map(Spanned::from).collect(),
+        center: [0.0; 3].into(),
+        normal: [0.0, 1.0, 0.0].into(),
+        placements: Placements::One,
+    }))
+}
+
+/// A square of half side `size / 2` as an instance; its copy lies far away in the same plane, where nothing sees it.
+fn instance(size: f64, material: Material, mut transform: Vec<Transform>, attitude: &Attitude) -> Object {
+    transform.insert(0, scale(size / 2.0));
+    let away = attitude.point(DVec3::X * 500.0) - attitude.place;
+    let copies = Placements::List(Box::new(
+        [vec![], vec![Spanned::from(Transform::Translate(away.to_array()))]].into_iter().collect(),
+    ));
+    placed(&square(1.0).obj("square-1"), material, Shading::Flat, transform, copies)
+}
+
+/// What lies in the plane at each pixel: a point of the plane, seen from `eye`.
+fn points(eye: DVec3, look_at: DVec3, up: DVec3, fov: f64) -> Vec<DVec3> {
+    let forward = (look_at - eye).normalize();
+    let right = forward.cross(up).normalize();
+    let (up, half) = (right.cross(forward), (fov / 2.0).to_radians().tan());
+    let across = |k: u32| ((f64::from(k) + 0.5) / f64::from(SIZE) * 2.0 - 1.0) * half;
+    let pixels = (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)));
+    pixels
+        .map(|(x, y)| {
+            let d = forward + across(x) * right - across(y) * up;
+            eye - d * (eye.y / d.y)
+        })
+        .collect()
+}
+
+/// A sheet of 8 by 8 and a tile of 3 by 3 that is turned by 25 degrees, in the plane y = 0 of an attitude.
+fn is_on_tile(p: DVec3) -> Option<bool> {
+    let q = DQuat::from_rotation_y(-25f64.to_radians()) * (p - DVec3::new(0.4, 0.0, 0.2));
+    let beside = q.x.abs().max(q.z.abs()) - 1.5;
+    (beside.abs() > 0.02).then_some(beside < 0.0)
+}
+
+#[test]
+fn the_first_is_seen_wherever_it_is() {
+    let attitudes = [
+        Attitude { axis: DVec3::X, degrees: 0.0, place: DVec3::ZERO },
+        Attitude { axis: DVec3::Z, degrees: 90.0, place: DVec3::new(0.3, 0.7, -0.2) },
+        Attitude { axis: DVec3::new(0.48, 0.6, 0.64), degrees: 47.0, place: DVec3::new(1.3, -2.7, 3.1) },
+        Attitude { axis: DVec3::new(-0.8, 0.0, 0.6), degrees: 161.0, place: DVec3::new(40.0, 20.0, -70.0) },
+    ];
+    for (round, attitude) in attitudes.into_iter().enumerate() {
+        // Near; at a grazing angle; far away; from below.
+        for (view, eye, fov) in [
+            ("near", DVec3::new(1.0, 3.0, 2.5), 60.0),
+            ("grazing", DVec3::new(0.0, 0.12, 4.0), 30.0),
+            ("far", DVec3::new(300.0, 400.0, 250.0), 0.5),
+            ("below", DVec3::new(-0.5, -2.0, 2.0), 60.0),
+        ] {
+            for kind in 0..4 {
+                let (sheet_first, instanced) = (kind & 1 == 0, kind & 2 != 0);
+                let sheet = rectangle(8.0, diffuse(RED), attitude.steps(0.0, [0.0; 3]));
+                let steps = attitude.steps(25.0, [0.4, 0.0, 0.2]);
+                let tile = match instanced {
+                    true => instance(3.0, diffuse(BLUE), steps, &attitude),
+                    false => rectangle(3.0, diffuse(BLUE), steps),
+                };
+                let objects = if sheet_first { vec![sheet, tile] } else { vec![tile, sheet] };
+                let mut desc = scene(SIZE, vec![], objects)
+                    .background([1.0; 3])
+                    .camera(attitude.point(eye).to_array(), attitude.point(DVec3::ZERO).to_array(), fov)
+                    .bounces(2)
+                    .filter(PixelFilter::None);
+                let turned_up = attitude.point(DVec3::Y) - attitude.place;
+                desc.camera.up = turned_up.to_array().into();
+                let film = film(&compiled(&desc), 4, round as u32);
+                let mut told = 0;
+                for (k, p) in (0u32..).zip(points(eye, DVec3::ZERO, DVec3::Y, fov)) {
+                    let (Some(on_tile), beside) = (is_on_tile(p), p.x.abs().max(p.z.abs())) else { continue };
+                    // Above the horizon there is no such point.
+                    if beside > 3.9 || (p - eye).length() > 10.0 * eye.length() {
+                        continue;
+                    }
+                    let expected = if on_tile && !sheet_first { BLUE } else { RED };
+                    let seen = film.radiance(k % SIZE, k / SIZE);
+                    let same = (0..3).all(|c| (seen[c] - expected[c]).abs() < 1e-4);
+                    assert!(same, "round {round}, {view}, kind {kind}, pixel {k}: {seen:?}, not {expected:?}");
+                    told += usize::from(on_tile);
+                }
+                assert!(told > 60, "{view} shows {told} pixels of the tile");
+            }
+        }
+    }
+}
+
+/// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole.
+#[test]
+fn a_lamp_let_into_the_ceiling_shines() {
+    let emissive =
+        Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([3.0; 3]).into(), two_sided: false }));
+    for turn in [0.0, 33.0] {
+        let attitude = Attitude { axis: DVec3::new(0.6, 0.0, 0.8), degrees: turn, place: DVec3::new(0.1, 0.2, 0.3) };
+        let down = |mut steps: Vec<Transform>| {
+            let over = Transform::Rotate { axis: [1.0, 0.0, 0.0], degrees: 180.0, about: Some(Box::new([0.0; 3])) };
+            steps.insert(0, over);
+            steps
+        };
+        let up = [0.0, 2.0, 0.0];
+        let lamp = rectangle(1.3, emissive.clone(), down(attitude.steps(25.0, up)));
+        let ceiling = rectangle(7.0, diffuse([0.5; 3]), down(attitude.steps(0.0, up)));
+        let floor = rectangle(60.0, diffuse([0.5; 3]), attitude.steps(10.0, [0.0; 3]));
+        let seen = |objects: Vec<Object>, eye: DVec3, look_at: DVec3| {
+            let desc = scene(SIZE, vec![], objects)
+                .camera(attitude.point(eye).to_array(), attitude.point(look_at).to_array(), 50.0)
+                .bounces(0);
+            let film = film(&compiled(&desc), 16, 1);
+            (0..SIZE * SIZE).map(|k| film.radiance(k % SIZE, k / SIZE)).collect::<Vec<_>>()
+        };
+        let eye = DVec3::new(1.0, 1.5, 2.0);
+        let below = DVec3::new(0.0, 0.0, -0.4);
+        let alone = seen(vec![lamp.clone(), floor.clone()], eye, below);
+        let with = seen(vec![ceiling.clone(), floor.clone(), lamp.clone()], eye, below);
+        for (k, (a, b)) in alone.iter().zip(&with).enumerate() {
+            assert!((a[0] - b[0]).abs() <= 1e-4 * a[0], "turned by {turn}, pixel {k}: {b:?}, not {a:?}");
+        }
+        assert!(alone.iter().filter(|c| c[0] > 0.0).count() > 900);
+        let eye = DVec3::new(0.05, 1.4, 0.02);
+        let whole = seen(vec![ceiling.clone(), floor.clone(), lamp.clone()], eye, DVec3::new(0.0, 2.0, 0.0));
+        assert!(whole.iter().all(|c| (c[0] - 3.0).abs() < 1e-4), "the lamp is not whole");
+    }
+}
+
+/// Glass that changes nothing, standing on a table, changes nothing: the table shows through it, whichever comes first.
+#[test]
+fn glass_on_a_table_shows_the_table() {
+    for first in [false, true] {
+        let table = rectangle(80.0, diffuse([0.5; 3]), vec![]);
+        let cube = Object::Box(Box::new(RectBox {
+            center: [0.1, 0.6, 0.0].into(),
+            size: PerAxis([1.2; 3]).into(),
+            material: of(glass(1.0)),
+            transform: Vec::new(),
+            placements: Placements::One,
+        }));
+        let objects = if first { vec![cube, table] } else { vec![table, cube] };
+        let desc =
+            scene(SIZE, vec![], objects).background([1.0; 3]).camera([1.5, 2.5, 3.0], [0.0; 3], 30.0).bounces(12);
+        let film = film(&compiled(&desc), 16, 1);
+        for k in 0..SIZE * SIZE {
+            let seen = film.radiance(k % SIZE, k / SIZE);
+            assert!((seen[0] - 0.5).abs() < 1e-4, "glass first: {first}, pixel {k}: {seen:?}");
+        }
+    }
+}
+
+/// A real gap of a ten-thousandth of the scene stays one: the upper of two sheets is seen from above, the lower from below.
+#[test]
+fn a_thin_gap_stays() {
+    for eye in [DVec3::new(0.5, 2.0, 1.0), DVec3::new(0.5, -2.0, 1.0)] {
+        let sheet = rectangle(4.0, diffuse(RED), vec![]);
+        let tile = rectangle(3.0, diffuse(BLUE), vec![Transform::Translate([0.0, 4e-4, 0.0])]);
+        let desc: SceneDesc = scene(SIZE, vec![], vec![sheet, tile])
+            .background([1.0; 3])
+            .camera(eye.to_array(), [0.0; 3], 20.0)
+            .bounces(2);
+        let film = film(&compiled(&desc), 4, 1);
+        let expected = if eye.y > 0.0 { BLUE } else { RED };
+        for k in 0..SIZE * SIZE {
+            let seen = film.radiance(k % SIZE, k / SIZE);
+            assert!((0..3).all(|c| (seen[c] - expected[c]).abs() < 1e-4), "{eye}, pixel {k}: {seen:?}");
+        }
+    }
+}
