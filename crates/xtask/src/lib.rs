@@ -1,6 +1,6 @@
-//! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`] its pictures,
-//! [`layers`] its source, [`prove`] all that takes longer. [`cat`] and [`gallery`] are pure functions from nothing to
-//! files: no randomness, no network.
+//! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`] and
+//! [`sweeps`] its pictures, [`layers`] its source, [`prove`] all that takes longer. [`cat`] and [`gallery`] are pure
+//! functions from nothing to files: no randomness, no network.
 
 #![forbid(unsafe_code)]
 
@@ -13,6 +13,7 @@ pub mod mutants;
 pub mod noise;
 pub mod picture;
 pub mod prove;
+pub mod sweeps;
 pub mod truth;
 
 pub use file::File;

@@ -78,6 +78,33 @@ enum Command {
         #[arg(long)]
         pairs: Option<usize>,
     },
+    /// Changes parameters of scenes step by step and shows that neither noise nor mean jumps; fails where one does.
+    Sweeps {
+        /// Steps of each parameter; films have 24 frames at most.
+        #[arg(long, default_value_t = 40)]
+        steps: usize,
+        /// Pictures of each step, default and plain.
+        #[arg(long, default_value_t = 12)]
+        pictures: u32,
+        /// Samples per pixel.
+        #[arg(long, default_value_t = 4)]
+        samples: u32,
+        /// Pixels along a side.
+        #[arg(long, default_value_t = 64)]
+        size: u32,
+        /// Only sweeps whose names contain this.
+        #[arg(long, default_value = "")]
+        name: String,
+    },
+    /// Measures squares in the noise of ten rooms where light is hard to find; fails where one may show.
+    Rooms {
+        /// Samples per pixel; several are measured one after the other.
+        #[arg(long, value_delimiter = ',', default_values_t = [4, 16, 64, 256])]
+        samples: Vec<u32>,
+        /// Only rooms whose names contain this.
+        #[arg(long, default_value = "")]
+        name: String,
+    },
 }
 
 /// What can be done with golden pictures.
@@ -120,6 +147,17 @@ fn main() -> anyhow::Result<()> {
             return Ok(());
         }
         Command::Prove { names, all, .. } => return xtask::prove::run(&root, &xtask::prove::chosen(&names, all)?),
+        Command::Sweeps { steps, pictures, samples, size, name } => {
+            let options = xtask::sweeps::Options { steps, pictures, samples, size, name, only: 0..steps };
+            let jumps = xtask::sweeps::run(&options)?;
+            anyhow::ensure!(jumps == 0, "{jumps} jumps are too large");
+            return Ok(());
+        }
+        Command::Rooms { samples, name } => {
+            let above = xtask::truth::rooms::run(&samples, &name)?;
+            anyhow::ensure!(above == 0, "{above} upper bounds are above the limit");
+            return Ok(());
+        }
         Command::Truth { pairs: Some(pictures), kind, itself, .. } => {
             let failing = xtask::truth::pairs::run(pictures, &kind, itself)?;
             anyhow::ensure!(failing == 0, "{failing} pairs differ");

@@ -33,6 +33,8 @@ pub const PROOFS: &[Proof] = &[
     proof("random-scenes", Always, "twenty random scenes against the truth; a minute", &[], &["cargo test --locked -p xtask --test truth"]),
     proof("pairs-long", Asked, "the same pairs with four times the pictures; a quarter of an hour", &[], &["cargo xtask truth --pairs 40"]),
     proof("truth", Asked, "random scenes, the default picture against the plain path tracer's or that of a scene that must look the same; an hour and a half", &[], &["cargo xtask truth --scenes 1000"]),
+    proof("sweeps", Asked, "no cliffs, no pops: noise and mean while a parameter changes in forty steps, and films of 24 frames; twenty minutes", &[], &["cargo xtask sweeps"]),
+    proof("rooms", Asked, "squares in the noise of ten rooms where light is hard to find, at 4 to 256 samples; half an hour", &[], &["cargo xtask rooms"]),
     proof("statistics", Asked, "the statistical proofs with 16 times the samples; an hour", &[], &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"]),
     proof("mutants", Asked, "faults seeded one at a time, of which a test must notice each; an hour", &[], &["cargo xtask mutants"]),
     proof("watertight", Asked, "a hundred million rays at edges and vertices; minutes", &[], &["BVH_WATERTIGHT_RAYS=100000000 cargo test --locked -p tracer-core --test bvh_watertight"]),

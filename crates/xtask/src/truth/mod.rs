@@ -19,11 +19,13 @@ pub mod pairs;
 pub mod receivers;
 pub mod relation;
 mod report;
+pub mod rooms;
 pub mod shining;
 mod shrink;
 pub mod squares;
 pub mod trial;
 pub mod world;
+pub mod written;
 
 use examine::{Against, Examined, Finding};
 use kinds::Case;

@@ -120,14 +120,7 @@ impl World {
     pub fn compiled(&self) -> anyhow::Result<tracer_core::Scene> {
         let folder = tempfile::tempdir()?;
         let path = self.write(folder.path(), "scene", "")?;
-        let loaded = scene_format::load(&path).map_err(|error| match error {
-            scene_format::LoadError::Invalid { diagnostics, sources, .. } => {
-                let style = scene_format::render::Style { color: false, width: 120 };
-                anyhow::anyhow!("{}", scene_format::render::text(&diagnostics, &sources, style))
-            }
-            other => anyhow::anyhow!("{other}"),
-        })?;
-        tracer_core::compile(&loaded.scene).map_err(|error| anyhow::anyhow!("{error}"))
+        super::written::loaded(&path)
     }
 }
 
