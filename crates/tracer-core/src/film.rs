@@ -8,7 +8,9 @@ mod cells;
 mod exact;
 mod file;
 mod layers;
+mod merge;
 mod pack;
+mod part;
 mod state;
 
 use crate::sampling::blocks::TILE;
@@ -16,6 +18,8 @@ pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
 pub use layers::LayerImage;
 use layers::{FilmLayer, TileLayers};
+pub use merge::{Gap, Gaps, MergeError, faults};
+pub use part::{Part, Split};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
 
@@ -222,6 +226,10 @@ pub(crate) struct Unfinished {
 pub struct Film {
     size: [u32; 2],
     crop: Crop,
+    /// Where the film is one.
+    part: Option<Part>,
+    /// Made of parts, of which some are missing.
+    has_gaps: bool,
     seed: u32,
     /// What a radiance of one in the sums stands for; a power of two.
     unit: f64,
@@ -229,11 +237,11 @@ pub struct Film {
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
-    /// Sample indices that all pixels have.
+    /// The sample index that all pixels lack next; of a part all indices before its first count as had.
     pub(crate) whole: u32,
     /// Beyond these, what a pass that was ended early has left to do.
     pub(crate) unfinished: Option<Unfinished>,
-    /// Sample indices whose light paths are on the film.
+    /// The sample index whose light paths are not on the film yet, counted as [`Film::whole`].
     pub(crate) light_samples: u32,
     /// Rays and dropped samples.
     pub counters: Counters,
@@ -268,6 +276,8 @@ impl Film {
         Film {
             size,
             crop,
+            part: None,
+            has_gaps: false,
             seed,
             unit,
             layers: Vec::new(),
@@ -305,7 +315,34 @@ impl Film {
 
     /// Whether there is anything on it, or was left out.
     pub(crate) fn is_begun(&self) -> bool {
-        self.whole > 0 || self.unfinished.is_some()
+        self.whole > self.first() || self.unfinished.is_some()
+    }
+
+    /// Makes it a part, before anything is added to it.
+    pub(crate) fn keep_part(&mut self, part: Option<Part>) {
+        self.part = part;
+        self.whole = self.first();
+        self.light_samples = self.first();
+    }
+
+    /// The part that it is of its rendering; `None` where it is all of it.
+    pub fn part(&self) -> Option<Part> {
+        self.part
+    }
+
+    /// Whether samples were missing where it was merged ([`Film::merge`]).
+    pub fn has_gaps(&self) -> bool {
+        self.has_gaps
+    }
+
+    /// Its first sample index.
+    pub(crate) fn first(&self) -> u32 {
+        self.part.map_or(0, |part| part.first)
+    }
+
+    /// How many sample indices' light paths are on it.
+    fn light_count(&self) -> u32 {
+        self.light_samples.saturating_sub(self.first())
     }
 
     /// Whether sums of the two stand for the same radiance.
@@ -362,10 +399,10 @@ impl Film {
         let [r, g, b] = match &tile.splats {
             None => tile.sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if samples == self.light_samples => tile.sums.mean_with(&splats.sums, pixel, samples),
+            Some(splats) if samples == self.light_count() => tile.sums.mean_with(&splats.sums, pixel, samples),
             Some(splats) => {
                 let (of_paths, of_light) =
-                    (tile.sums.mean(pixel, samples), splats.sums.mean(pixel, self.light_samples));
+                    (tile.sums.mean(pixel, samples), splats.sums.mean(pixel, self.light_count()));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
             }
         };
@@ -417,7 +454,7 @@ impl Film {
         let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
         // Light paths come one by one: the variance of such a sum is about the sum of squares.
         let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
-        let passes = f64::from(self.light_samples.max(1));
+        let passes = f64::from(self.light_count().max(1));
         let of_light = splats / (passes * passes);
         (of_samples + of_light) * self.unit * self.unit
     }

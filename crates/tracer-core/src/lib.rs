@@ -57,6 +57,7 @@ pub use compile::{CompileError, CompileTimes, check_files, compile};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
+pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use layers::LayerSet;
 pub use level::Level;
 pub use report::{Costs, Counters, Stage, Statistics, TreeWork};

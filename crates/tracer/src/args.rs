@@ -1,5 +1,9 @@
 //! The command line's words.
 
+mod merge;
+
+pub use merge::MergeArgs;
+
 use crate::commands::Template;
 use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
@@ -8,7 +12,7 @@ use scene_format::desc::Layer;
 use scene_format::{Override, Syntax};
 use std::path::PathBuf;
 use std::time::Duration;
-use tracer_core::{Crop, LayerSet};
+use tracer_core::{Crop, LayerSet, Split};
 
 const EXAMPLES: &str = "\
 More: bench-acceleration, bench-figures, schema, completions, man
@@ -17,7 +21,7 @@ Examples:
   tracer render scenes/fig4.ron -o fig4.png --samples 100
 Exit codes: 0 done, 1 failed, 2 wrong input, 130 interrupted (TERM 143, HUP 129)";
 
-/// No headings and no empty lines but these: help fits a screen of 24 lines.
+/// No headings, and no empty line but before the examples: help fits a screen of 24 lines.
 const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 const STYLES: Styles = Styles::styled()
@@ -48,6 +52,8 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene into pictures; Ctrl-C keeps what there is
     Render(Box<RenderArgs>),
+    /// Merge parts of a rendering into pictures
+    Merge(MergeArgs),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
     /// Tell what is in a scene or a checkpoint
@@ -118,6 +124,24 @@ impl From<SyntaxName> for Syntax {
     }
 }
 
+/// What a rendering is divided by into parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SplitName {
+    /// Samples of all pixels.
+    Samples,
+    /// All samples of some rows.
+    Rows,
+}
+
+impl From<SplitName> for Split {
+    fn from(name: SplitName) -> Self {
+        match name {
+            SplitName::Samples => Split::Samples,
+            SplitName::Rows => Split::Rows,
+        }
+    }
+}
+
 /// The scene, and how faults of it are told.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
@@ -159,7 +183,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --seed, --exposure, --every, --stats, --bits and more.";
+`tracer man render` has --seed, --exposure, --every, --part, --bits and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Args)]
@@ -192,6 +216,13 @@ pub struct RenderArgs {
     /// Render this part: the same bytes as in the whole
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     pub crop: Option<Crop>,
+    /// Render this part of N, for `tracer merge`: 3/16
+    #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["noise", "time", "format", "bits"])]
+    pub part: Option<[u32; 2]>,
+    /// Divide by samples or rows [default: samples]
+    #[arg(long, value_enum, value_name = "WHAT", requires = "part", hide_possible_values = true)]
+    #[arg(help = "Parts have samples or rows [default: samples if there are enough]")]
+    pub split: Option<SplitName>,
     /// Seed of all random choices
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
@@ -517,6 +548,16 @@ fn crop(text: &str) -> Result<Crop, String> {
     }
 }
 
+/// A part: 3/16.
+fn part(text: &str) -> Result<[u32; 2], String> {
+    let expected = || "expected which part of how many, as in 3/16: from 1/16 to 16/16".to_owned();
+    let (k, n) = text.split_once('/').ok_or_else(expected)?;
+    match (k.trim().parse(), n.trim().parse()) {
+        (Ok(k), Ok(n)) if 1 <= k && k <= n && n <= 1_000_000 => Ok([k, n]),
+        _ => Err(expected()),
+    }
+}
+
 fn layer(text: &str) -> Result<Layer, String> {
     let names = || LayerSet::all().names().collect::<Vec<_>>().join(", ");
     LayerSet::by_name(text.trim()).ok_or_else(|| format!("expected names of layers with commas between: {}", names()))
@@ -589,6 +630,10 @@ mod tests {
         assert_eq!((noise("0.01"), noise("1%"), noise("2.5 %")), (Ok(0.01), Ok(0.01), Ok(0.025)));
         for bad in ["", "0", "1", "-1%", "100%", "nan", "%", "1 percent"] {
             assert!(noise(bad).is_err(), "{bad}");
+        }
+        assert_eq!((part("3/16"), part("16/16")), (Ok([3, 16]), Ok([16, 16])));
+        for bad in ["", "3", "0/16", "17/16", "3/", "-1/3", "1/2/3", "1.5/3", "1/9999999"] {
+            assert!(part(bad).is_err(), "{bad}");
         }
         assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         for bad in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4", "a,b,c,d"] {

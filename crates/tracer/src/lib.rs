@@ -12,6 +12,7 @@ pub mod interrupt;
 pub mod lanes;
 pub mod loading;
 pub mod memory;
+pub mod merge_report;
 pub mod progress;
 pub mod report;
 pub mod shell;
@@ -40,7 +41,11 @@ pub fn main() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { exit::WRONG } else { exit::DONE });
         }
     };
-    let quiet = matches!(&cli.command, Command::Render(args) if args.quiet);
+    let quiet = match &cli.command {
+        Command::Render(args) => args.quiet,
+        Command::Merge(args) => args.quiet,
+        _ => false,
+    };
     let verbosity = match (quiet, cli.verbose) {
         (true, _) => Verbosity::Quiet,
         (false, false) => Verbosity::Normal,

@@ -76,6 +76,8 @@ pub struct PictureReport {
     pub samples_max: u32,
     /// Of these, fewest samples of a pixel that came from a checkpoint.
     pub samples_resumed: u32,
+    /// First sample index and the one after the last, where it is a part (`--part`); else null.
+    pub part: Option<[u32; 2]>,
     /// Layers that EXR files hold beside it.
     pub layers: Vec<&'static str>,
 }

@@ -69,13 +69,15 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
 /// caller to compare. When it has more samples than are asked for.
 pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
     let fresh = new_film(scene, options);
+    fits("set of samples", !film.has_gaps())?;
     fits("size", film.size() == fresh.size())?;
     fits("crop", film.crop() == fresh.crop())?;
+    fits("part", film.part() == fresh.part())?;
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
     fits("set of layers", film.has_layers_of(&fresh))?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
-    let samples = options.samples.unwrap_or(scene.samples);
+    let samples = samples(scene, options);
     let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
     if samples < held {
         return Err(Misfit::Samples { held, asked: samples });
@@ -89,16 +91,23 @@ fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
 
 /// A film without samples.
 fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
-    let crop = options.crop.unwrap_or(Crop::whole(scene.size)).within(scene.size);
+    let crop =
+        options.part.map(|part| part.crop).or(options.crop).unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
     let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
     film.keep_layers(options.layers.unwrap_or(scene.layers), scene);
+    film.keep_part(options.part);
     film
+}
+
+/// The sample index that a rendering ends before.
+fn samples(scene: &Scene, options: &RenderOptions) -> u32 {
+    options.part.map(|part| part.end).or(options.samples).unwrap_or(scene.samples)
 }
 
 /// Adds the samples that a film lacks.
 fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
-    let samples = options.samples.unwrap_or(scene.samples);
+    let samples = samples(scene, options);
     film.level = options.level.unwrap_or_else(Level::best);
     film.threads = if options.threads == 0 { available_threads() } else { options.threads };
     film.statistics = options.statistics.then(Default::default);
@@ -117,7 +126,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
         let started = Instant::now();
-        painter.until = goals.until.filter(|_| film.whole > 0);
+        painter.until = goals.until.filter(|_| film.whole > film.first());
         painter.prepare(&pass);
         film.unfinished = painter.paint(&mut film, pass.clone(), keeper.take());
         note(&mut film, &before, &pool.counted());
@@ -148,7 +157,8 @@ fn painter<'a>(
     observer: &'a dyn Observer,
 ) -> Painter<'a> {
     let crop = film.crop();
-    let samples_total = u64::from(crop.width) * u64::from(crop.height) * u64::from(samples);
+    let samples_total =
+        u64::from(crop.width) * u64::from(crop.height) * u64::from(samples.saturating_sub(film.first()));
     let plain = Pass::plain(film.seed(), film.level.lanes());
     let has_samples = samples_total > 0;
     let techniques = techniques::plan(Trial { engine, options, crop, has_samples, pass: plain, pool, plan: None });
@@ -180,8 +190,9 @@ fn take_up(film: &mut Film, painter: &mut Painter<'_>) -> Result<(), Misfit> {
         let places = painter.grid.len();
         let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
         fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= places))?;
+    }
+    if let Some(last) = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end).checked_sub(1) {
         // What was made before is made again, and counted no second time.
-        let last = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end) - 1;
         painter.prepare(&(last..last + 1));
         painter.pool.forget_counters();
     }
@@ -199,10 +210,11 @@ struct Goals {
 
 impl Goals {
     fn new(scene: &Scene, options: &RenderOptions) -> Self {
+        let of_scene = options.part.is_none();
         // A time that no clock can hold is none.
-        let time = scene.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Goals {
-            noise: options.noise.or(scene.noise),
+            noise: options.noise.or(scene.noise.filter(|_| of_scene)),
             until: options.until.or_else(|| Instant::now().checked_add(time?)),
         }
     }

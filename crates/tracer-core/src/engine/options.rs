@@ -1,6 +1,6 @@
 //! What a caller may decide about a rendering.
 
-use crate::film::Crop;
+use crate::film::{Crop, Part};
 use crate::layers::LayerSet;
 use crate::level::Level;
 use std::time::{Duration, Instant};
@@ -14,6 +14,9 @@ pub struct RenderOptions {
     pub seed: Option<u32>,
     /// The part of the picture to render; the same bytes as that part of the whole.
     pub crop: Option<Crop>,
+    /// A part of the rendering, to be merged with the others later ([`crate::Film::merge`]): its crop and samples are
+    /// then those of the rendering. Goals of the scene (noise, time) are for whole renderings, and do not count.
+    pub part: Option<Part>,
     /// Worker threads; 0: one per core.
     pub threads: usize,
     /// The vector instructions of stages and tree; the bytes are the same for all.

@@ -105,6 +105,16 @@ impl Squares {
         let part = if shift < 0 { u128::from(mantissa >> -shift) } else { u128::from(mantissa) << (shift & 63) };
         let (low, high) = (part as u64, (part >> 64) as u64);
         let more = if shift < 64 { [low, high, 0] } else { [0, low, high] };
+        self.add_words(pixel, more);
+    }
+
+    /// Adds the sums of another.
+    pub fn merge(&mut self, other: &Squares) {
+        (0..PIXELS).for_each(|pixel| self.add_words(pixel, other.0[pixel]));
+    }
+
+    #[inline(always)]
+    fn add_words(&mut self, pixel: usize, more: [u64; 3]) {
         let words = &mut self.0[pixel];
         let mut carry = 0;
         for (sum, more) in words.iter_mut().zip(more) {

@@ -15,7 +15,7 @@
 
 use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{Crop, Film, FilmLayer, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
+use super::{Crop, Film, FilmLayer, Part, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
 use crate::layers::{Kept, LayerSet};
 use crate::report::{Costs, Counters};
 use bytemuck::Zeroable;
@@ -27,7 +27,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
@@ -83,13 +83,14 @@ pub struct FilmHead {
     pub samples: RangeInclusive<u32>,
     /// Rays and dropped samples.
     pub counters: Counters,
-    unit: f64,
-    light_samples: u32,
-    unfinished: Option<Unfinished>,
-    costs: Costs,
-    reuse: bool,
-    caustics: bool,
-    layers: Vec<SavedLayer>,
+    pub(super) part: Option<Part>,
+    pub(super) unit: f64,
+    pub(super) light_samples: u32,
+    pub(super) unfinished: Option<Unfinished>,
+    pub(super) costs: Costs,
+    pub(super) reuse: bool,
+    pub(super) caustics: bool,
+    pub(super) layers: Vec<SavedLayer>,
 }
 
 impl FilmHead {
@@ -105,6 +106,7 @@ impl FilmHead {
             clamp: film.clamp,
             samples: film.whole..=most,
             counters: film.counters,
+            part: film.part,
             unit: film.unit,
             light_samples: film.light_samples,
             unfinished: film.unfinished.clone(),
@@ -140,6 +142,7 @@ impl FilmHead {
             pieces.iter().flat_map(|Piece { places, samples }| [places.start, places.end, samples.start, samples.end]),
         );
         out.extend(numbers.into_iter().flat_map(u32::to_le_bytes));
+        out.extend(Part::numbers(self.part).into_iter().flat_map(u32::to_le_bytes));
         let counters = counters_as_array(self.counters);
         let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
         out.extend(counters.into_iter().chain(costs.map(f64::to_bits)).flat_map(u64::to_le_bytes));
@@ -174,6 +177,10 @@ impl FilmHead {
         for _ in 0..count {
             pieces.push(Piece { places: next()?..next()?, samples: next()?..next()? });
         }
+        let mut part = [0; 7];
+        for number in &mut part {
+            *number = next()?;
+        }
         let mut counters = [0; 8];
         for counter in &mut counters {
             *counter = long(from)?;
@@ -195,6 +202,7 @@ impl FilmHead {
             clamp: Some(clamp).filter(|&clamp| clamp != 0.0),
             samples,
             counters: counters_from_array(counters),
+            part: Part::from_numbers(part, crop),
             unit,
             light_samples,
             unfinished: (end > 0).then_some(Unfinished { end, pieces }),
@@ -224,6 +232,7 @@ impl FilmHead {
         let end = self.unfinished.as_ref().map_or(whole, |rest| rest.end);
         self.size.iter().all(|side| (1..=MAX_SIDE).contains(side))
             && self.crop.within(self.size) == self.crop
+            && self.part.is_none_or(|part| part.is_sound(self.size) && whole >= part.first && end <= part.end)
             && self.clamp.is_none_or(|limit| limit > 0.0 && limit.is_finite())
             && (self.unit > 0.0 && self.unit.is_normal())
             && self.layers.iter().flat_map(|layer| layer.units).all(f64::is_finite)
@@ -247,7 +256,7 @@ impl FilmHead {
     }
 
     /// The layers, as this program has them.
-    fn film_layers(&self) -> Result<Vec<FilmLayer>, FilmError> {
+    pub(super) fn film_layers(&self) -> Result<Vec<FilmLayer>, FilmError> {
         let layers: Option<Vec<FilmLayer>> = self.layers.iter().map(SavedLayer::layer).collect();
         layers.ok_or_else(|| FilmError::Program(self.program.clone()))
     }
@@ -278,7 +287,7 @@ fn counters_from_array(counters: [u64; 8]) -> Counters {
 }
 
 /// What tiles keep for these layers.
-fn kept(layers: &[FilmLayer]) -> Kept {
+pub(super) fn kept(layers: &[FilmLayer]) -> Kept {
     layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
 }
 
@@ -311,7 +320,7 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
 
 /// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
 /// is kept for layers.
-fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
+pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
     let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
@@ -473,7 +482,7 @@ impl<R: Read> SavedFilm<R> {
         let nothing = Crop { width: 0, height: 0, ..head.crop };
         let mut film = Film::new(head.size, nothing, head.seed, head.unit, head.clamp);
         let columns = (head.crop.x + head.crop.width).div_ceil(TILE) - head.crop.x / TILE;
-        (film.crop, film.tiles, film.tile_columns) = (head.crop, tiles, columns);
+        (film.crop, film.part, film.tiles, film.tile_columns) = (head.crop, head.part, tiles, columns);
         (film.whole, film.unfinished, film.light_samples) =
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
@@ -482,7 +491,7 @@ impl<R: Read> SavedFilm<R> {
     }
 
     /// Reads the tiles, each once, and the checksum.
-    fn tiles(&mut self, mut keep: impl FnMut(usize, &[u8]) -> Option<()>) -> Result<(), FilmError> {
+    pub(super) fn tiles(&mut self, mut keep: impl FnMut(usize, &[u8]) -> Option<()>) -> Result<(), FilmError> {
         let count = tile_count(self.head.crop);
         let mut seen = vec![false; count];
         let mut bytes = Vec::new();
@@ -534,7 +543,7 @@ impl Film {
     /// forty where light paths fall: a quarter and a third of the memory.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// When it cannot be written; when it was merged with gaps.
     ///
     /// # Examples
     ///
@@ -562,6 +571,9 @@ impl Film {
     /// # }
     /// ```
     pub fn save(&self, to: &mut impl Write, notes: &[Note]) -> io::Result<u64> {
+        if self.has_gaps {
+            return Err(io::Error::other("samples of it are missing"));
+        }
         let head = FilmHead { notes: notes.to_vec(), ..FilmHead::of(self) };
         let mut writer = FilmWriter::new(to, &head)?;
         for (place, tile) in self.tiles.iter().enumerate() {

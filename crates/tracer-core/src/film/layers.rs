@@ -105,6 +105,17 @@ impl TileLayers {
         fits.then_some(layers)
     }
 
+    /// Adds what another has of the same pixels.
+    pub fn merge(&mut self, other: &TileLayers) {
+        super::merge::add_counts(&mut self.hits, &other.hits);
+        for (sums, from) in self.sums.iter_mut().zip(&other.sums) {
+            sums.iter_mut().zip(from).for_each(|(sum, from)| *sum = sum.wrapping_add(*from));
+        }
+        for (nearest, from) in self.nearest.iter_mut().zip(&other.nearest) {
+            nearest.iter_mut().zip(from).for_each(|(best, from)| *best = (*best).max(*from));
+        }
+    }
+
     /// Bytes of memory that a tile takes.
     pub fn bytes(kept: Kept) -> usize {
         let (sums, nearest) = (kept.sums * size_of::<[i128; PIXELS]>(), kept.nearest * size_of::<[u64; PIXELS]>());

@@ -1,6 +1,6 @@
 //! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
 
-use super::told;
+use super::{picture_notes, told};
 use crate::failure::Failure;
 use scene_format::desc::{Acceleration, ToneMap};
 use scene_format::{SceneDesc, hash_hex};
@@ -11,7 +11,7 @@ use std::io;
 use std::mem::{swap, take};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
-use tracer_core::{Crop, FilmHead, LayerSet, Note, PROGRAM};
+use tracer_core::{Crop, FilmHead, Note, PROGRAM, Part};
 
 /// Kinds of notes, as their names begin: a value to be shown, a part of the scene by its hash, a file by its own.
 const SETTING: &str = "render.";
@@ -20,12 +20,12 @@ const FILE: &str = "file:";
 /// All that the film depends on: words that are in no part above, too.
 const WHOLE: &str = "whole";
 
-/// What is written beside the film. Samples may grow, and what makes the picture of the film may change: neither is in
-/// it. The scene is as it was afterwards.
+/// What is written beside the film: what it is known by, where samples may grow and what makes the picture of the film may change, and
+/// how its picture is made; `set` are the fields that the command line has set. The scene is as it was afterwards.
 ///
 /// # Errors
 /// When a file of the scene cannot be read any more.
-pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failure> {
+pub fn notes(desc: &mut SceneDesc, files: &[PathBuf], set: &[String]) -> Result<Vec<Note>, Failure> {
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let mut notes: Vec<Note> = vec![("scene".to_owned(), name.to_owned()), ("hash".to_owned(), hash_hex(desc))];
     notes.push((WHOLE.to_owned(), hash_of_film(desc)));
@@ -54,6 +54,7 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf]) -> Result<Vec<Note>, Failu
     swap(&mut lent.objects, &mut desc.objects);
     part("objects", &lent);
     swap(&mut lent.objects, &mut desc.objects);
+    notes.extend(picture_notes(desc, set));
     for file in files {
         let shown = file.strip_prefix(&desc.base_dir).unwrap_or(file);
         notes.push((format!("{FILE}{}", shown.display()), hash_of(file)?));
@@ -78,10 +79,16 @@ fn hash_of_film(desc: &mut SceneDesc) -> String {
 
 /// SHA-256 of a file's contents.
 fn hash_of(path: &Path) -> Result<String, Failure> {
+    sha256_of(path).map_err(|error| Failure::could_not(format!("cannot read {}: {error}", path.display())))
+}
+
+/// SHA-256 of a file's contents.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn sha256_of(path: &Path) -> io::Result<String> {
     let mut hasher = Sha256::new();
-    File::open(path)
-        .and_then(|mut file| io::copy(&mut file, &mut HashWriter(&mut hasher)))
-        .map_err(|error| Failure::could_not(format!("cannot read {}: {error}", path.display())))?;
+    io::copy(&mut File::open(path)?, &mut HashWriter(&mut hasher))?;
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
@@ -100,12 +107,42 @@ impl io::Write for HashWriter<'_> {
 
 /// What a rendering asks a checkpoint for.
 pub struct Asked<'a> {
+    /// Of the whole picture.
     pub size: [u32; 2],
-    pub crop: Crop,
+    /// What of it.
+    pub extent: Extent,
+    /// Of all random choices.
     pub seed: u32,
+    /// `render.clamp`.
     pub clamp: Option<f32>,
-    pub layers: LayerSet,
+    /// Names of the layers; `none` where there is none.
+    pub layers: String,
+    /// As [`notes`] gives them.
     pub notes: &'a [Note],
+}
+
+/// What of a picture is asked for.
+#[derive(Clone, Copy, Debug)]
+pub enum Extent {
+    /// A film: of these pixels, where it is a part this one.
+    Film(Crop, Option<Part>),
+    /// A part of a rendering of these pixels with so many samples.
+    PartOf(Crop, u32),
+}
+
+impl<'a> Asked<'a> {
+    /// What another part of the same rendering is asked for.
+    pub fn of_part(head: &'a FilmHead) -> Self {
+        let Part { of_crop, of_samples, .. } = head.part();
+        Asked {
+            size: head.size,
+            extent: Extent::PartOf(of_crop, of_samples),
+            seed: head.seed,
+            clamp: head.clamp,
+            layers: told::layers(head),
+            notes: &head.notes,
+        }
+    }
 }
 
 /// What is not the same there as here, for people.
@@ -120,13 +157,23 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     let size = |[width, height]: [u32; 2]| format!("{width}x{height}");
     compare("the size", size(head.size), size(asked.size));
     let crop = |Crop { x, y, width, height }: Crop| format!("{x},{y},{width},{height}");
-    if head.size == asked.size {
-        compare("the crop", crop(head.crop), crop(asked.crop));
+    let part = head.is_part().then(|| head.part());
+    match asked.extent {
+        Extent::Film(of, asked_part) => {
+            if head.size == asked.size && part.is_none() && asked_part.is_none() {
+                compare("the crop", crop(head.crop), crop(of));
+            }
+            compare("the part", told::part_told(part), told::part_told(asked_part));
+        }
+        Extent::PartOf(of, samples) => {
+            compare("the crop", crop(head.part().of_crop), crop(of));
+            compare("the number of samples", head.part().of_samples.to_string(), samples.to_string());
+        }
     }
     compare("the seed", head.seed.to_string(), asked.seed.to_string());
     let clamp = |limit: Option<f32>| limit.map_or("None".to_owned(), |limit| limit.to_string());
     compare("render.clamp", clamp(head.clamp), clamp(asked.clamp));
-    compare("the set of layers", told::layers(head), asked.layers.to_string());
+    compare("the set of layers", told::layers(head), asked.layers.clone());
     let (there, here): (BTreeMap<_, _>, BTreeMap<_, _>) =
         (head.notes.iter().cloned().collect(), asked.notes.iter().cloned().collect());
     let names = here.keys().chain(there.keys().filter(|name| !here.contains_key(*name)));

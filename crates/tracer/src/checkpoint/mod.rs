@@ -2,15 +2,17 @@
 
 mod flushing;
 mod identity;
+mod picture;
 mod place;
 mod read;
 mod told;
 
 pub use flushing::Flushing;
-pub use identity::notes;
+pub use identity::{Asked, Extent, differences, notes, now, sha256_of};
+pub use picture::{look, picture_notes, provenance};
 pub use place::{Lock, Place};
 pub use read::{Found, is_film, look_for};
-pub use told::{as_json, as_text};
+pub use told::{as_json, as_text, note, part_told};
 
 use crate::memory::human;
 use crate::shell::{Shell, Verbosity};

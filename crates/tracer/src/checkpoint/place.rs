@@ -29,7 +29,20 @@ impl Place {
         Ok(Place { named: path.to_owned(), real })
     }
 
+    /// The same without looking whether a file can be written now.
+    ///
+    /// # Errors
+    /// When its folder is gone.
+    pub fn unchecked(path: &Path) -> io::Result<Self> {
+        Ok(Place { named: path.to_owned(), real: real_place(path)? })
+    }
+
     /// As it was named.
+    pub fn named(&self) -> &Path {
+        &self.named
+    }
+
+    /// As it was named, to be shown.
     pub fn name(&self) -> String {
         self.named.display().to_string()
     }

@@ -1,13 +1,13 @@
 //! A checkpoint that is looked for: the film of it, or of the one before where it is damaged.
 
 use super::Place;
-use super::identity::{Asked, differences};
+use super::identity::{Asked, Extent, differences};
 use crate::failure::Failure;
 use crate::shell::{Shell, Verbosity};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
-use tracer_core::{Crop, Film, FilmError, Note, SavedFilm, Scene};
+use tracer_core::{Film, FilmError, Note, SavedFilm, Scene};
 
 /// What was found.
 pub struct Found {
@@ -39,8 +39,9 @@ fn is_empty(path: &Path) -> bool {
 ///
 /// # Errors
 /// When it belongs to another, or neither it nor the one before can be read.
-pub fn look_for(place: &Place, scene: &Scene, crop: Crop, notes: &[Note], shell: &Shell) -> Result<Found, Failure> {
-    let asked = Asked { size: scene.size, crop, seed: scene.seed, clamp: scene.clamp, layers: scene.layers, notes };
+pub fn look_for(place: &Place, scene: &Scene, extent: Extent, notes: &[Note], shell: &Shell) -> Result<Found, Failure> {
+    let layers = scene.layers.to_string();
+    let asked = Asked { size: scene.size, extent, seed: scene.seed, clamp: scene.clamp, layers, notes };
     let (name, previous) = (place.name(), format!("{}.previous", place.name()));
     let first = match load(place.file(), &name, &asked) {
         Ok(film) => return Ok(Found { film: Some(film), is_spoilt: false }),

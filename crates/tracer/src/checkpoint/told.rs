@@ -3,9 +3,10 @@
 use crate::memory::human;
 use serde_json::json;
 use std::path::Path;
-use tracer_core::{Crop, FilmHead};
+use tracer_core::{Crop, FilmHead, Part};
 
-fn note<'a>(head: &'a FilmHead, name: &str) -> &'a str {
+/// A note of a film; empty where there is none of that name.
+pub fn note<'a>(head: &'a FilmHead, name: &str) -> &'a str {
     head.notes.iter().find(|(of, _)| of == name).map_or("", |(_, value)| value)
 }
 
@@ -19,6 +20,18 @@ pub fn layers(head: &FilmHead) -> String {
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
+/// What a film is of its rendering: `samples 3 to 5 of 9, rows 0 to 63`.
+pub fn part_told(part: Option<Part>) -> String {
+    part.map_or("the whole".to_owned(), |Part { crop, first, end, of_samples, .. }| {
+        format!(
+            "samples {first} to {} of {of_samples}, rows {} to {}",
+            end - 1,
+            crop.y,
+            crop.y + crop.height.max(1) - 1
+        )
+    })
+}
+
 /// A few lines for people.
 pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     let mut text = String::new();
@@ -29,7 +42,10 @@ pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     let part =
         if head.crop == Crop::whole(head.size) { String::new() } else { format!(", of it {x},{y},{width},{height}") };
     line("picture", format!("{}x{} pixels{part}, seed {}", head.size[0], head.size[1], head.seed));
-    let (fewest, most) = head.samples.clone().into_inner();
+    if head.is_part() {
+        line("part", part_told(Some(head.part())));
+    }
+    let (fewest, most) = samples(head);
     line("samples", if fewest == most { fewest.to_string() } else { format!("{fewest} to {most}") });
     if head.layers().next().is_some() {
         line("layers", layers(head));
@@ -44,17 +60,26 @@ pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     text
 }
 
+/// Samples per pixel: fewest and most.
+fn samples(head: &FilmHead) -> (u32, u32) {
+    let first = head.part().first;
+    (head.samples.start().saturating_sub(first), head.samples.end().saturating_sub(first))
+}
+
 /// The same for programs.
 pub fn as_json(path: &Path, bytes: u64, head: &FilmHead) -> serde_json::Value {
     let Crop { x, y, width, height } = head.crop;
+    let (fewest, most) = samples(head);
+    let part = head.is_part().then(|| [head.part().first, head.part().end, head.part().of_samples]);
     json!({
         "checkpoint": path,
         "bytes": bytes,
         "scene": note(head, "scene"),
         "hash": note(head, "hash"),
         "picture": { "width": head.size[0], "height": head.size[1], "crop": [x, y, width, height], "seed": head.seed },
-        "samples_min": head.samples.start(),
-        "samples_max": head.samples.end(),
+        "part": part,
+        "samples_min": fewest,
+        "samples_max": most,
         "layers": head.layers().collect::<Vec<_>>(),
         "written": note(head, "when"),
         "tracer_version": head.program,

@@ -12,6 +12,7 @@ mod fmt;
 mod info;
 mod lsp;
 mod man;
+pub(crate) mod merge;
 mod new;
 mod render;
 mod scenes;
@@ -32,6 +33,7 @@ use std::time::Instant;
 pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     match command {
         Command::Render(args) => render::run(args, shell, started),
+        Command::Merge(args) => merge::run(args, shell, started),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),

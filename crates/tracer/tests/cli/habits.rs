@@ -9,6 +9,8 @@ fn printing() -> Vec<Vec<&'static str>> {
     vec![
         vec!["render", "scene.ron", "-o", "-", "--format", "png"],
         vec!["render", "scene.ron", "-o", "a.png", "--report", "-"],
+        vec!["merge", "b.film", "-q", "-o", "-", "--format", "pfm"],
+        vec!["merge", "b.film", "-q", "-o", "c.png", "--report", "-"],
         vec!["check", "scene.ron"],
         vec!["info", "scene.ron"],
         vec!["info", "scene.ron", "--json"],
@@ -36,7 +38,7 @@ fn printing() -> Vec<Vec<&'static str>> {
 #[test]
 fn a_closed_pipe_is_no_fault() {
     let sandbox = Sandbox::new();
-    sandbox.run(&["render", "scene.ron", "-o", "b.png"]).ends(0);
+    sandbox.run(&["render", "scene.ron", "-o", "b.png", "--checkpoint", "b.film"]).ends(0);
     let commands = printing();
     for command in COMMANDS {
         assert!(commands.iter().any(|arguments| arguments[0] == command), "{command} is not tried");

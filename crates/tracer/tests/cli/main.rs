@@ -11,6 +11,7 @@ mod habits;
 #[cfg(unix)]
 mod interrupt;
 mod layers;
+mod parts;
 mod render;
 mod report;
 mod support;

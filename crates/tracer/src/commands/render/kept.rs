@@ -1,12 +1,12 @@
 //! Checkpoints of a rendering: which are read and written, as the command line says.
 
 use crate::args::RenderArgs;
-use crate::checkpoint::{Checkpoints, EVERY, Found, Lock, Place, is_film, look_for, notes};
+use crate::checkpoint::{Checkpoints, EVERY, Extent, Found, Lock, Place, is_film, look_for, notes, picture_notes};
 use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
 use scene_format::SceneDesc;
-use tracer_core::{Crop, Film, Scene};
+use tracer_core::{Film, Note, Scene};
 
 /// The places, locked before any work is done.
 pub(super) struct Places {
@@ -20,11 +20,18 @@ pub(super) struct Places {
 pub(super) struct Kept {
     pub film: Option<Film>,
     pub checkpoints: Option<Checkpoints>,
+    /// What is told beside the film.
+    pub notes: Vec<Note>,
     /// Of a file that is only read.
     _lock: Option<Lock>,
 }
 
 impl Places {
+    /// Whether a file is the one that is written.
+    pub(super) fn writes(&self, other: &Place) -> bool {
+        self.write.as_ref().is_some_and(|(place, _)| place.is(other))
+    }
+
     /// As the command line names them: `--resume` writes where it reads, unless `--checkpoint` says another place.
     ///
     /// # Errors
@@ -71,23 +78,28 @@ impl Places {
         args: &RenderArgs,
         desc: &mut SceneDesc,
         scene: &Scene,
-        crop: Crop,
+        extent: Extent,
         shell: &Shell,
     ) -> Result<Kept, Failure> {
         let Some((place, lock)) = self.write else {
-            return Ok(Kept { film: None, checkpoints: None, _lock: None });
+            // Pictures need to tell less of what they are made of than films.
+            let notes = match args.part {
+                Some(_) => notes(desc, &scene.files, &args.scene.set)?,
+                None => picture_notes(desc, &args.scene.set),
+            };
+            return Ok(Kept { film: None, checkpoints: None, notes, _lock: None });
         };
-        let notes = notes(desc, &scene.files)?;
+        let notes = notes(desc, &scene.files, &args.scene.set)?;
         let (found, _lock) = match self.resume {
             Some((resume, lock)) => {
-                let mut found = look_for(&resume, scene, crop, &notes, shell)?;
+                let mut found = look_for(&resume, scene, extent, &notes, shell)?;
                 found.is_spoilt &= resume.is(&place);
                 (found, lock)
             }
             None => (Found { film: None, is_spoilt: false }, None),
         };
         let every = args.every.unwrap_or(EVERY);
-        let checkpoints = Checkpoints::new(place, lock, every, notes, found.is_spoilt, *shell);
-        Ok(Kept { film: found.film, checkpoints: Some(checkpoints), _lock })
+        let checkpoints = Checkpoints::new(place, lock, every, notes.clone(), found.is_spoilt, *shell);
+        Ok(Kept { film: found.film, checkpoints: Some(checkpoints), notes, _lock })
     }
 }

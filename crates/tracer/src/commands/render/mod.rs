@@ -3,12 +3,13 @@
 mod empty;
 mod goals;
 mod kept;
-mod outputs;
+pub(super) mod outputs;
+mod parts;
 mod repeat;
-mod rescue;
+pub(super) mod rescue;
 
 use crate::args::RenderArgs;
-use crate::checkpoint::Checkpoints;
+use crate::checkpoint::{Checkpoints, Extent, part_told, provenance};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
@@ -17,7 +18,7 @@ use crate::report::{
     Seconds, Stats, Transport, Tree, VERSION,
 };
 use crate::shell::Shell;
-use crate::write::{Place, Provenance, Setting, save, write};
+use crate::write::{Place, save, write};
 use crate::{interrupt, lanes, memory};
 use kept::{Kept, Places};
 use outputs::Output;
@@ -33,7 +34,8 @@ use tracer_core::{Counters, Crop, Film, LayerSet, RenderOptions, Scene, develop,
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
     let args = &outputs::named(args)?;
-    let outputs = outputs::outputs(args)?;
+    let part_file = args.part.map(|_| parts::place(args)).transpose()?;
+    let outputs = if part_file.is_some() { Vec::new() } else { outputs::outputs(args)? };
     let level = lanes::from_environment()?;
     use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
@@ -41,8 +43,12 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
     let mut desc = ManuallyDrop::new(described(args, shell)?);
     let crop = crop(args, &desc)?;
+    let part = parts::part(args, &desc, crop)?;
+    let crop = part.map_or(crop, |part| part.crop);
     check_memory(crop, &desc)?;
-    outputs::tell_of_layers(&outputs, args, &desc, shell);
+    if part.is_none() {
+        outputs::tell_of_layers(&outputs, args, &desc, shell);
+    }
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
     outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
@@ -50,18 +56,23 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;
-    let Kept { film: begun, checkpoints, .. } = &mut places.open(args, &mut desc, &scene, crop, shell)?;
+    // A part that is kept under its own name needs no second file.
+    let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
+    let extent = Extent::Film(crop, part);
+    let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
     let compiled = clock.lap();
 
     interrupt::listen(*shell)?;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let before = Before::of(begun.as_ref());
     let done = pixels * u64::from(before.samples);
-    let all = pixels * u64::from(scene.samples);
+    let asked = part.map_or(scene.samples, |part| part.end - part.first);
+    let all = pixels * u64::from(asked);
     let goals = goals::goals(&desc, crop, outputs.len(), started);
     let watch = Watch::new(shell, all).going_on(done, all, checkpoints.as_ref()).until(goals);
     let options = RenderOptions {
         crop: Some(crop),
+        part,
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
         until: goals.until,
@@ -77,16 +88,18 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let rendered = clock.lap();
 
     let (fewest, most) = film.samples().into_inner();
-    let interrupted = fewest < scene.samples && interrupt::requested().is_some();
-    goals::end(&mut desc, &film, interrupted, shell);
+    let interrupted = fewest < asked && interrupt::requested().is_some();
+    if part.is_none() {
+        goals::end(&mut desc, &film, interrupted, shell);
+    }
     if most == 0 {
         shell.say("interrupted before the first sample: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
-    let image = develop(&film, &scene.look);
+    let image = (!outputs.is_empty()).then(|| develop(&film, &scene.look));
     let developed = clock.lap();
 
-    let provenance = provenance(args, &desc, &film);
+    let provenance = provenance(notes, &film);
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -95,10 +108,22 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let mut files = Vec::new();
     let mut elsewhere = false;
     for Output { place, encoding } in &outputs {
-        let rescued = rescue(place, shell, |place| write(&image, *encoding, place, &provenance))?;
+        let Some(image) = &image else { break };
+        let rescued = rescue(place, shell, |place| write(image, *encoding, place, &provenance))?;
         let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
         elsewhere |= is_elsewhere;
         files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
+    }
+    if let Some(file) = &part_file {
+        let place = Place::File(file.named().to_owned());
+        let is_there = is_kept && matches!(kept, Some(Ok(_)));
+        let rescued = rescue(&place, shell, |place| match is_there {
+            true => parts::written(place),
+            false => parts::save(place, &film, notes, shell),
+        })?;
+        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
+        elsewhere |= is_elsewhere;
+        files.push(FileReport { path, format: "film", bytes: written.bytes, sha256: written.sha256 });
     }
     let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
     let mut report =
@@ -116,19 +141,21 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
 
     tell_of(&film, args, &desc, shell);
     shell.diagnostics(empty::warning(&film, &desc).as_slice(), &desc.sources, args.scene.diagnostics);
-    if shell.is_told() {
+    if let Some(part) = part.filter(|_| shell.is_told()) {
+        shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
+    } else if shell.is_told() {
         let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
         let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
         shell.say(&format!("{names} in {:.2} s, {}{noise}", seconds.total, rate(samples)));
     }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
-        write_report(path, report)?;
+        write_report(path, report.to_json())?;
     }
     if interrupted {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
-        let asked = scene.samples;
-        let goes_on = kept.and_then(Result::ok).map_or(String::new(), |name| format!("; --resume {name} goes on"));
+        let goes_on = kept.and_then(Result::ok).or(part.map(|_| names.clone()));
+        let goes_on = goes_on.map_or(String::new(), |name| format!("; --resume {name} goes on"));
         shell.say(&format!("interrupted: {names} holds {held} of {asked} samples per pixel{goes_on}"));
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
@@ -247,32 +274,6 @@ fn check_memory(crop: Crop, desc: &SceneDesc) -> Result<(), Failure> {
     }
 }
 
-fn provenance(args: &RenderArgs, desc: &SceneDesc, film: &Film) -> Provenance {
-    let (fewest, most) = film.samples().into_inner();
-    let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
-    let [width, height] = film.size();
-    let mut settings = vec![
-        Setting { name: "samples", value: samples },
-        Setting { name: "seed", value: film.seed().to_string() },
-        Setting { name: "size", value: format!("{width}x{height}") },
-        Setting { name: "max_bounces", value: desc.render.max_bounces.value.to_string() },
-        Setting { name: "exposure", value: desc.effects.exposure.value.to_string() },
-        Setting { name: "tone_map", value: format!("{:?}", desc.effects.tone_map) },
-    ];
-    let Crop { x, y, width, height } = film.crop();
-    if film.crop() != Crop::whole(film.size()) {
-        settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
-    }
-    settings.extend(args.scene.set.iter().map(|set| Setting { name: "set", value: set.clone() }));
-    let source = desc.sources.first();
-    let name = source.map_or("", |source| source.name.as_str());
-    Provenance {
-        scene_name: Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy()).into_owned(),
-        scene_text: source.map(|source| source.text.clone()).unwrap_or_default(),
-        settings,
-    }
-}
-
 /// The report, but for the seconds of the phases.
 #[allow(clippy::too_many_arguments)]
 fn report(
@@ -312,7 +313,8 @@ fn report(
             height: film.size()[1],
             crop: [x, y, width, height],
             seed: film.seed(),
-            samples_asked: scene.samples,
+            samples_asked: film.part().map_or(scene.samples, |part| part.end - part.first),
+            part: film.part().map(|part| [part.first, part.end]),
             samples_min,
             samples_max,
             samples_resumed: before.samples,
@@ -372,8 +374,8 @@ fn report(
     }
 }
 
-fn write_report(path: &Path, report: &Report) -> Result<(), Failure> {
-    let json = report.to_json().map_err(|error| Failure::could_not(format!("cannot write the report: {error}")))?;
+pub(super) fn write_report(path: &Path, json: serde_json::Result<String>) -> Result<(), Failure> {
+    let json = json.map_err(|error| Failure::could_not(format!("cannot write the report: {error}")))?;
     if is_dash(path) {
         let mut out = std::io::stdout().lock();
         out.write_all(json.as_bytes())?;

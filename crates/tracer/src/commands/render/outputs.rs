@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use tracer_core::LayerSet;
 
 /// A picture to write.
-pub(super) struct Output {
+pub struct Output {
     pub place: Place,
     pub encoding: Encoding,
 }
@@ -30,6 +30,9 @@ pub(super) fn name(place: &Place) -> String {
 /// # Errors
 /// Where the scene has no name, or something that is no picture has that one.
 pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
+    if args.part.is_some() {
+        return super::parts::named(args);
+    }
     let mut args = args.clone();
     if !args.output.is_empty() {
         return Ok(args);
@@ -61,7 +64,7 @@ fn is_picture(path: &Path) -> bool {
 ///
 /// # Errors
 /// A kind of picture that is not written, two pictures in one place, options that belong to none.
-pub(super) fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
+pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     let bits = args.bits.unwrap_or_default();
     let mut outputs: Vec<Output> = Vec::new();
     for path in &args.output {
@@ -199,7 +202,7 @@ fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Fail
 ///
 /// # Errors
 /// The first place that cannot be written.
-pub(super) fn probe(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
+pub fn probe(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
     let pictures = outputs.iter().filter_map(|output| match &output.place {
         Place::File(path) => Some(path.as_path()),
         Place::Stdout => None,

@@ -45,5 +45,11 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
     if let Some(Crop { x, y, width, height }) = args.crop {
         option("--crop", format!("{x},{y},{width},{height}"));
     }
+    if let Some([k, n]) = args.part {
+        option("--part", format!("{k}/{n}"));
+    }
+    if let Some(split) = args.split {
+        option("--split", super::parts::split_name(split.into()).to_owned());
+    }
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }

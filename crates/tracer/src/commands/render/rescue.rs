@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A picture that was written, and where.
-pub(super) struct Rescued {
+pub struct Rescued {
     pub written: Written,
     /// As in the report.
     pub name: String,
@@ -20,7 +20,7 @@ pub(super) struct Rescued {
 ///
 /// # Errors
 /// Why it could not be written at its place, if it could not be written elsewhere either.
-pub(super) fn rescue(
+pub fn rescue(
     place: &Place,
     shell: &Shell,
     write: impl Fn(&Place) -> Result<Written, WriteError>,

@@ -1,0 +1,71 @@
+//! What the picture of a film is made with, as notes beside it: so that a film is enough to make it, without the scene.
+
+use crate::write::{Provenance, Setting};
+use scene_format::SceneDesc;
+use scene_format::desc::ToneMap;
+use std::path::Path;
+use tracer_core::{Crop, Film, Look, Note};
+
+/// How the names of these notes begin.
+const NOTE: &str = "picture.";
+const TONE_MAPS: [ToneMap; 3] = [ToneMap::None, ToneMap::Filmic, ToneMap::AgX];
+
+/// Of a scene, and the fields of it that the command line has set.
+pub fn picture_notes(desc: &SceneDesc, set: &[String]) -> Vec<Note> {
+    let source = desc.sources.first();
+    let name = source.map_or("", |source| source.name.as_str());
+    let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy()).into_owned();
+    // A longer one is not put into pictures.
+    let text = source.map(|source| source.text.as_str()).filter(|text| text.len() <= Provenance::MAX_SCENE_BYTES);
+    let note = |name: &str, value: String| (format!("{NOTE}{name}"), value);
+    let mut notes = vec![
+        note("scene_name", name),
+        note("scene_text", text.unwrap_or_default().to_owned()),
+        note("max_bounces", desc.render.max_bounces.value.to_string()),
+        note("exposure", desc.effects.exposure.value.to_string()),
+        note("tone_map", format!("{:?}", desc.effects.tone_map)),
+    ];
+    notes.extend(set.iter().map(|set| note("set", set.clone())));
+    notes
+}
+
+fn all<'a>(notes: &'a [Note], name: &'a str) -> impl Iterator<Item = &'a str> {
+    notes.iter().filter(move |(of, _)| of.strip_prefix(NOTE) == Some(name)).map(|(_, value)| value.as_str())
+}
+
+fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
+    all(notes, name).next().unwrap_or_default()
+}
+
+/// How the film is developed; `None` where the notes do not tell.
+pub fn look(notes: &[Note]) -> Option<Look> {
+    let exposure = first(notes, "exposure").parse().ok().filter(|stops: &f64| stops.is_finite())?;
+    let tone_map = first(notes, "tone_map");
+    let tone_map = TONE_MAPS.into_iter().find(|of| format!("{of:?}") == tone_map)?;
+    Some(Look { exposure, tone_map })
+}
+
+/// What picture files tell of themselves.
+pub fn provenance(notes: &[Note], film: &Film) -> Provenance {
+    let (fewest, most) = film.samples().into_inner();
+    let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
+    let [width, height] = film.size();
+    let mut settings = vec![
+        Setting { name: "samples", value: samples },
+        Setting { name: "seed", value: film.seed().to_string() },
+        Setting { name: "size", value: format!("{width}x{height}") },
+    ];
+    for name in ["max_bounces", "exposure", "tone_map"] {
+        settings.push(Setting { name, value: first(notes, name).to_owned() });
+    }
+    let Crop { x, y, width, height } = film.crop();
+    if film.crop() != Crop::whole(film.size()) {
+        settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
+    }
+    settings.extend(all(notes, "set").map(|set| Setting { name: "set", value: set.to_owned() }));
+    Provenance {
+        scene_name: first(notes, "scene_name").to_owned(),
+        scene_text: first(notes, "scene_text").to_owned(),
+        settings,
+    }
+}

@@ -1,0 +1,237 @@
+//! `tracer merge`: the parts of a rendering become its pictures.
+
+use super::render::outputs::{self, Output};
+use super::render::rescue::{Rescued, rescue};
+use super::render::write_report;
+use crate::args::MergeArgs;
+use crate::checkpoint::{Asked, differences, look, note, part_told, provenance};
+use crate::failure::{Failure, exit};
+use crate::loading::{is_dash, use_threads};
+use crate::memory;
+use crate::merge_report::{MergeReport, PartReport};
+use crate::report::FileReport;
+use crate::shell::{Shell, counted};
+use crate::write::{Place, is_one_file, write};
+use rayon::prelude::*;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use tracer_core::{Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, develop, film_faults};
+
+pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+    let as_rendered = args.as_render();
+    let outputs = outputs::outputs(&as_rendered)?;
+    use_threads(args.threads)?;
+    outputs::probe(&outputs, args.report.as_deref())?;
+    spare_parts(args, &outputs)?;
+    let (parts, damaged) = read(&args.parts)?;
+    let Sorted { parts, gaps } = sorted(parts, damaged, args, shell)?;
+    let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
+    check_memory(&heads[0])?;
+    let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
+    let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
+    let film = Film::merge(&heads, open, allowed).map_err(|error| failure(&error, &parts))?;
+    let merged = started.elapsed().as_secs_f64();
+
+    // Of the first in the rendering's own order: so the order of the command line does not show.
+    let notes = &heads[0].notes;
+    let first = &parts[0].0;
+    let look = look(notes).ok_or_else(|| {
+        Failure::wrong(format!("{} does not tell how its picture is developed; render it again", first.display()))
+    })?;
+    let image = develop(&film, &look);
+    let developed = started.elapsed().as_secs_f64();
+    let provenance = provenance(notes, &film);
+    let (mut files, mut elsewhere) = (Vec::new(), false);
+    for Output { place, encoding } in &outputs {
+        let rescued = rescue(place, shell, |place| write(&image, *encoding, place, &provenance))?;
+        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
+        elsewhere |= is_elsewhere;
+        files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
+    }
+    let total = started.elapsed().as_secs_f64();
+    if shell.is_told() {
+        let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
+        let (fewest, most) = film.samples().into_inner();
+        let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
+        let of = counted(parts.len(), "part");
+        shell.say(&format!("{names} of {of} in {total:.2} s, {samples} samples per pixel"));
+    }
+    if let Some(path) = &args.report {
+        let of_parts = parts.iter().map(|(path, head)| PartReport::new(path, &head.part())).collect();
+        let seconds = [merged, developed - merged, total - developed, total];
+        let report = MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, seconds, files);
+        write_report(path, report.to_json())?;
+    }
+    Ok(ExitCode::from(if elsewhere { exit::FAILED } else { exit::DONE }))
+}
+
+/// Sees that no picture replaces a part.
+fn spare_parts(args: &MergeArgs, outputs: &[Output]) -> Result<(), Failure> {
+    let pictures = outputs.iter().filter_map(|output| match &output.place {
+        Place::File(path) => Some(("-o", path.as_path())),
+        Place::Stdout => None,
+    });
+    let report = args.report.as_deref().filter(|report| !is_dash(report)).map(|report| ("--report", report));
+    for (option, path) in pictures.chain(report) {
+        if args.parts.iter().any(|part| is_one_file(part, path)) {
+            return Err(Failure::wrong(format!("{option} {} would replace a part; name another file", path.display())));
+        }
+    }
+    Ok(())
+}
+
+/// A file and its head.
+type Head = (PathBuf, FilmHead);
+
+/// The parts that are whole, and what is wrong with the others. Every file is read to its end before anything is made of any.
+fn read(paths: &[PathBuf]) -> Result<(Vec<Head>, Vec<String>), Failure> {
+    for (k, path) in paths.iter().enumerate() {
+        if is_dash(path) {
+            return Err(Failure::wrong("parts are files, which are read twice: standard input cannot be one"));
+        }
+        if paths[..k].iter().any(|other| is_one_file(other, path)) {
+            return Err(Failure::wrong(format!("{} is named twice; name each part once", path.display())));
+        }
+    }
+    let check = |path: &PathBuf| {
+        let file = File::open(path).map_err(FilmError::Io);
+        file.and_then(SavedFilm::open).and_then(SavedFilm::check).map(|head| (path.clone(), head))
+    };
+    let checked: Vec<Result<Head, FilmError>> = paths.par_iter().map(check).collect();
+    let (mut parts, mut damaged) = (Vec::new(), Vec::new());
+    for (path, checked) in paths.iter().zip(checked) {
+        match checked {
+            Ok(part) => parts.push(part),
+            Err(FilmError::Foreign) => {
+                return Err(Failure::wrong(format!(
+                    "{} is no part; parts are made by `tracer render SCENE --part K/N`",
+                    path.display()
+                )));
+            }
+            Err(error) => damaged.push(format!("{} cannot be used: {error}", path.display())),
+        }
+    }
+    Ok((parts, damaged))
+}
+
+/// Parts that belong together, in the rendering's own order.
+struct Sorted {
+    parts: Vec<Head>,
+    gaps: Vec<Gap>,
+}
+
+/// Sees that the parts belong together; all that is wrong is told at once.
+fn sorted(mut parts: Vec<Head>, damaged: Vec<String>, args: &MergeArgs, shell: &Shell) -> Result<Sorted, Failure> {
+    parts.sort_by_key(|(path, head)| (head.part().first, head.part().crop.y, path.clone()));
+    let mut wrong = foreign(&parts);
+    let mut lost = damaged;
+    let mut gaps = Vec::new();
+    if wrong.is_empty() {
+        parts.retain(|(path, head)| {
+            if !head.is_finished() {
+                let Part { first, end, .. } = head.part();
+                let (held, asked) = (head.samples.start().saturating_sub(first), end - first);
+                lost.push(format!("{} is not finished: it has {held} of {asked} samples per pixel", path.display()));
+            }
+            head.is_finished()
+        });
+        let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
+        for fault in film_faults(&heads) {
+            match fault {
+                MergeError::Missing(missing) => gaps = missing,
+                MergeError::Empty => {}
+                fault => wrong.push(told(&fault, &parts)),
+            }
+        }
+    }
+    let missing: Vec<String> = gaps.iter().map(|gap| format!("missing: {}", of_gap(gap))).collect();
+    if !wrong.is_empty() {
+        wrong.extend(lost);
+        return Err(Failure::wrong(wrong.join("\n  ")));
+    }
+    if parts.is_empty() {
+        lost.push("no part is left to be merged".to_owned());
+        return Err(Failure::could_not(lost.join("\n  ")));
+    }
+    lost.extend(missing);
+    if !args.allow_missing && !lost.is_empty() {
+        lost.push("render what is missing, or leave it out of the picture by --allow-missing".to_owned());
+        return Err(Failure::could_not(lost.join("\n  ")));
+    }
+    lost.iter().for_each(|line| shell.say(&format!("warning: {line}")));
+    Ok(Sorted { parts, gaps })
+}
+
+/// Parts that are of another rendering than most of them, and in what.
+fn foreign(parts: &[Head]) -> Vec<String> {
+    let differs = |part: &FilmHead, from: &FilmHead| differences(part, &Asked::of_part(from));
+    let alike = |of: &Head| parts.iter().filter(|other| differs(&other.1, &of.1).is_empty()).count();
+    // Of so many as there are of one rendering, any will do; usually the first.
+    let Some(of) = parts.iter().find(|part| 2 * alike(part) > parts.len()).or(parts.first()) else { return Vec::new() };
+    let others = parts.iter().map(|(path, head)| (path, differs(head, &of.1)));
+    let line = |(path, found): (&PathBuf, Vec<String>)| {
+        let (path, of) = (path.display(), of.0.display());
+        format!("{path} is of another rendering than {of} (here): {}", found.join("; "))
+    };
+    others.filter(|(_, found)| !found.is_empty()).map(line).collect()
+}
+
+fn of_gap(Gap { rows, samples }: &Gap) -> String {
+    format!("samples {} to {} of rows {} to {}", samples.start, samples.end - 1, rows.start, rows.end - 1)
+}
+
+/// A fault with the names of files.
+fn told(fault: &MergeError, parts: &[Head]) -> String {
+    let name = |part: usize| parts[part].0.display();
+    match fault {
+        MergeError::Overlap { first, second } => {
+            let of = |part: usize| part_told(Some(parts[part].1.part()));
+            format!(
+                "{} ({}) and {} ({}) have the same samples; leave one out",
+                name(*first),
+                of(*first),
+                name(*second),
+                of(*second)
+            )
+        }
+        MergeError::Foreign { part, what } => {
+            format!("{} is of another rendering than {}: it has another {what}", name(*part), name(0))
+        }
+        MergeError::Unfinished { part } => format!("{} is not finished", name(*part)),
+        MergeError::Part { part, error } => format!("{} cannot be used: {error}", name(*part)),
+        fault => fault.to_string(),
+    }
+}
+
+fn failure(fault: &MergeError, parts: &[Head]) -> Failure {
+    Failure::could_not(told(fault, parts))
+}
+
+/// A picture that cannot fit is refused here.
+fn check_memory(head: &FilmHead) -> Result<(), Failure> {
+    let crop = head.part().of_crop;
+    // The developed picture, and an encoded one while it is made and written.
+    let mut whole = head.clone();
+    whole.crop = crop;
+    let needed = whole.bytes() + 48 * u64::from(crop.width) * u64::from(crop.height);
+    match memory::available() {
+        Some(available) if needed > available => Err(Failure::could_not(format!(
+            "the picture takes {} of memory, and {} are free",
+            memory::human(needed),
+            memory::human(available)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// The scene's name, as its parts tell it.
+pub fn scene_of(head: &FilmHead) -> [String; 2] {
+    ["scene", "hash"].map(|name| note(head, name).to_owned())
+}
+
+/// A path as it was named.
+pub fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
