@@ -141,18 +141,20 @@ fn grouped(diagnostics: &[Diagnostic], lines: &[Lines<'_>]) -> Vec<Option<String
 
 /// All diagnostics as text, a blank line after each. Where many are alike, the first one tells of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> String {
+    texts(diagnostics, sources, style).into_iter().map(|(_, text)| text + "\n\n").collect()
+}
+
+/// As [`text`], one by one: which diagnostic, and its text. Those that another one tells of are left out.
+pub fn texts(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> Vec<(usize, String)> {
     let lines = lines(sources);
     let renderer = if style.color { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.term_width(style.width.max(40)).decor_style(DecorStyle::Ascii);
-    let mut out = String::new();
-    let grouped = grouped(diagnostics, &lines);
-    for (diagnostic, others) in diagnostics.iter().zip(&grouped) {
-        if let Some(others) = others {
-            out.push_str(&renderer.render(&[group(diagnostic, &lines, others)]));
-            out.push_str("\n\n");
-        }
-    }
-    out
+    let others = grouped(diagnostics, &lines);
+    let told = diagnostics.iter().zip(&others).enumerate();
+    told.filter_map(|(index, (diagnostic, others))| {
+        Some((index, renderer.render(&[group(diagnostic, &lines, others.as_ref()?)])))
+    })
+    .collect()
 }
 
 /// A piece of a source that is shown: whole lines, long ones cut.

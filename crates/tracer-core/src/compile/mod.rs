@@ -70,10 +70,8 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let loaded = meshes::load(desc, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
     let curved = curved::load(desc, &mut builder, &mut diagnostics);
-    let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
-    let named = named.into_iter().map(|path| desc.base_dir.join(path));
     let files: BTreeSet<PathBuf> =
-        named.chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
+        named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let (materials, images, uses) = builder.finish(&mut diagnostics);
     let background = environment::load(desc, &mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
@@ -81,7 +79,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
-        nearby::suggest(&desc.base_dir, &desc.sources, &nearby::named_files(desc), &mut diagnostics);
+        nearby::suggest(&desc.base_dir, &desc.sources, &nearby::by_place(desc), &mut diagnostics);
         return Err(CompileError { diagnostics });
     }
 
@@ -181,6 +179,13 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
         top_boxes,
         second_boxes,
     })
+}
+
+/// The files that the scene names, each once, as [`compile`] opens them: meshes, placements, pictures. What these name in turn is known
+/// when they have been read ([`Scene::files`]).
+pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
+    let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
+    named.into_iter().map(|path| desc.base_dir.join(path)).collect()
 }
 
 /// One point per object near what the camera looks at, on its surface or in its box.

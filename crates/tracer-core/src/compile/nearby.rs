@@ -53,7 +53,7 @@ fn slashed(path: &Path) -> String {
 }
 
 /// All files that the scene names, by their places in it.
-pub fn named_files(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
+pub fn by_place(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
     named(desc).map(|file| (file.span, &*file.value)).collect()
 }
 
@@ -195,7 +195,7 @@ mod tests {
         let Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
         let mut faults =
             vec![scene_format::Diagnostic::error(codes::FILE_NOT_FOUND, mesh.file.span, "there is no file cat.obj")];
-        suggest(&desc.base_dir, &desc.sources, &named_files(&desc), &mut faults);
+        suggest(&desc.base_dir, &desc.sources, &by_place(&desc), &mut faults);
         assert!(faults[0].hint.starts_with("did you mean `../assets/meshes/cat.obj`?"), "{}", faults[0].hint);
         let edit = faults[0].edit.clone().expect("an edit");
         assert_eq!(edit.replacement, "\"../assets/meshes/cat.obj\"");
