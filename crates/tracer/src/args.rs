@@ -1,8 +1,12 @@
 //! The command line's words.
 
+mod fmt;
 mod merge;
+mod preview;
 
+pub use fmt::FmtArgs;
 pub use merge::MergeArgs;
+pub use preview::PreviewArgs;
 
 use crate::commands::Template;
 use crate::write::Bits;
@@ -54,6 +58,9 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// Merge parts of a rendering into pictures
     Merge(MergeArgs),
+    /// See a scene in the browser, again at every save
+    #[command(alias = "watch")]
+    Preview(PreviewArgs),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
     /// Tell what is in a scene or a checkpoint
@@ -338,33 +345,6 @@ pub struct ConvertArgs {
     /// Replace a file that is there
     #[arg(long)]
     pub force: bool,
-    /// How to print what is wrong: text, json or github
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
-    #[arg(hide_possible_values = true, hide_default_value = true)]
-    pub diagnostics: DiagnosticsForm,
-}
-
-const FMT_EXAMPLES: &str = "\
-Examples:
-  tracer fmt room.ron scenes
-  tracer fmt scenes --check
-
-Exit codes: 0 done, 1 with --check when a scene would change, 2 a scene is wrong";
-
-/// `tracer fmt`
-#[derive(Debug, Args)]
-#[command(after_help = FMT_EXAMPLES)]
-pub struct FmtArgs {
-    /// Scene files, folders of them, or - for standard input to standard output
-    #[arg(required = true, value_name = "SCENE")]
-    pub scenes: Vec<PathBuf>,
-    /// Change nothing; name the scenes that would change
-    #[arg(long)]
-    pub check: bool,
-    /// Syntax of the scenes [default: by their names]
-    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
-    pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
     #[arg(hide_possible_values = true, hide_default_value = true)]

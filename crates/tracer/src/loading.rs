@@ -85,6 +85,24 @@ fn no_scene(path: &Path) -> Option<String> {
     path.is_file().then_some(why)
 }
 
+/// Sees that a path leads to a file that may be a scene; whether it is one, reading it tells.
+///
+/// # Errors
+/// When it is standard input, not there, or a file of another kind.
+pub fn expect_scene(path: &Path) -> Result<(), Failure> {
+    if is_dash(path) {
+        return Err(Failure::wrong("standard input cannot be saved again; name a scene file"));
+    }
+    if let Some(why) = no_scene(path) {
+        return Err(Failure::wrong(why));
+    }
+    let opened = std::fs::File::open(path).map_err(|error| unread(path, &error))?;
+    if opened.metadata().is_ok_and(|found| found.is_dir()) {
+        return Err(unread(path, &std::io::Error::other("it is a folder")));
+    }
+    Ok(())
+}
+
 /// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of millions of files.
 const MAX_NAMES: usize = 5000;
 

@@ -14,6 +14,7 @@ mod lsp;
 mod man;
 pub(crate) mod merge;
 mod new;
+mod preview;
 mod render;
 mod scenes;
 mod schema;
@@ -34,6 +35,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
     match command {
         Command::Render(args) => render::run(args, shell, started),
         Command::Merge(args) => merge::run(args, shell, started),
+        Command::Preview(args) => preview::run(args, shell),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),

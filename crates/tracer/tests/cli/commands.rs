@@ -3,8 +3,9 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 15] = [
+pub const COMMANDS: [&str; 16] = [
     "render",
+    "preview",
     "merge",
     "check",
     "info",

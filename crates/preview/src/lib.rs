@@ -1,0 +1,28 @@
+//! `tracer preview`: a picture in the browser that follows its scene file.
+//!
+//! Four parts, each in a file of its own, that meet in [`shared::Shared`] and nowhere else:
+//!
+//! - the **watch** (`watch.rs`) looks at all files that the scene uses and orders a new picture when one has changed;
+//! - the **studio** (`studio.rs`), one thread, loads, compiles and renders, and ends early when there is a new order;
+//! - the **server** (`server.rs`, `guard.rs`) gives one page, in this program, and what the page asks for: the state,
+//!   pictures, pixels;
+//! - the **page** (`page/`) draws them. It asks again and again: a request waits until there is something new.
+//!
+//! Pictures are developed here, by the code that writes files, so that the page shows the bytes that a PNG has. What
+//! this crate cannot do itself, writing files, comes from its caller as a [`Host`].
+#![forbid(unsafe_code)]
+
+mod editor;
+mod files;
+mod guard;
+mod options;
+mod picture;
+mod server;
+mod shared;
+mod studio;
+mod told;
+mod watch;
+
+pub use editor::Editor;
+pub use options::{Host, Kind, Options};
+pub use server::{Preview, StartError};

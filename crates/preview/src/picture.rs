@@ -1,0 +1,16 @@
+//! Pictures for the page: a film, developed, as bytes for a canvas.
+
+use tracer_core::{Film, Look, develop};
+
+/// Four bytes a pixel, row by row from the top, as a canvas takes them: the code values that a PNG has.
+pub fn developed(film: &Film, look: &Look) -> Vec<u8> {
+    let image = develop(film, look);
+    let mut bytes = vec![u8::MAX; image.display.len() / 3 * 4];
+    for (pixel, display) in bytes.chunks_exact_mut(4).zip(image.display.chunks_exact(3)) {
+        for (byte, x) in pixel.iter_mut().zip(display) {
+            // Rounds to the nearest.
+            *byte = (f64::from(*x).clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        }
+    }
+    bytes
+}

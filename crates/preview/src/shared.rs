@@ -1,0 +1,206 @@
+//! What watch, studio and server share: orders to the studio, and what it has made.
+
+use crate::files::Watched;
+use crate::options::{Host, Options};
+use crate::told::Told;
+use scene_format::SceneDesc;
+use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+use tokio::sync::watch;
+use tracer_core::{Film, Scene};
+
+/// Locks; what a thread that panicked has left is whole, since all that is stored is stored at once.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A camera as the page moves it, in the scene's unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    pub position: [f64; 3],
+    pub look_at: [f64; 3],
+    pub up: [f64; 3],
+    pub fov: f64,
+}
+
+impl Pose {
+    pub fn of(desc: &SceneDesc) -> Self {
+        let camera = &desc.camera;
+        Pose {
+            position: camera.position.value,
+            look_at: camera.look_at.value,
+            up: camera.up.value,
+            fov: camera.fov.value,
+        }
+    }
+}
+
+/// A scene that was compiled.
+pub struct Stage {
+    /// Counts the pictures that were begun.
+    pub number: u64,
+    pub desc: SceneDesc,
+    pub scene: Scene,
+}
+
+/// A picture, as far as it is.
+pub struct Frame {
+    /// Counts the frames.
+    pub number: u64,
+    pub stage: u64,
+    pub film: Arc<Film>,
+    /// It has fewer pixels than the picture will have.
+    pub draft: bool,
+    /// Size of the picture that it will become.
+    pub size: [u32; 2],
+    /// Samples that all pixels have.
+    pub samples: u32,
+}
+
+/// What the studio is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Phase {
+    /// It reads the scene.
+    Loading,
+    /// It renders.
+    Rendering,
+    /// The picture is done.
+    Done,
+    /// The scene is wrong; the picture is that of an earlier text.
+    Wrong,
+}
+
+/// What the pages show.
+pub struct State {
+    /// Goes up with every change.
+    pub version: u64,
+    pub phase: Phase,
+    /// Errors and warnings of the text as it is now.
+    pub told: Vec<Told>,
+    pub stage: Option<Arc<Stage>>,
+    pub frame: Option<Arc<Frame>>,
+    /// Noise of a frame, by its number.
+    pub noise: Option<(u64, f64)>,
+    /// The camera that stands in the file, as it was read.
+    pub written: Option<Pose>,
+    /// Samples per pixel that are being made.
+    pub asked: u32,
+    /// When the rendering began, and how long it took when it had ended.
+    pub began: Instant,
+    pub took: Option<f64>,
+}
+
+/// What the studio is to do next; the last word of each kind counts.
+#[derive(Default)]
+pub struct Orders {
+    /// A file has changed.
+    pub reload: bool,
+    /// The camera was moved; `Some(None)`: it is the file's again.
+    pub pose: Option<Option<Pose>>,
+    pub quit: bool,
+}
+
+impl Orders {
+    fn is_empty(&self) -> bool {
+        !self.reload && self.pose.is_none() && !self.quit
+    }
+}
+
+/// How urgent the orders are that wait, in [`Shared::waiting`].
+const NONE: u64 = 0;
+const MOVED: u64 = 1;
+const CHANGED: u64 = 2;
+
+pub struct Shared {
+    pub options: Options,
+    pub host: Box<dyn Host>,
+    /// The files that the scene uses.
+    pub watched: Mutex<Watched>,
+    state: Mutex<State>,
+    /// The state's version, for those who wait for the next one.
+    version: watch::Sender<u64>,
+    orders: Mutex<Orders>,
+    ordered: Condvar,
+    waiting: AtomicU64,
+    /// Camera samples done, of all.
+    pub done: AtomicU64,
+    pub total: AtomicU64,
+}
+
+impl Shared {
+    pub fn new(options: Options, host: Box<dyn Host>) -> Self {
+        let state = State {
+            version: 1,
+            phase: Phase::Loading,
+            told: Vec::new(),
+            stage: None,
+            frame: None,
+            noise: None,
+            written: None,
+            asked: 0,
+            began: Instant::now(),
+            took: None,
+        };
+        Shared {
+            watched: Mutex::new(Watched::new(&options.scene)),
+            options,
+            host,
+            state: Mutex::new(state),
+            version: watch::Sender::new(1),
+            orders: Mutex::new(Orders { reload: true, ..Orders::default() }),
+            ordered: Condvar::new(),
+            waiting: AtomicU64::new(NONE),
+            done: AtomicU64::new(0),
+            total: AtomicU64::new(0),
+        }
+    }
+
+    /// The state, to look at.
+    pub fn state(&self) -> MutexGuard<'_, State> {
+        lock(&self.state)
+    }
+
+    /// Changes the state, and wakes all who wait for that.
+    pub fn change<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
+        let mut state = self.state();
+        let result = change(&mut state);
+        state.version += 1;
+        let version = state.version;
+        drop(state);
+        self.version.send_replace(version);
+        result
+    }
+
+    /// Tells of later versions.
+    pub fn versions(&self) -> watch::Receiver<u64> {
+        self.version.subscribe()
+    }
+
+    /// Orders something. What is being made ends early.
+    pub fn order(&self, add: impl FnOnce(&mut Orders)) {
+        let mut orders = lock(&self.orders);
+        add(&mut orders);
+        let urgency = if orders.reload || orders.quit { CHANGED } else { MOVED };
+        self.waiting.store(urgency, Ordering::Relaxed);
+        self.ordered.notify_all();
+    }
+
+    /// The next orders, when there are any.
+    pub fn orders(&self) -> Orders {
+        let mut orders = lock(&self.orders);
+        while orders.is_empty() {
+            orders = self.ordered.wait(orders).unwrap_or_else(PoisonError::into_inner);
+        }
+        self.waiting.store(NONE, Ordering::Relaxed);
+        std::mem::take(&mut orders)
+    }
+
+    /// Whether what is being made is still wanted. A draft is whatever the camera does meanwhile: else nothing would
+    /// be seen of a camera that moves on and on.
+    pub fn is_wanted(&self, draft: bool) -> bool {
+        self.waiting.load(Ordering::Relaxed) < if draft { CHANGED } else { MOVED }
+    }
+}

@@ -1,0 +1,347 @@
+//! The studio: one thread that makes the pictures. It reads the scene, compiles it, renders a draft and then the
+//! picture, and begins anew whenever there is an order.
+
+use crate::files::{News, Stamp};
+use crate::options::Options;
+use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, lock};
+use crate::told::{Told, file_of, told};
+use scene_format::codes;
+use scene_format::diagnostic::{Source, keep_first};
+use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, mpsc};
+use std::time::{Duration, Instant, SystemTime};
+use tracer_core::{CompileError, Crop, Film, LayerSet, Observer, Progress, RenderOptions, Scene};
+
+/// Pictures are shown no faster than this.
+const FASTEST: Duration = Duration::from_millis(40);
+/// Passes are no longer than this, so that something new is seen.
+const LONGEST_PASS: Duration = Duration::from_millis(1500);
+/// A draft has a quarter of the picture's rows and columns, and so many samples: a quarter of the work of the first
+/// whole pass.
+const DRAFT: u32 = 4;
+/// A picture with fewer pixels is there as soon as its draft.
+const SMALL: u64 = 200 * 200;
+
+/// Makes pictures until it is told to quit.
+pub fn run(shared: &Arc<Shared>) {
+    let (noise, frames) = mpsc::channel();
+    let teller = Arc::clone(shared);
+    // Without it there is no noise to be seen, and all else goes on.
+    let _ = std::thread::Builder::new().name("noise".to_owned()).spawn(move || tell_noise(&teller, &frames));
+    let mut studio = Studio { shared, read: None, pose: None, stages: 0, noise };
+    loop {
+        let orders = shared.orders();
+        if orders.quit {
+            return;
+        }
+        // A fault of ours in one scene must not end the preview: the next text may go well.
+        if catch_unwind(AssertUnwindSafe(|| studio.follow(&orders))).is_err() {
+            studio.read = None;
+            shared.change(|state| {
+                state.phase = Phase::Wrong;
+                state.told = vec![Told::plain(
+                    "error: tracer failed on this scene, which is a fault of tracer; please report it with the scene",
+                )];
+            });
+        }
+    }
+}
+
+/// Measures the noise of the latest frame, beside the rendering: for a large picture it takes a while.
+fn tell_noise(shared: &Shared, frames: &mpsc::Receiver<Arc<Frame>>) {
+    while let Ok(mut frame) = frames.recv() {
+        while let Ok(later) = frames.try_recv() {
+            frame = later;
+        }
+        let noise = frame.film.relative_noise();
+        shared.change(|state| state.noise = Some((frame.number, noise)));
+    }
+}
+
+/// A scene that was read and is right as far as its text goes.
+struct Read {
+    desc: SceneDesc,
+    warnings: Vec<Told>,
+    written: Pose,
+    /// The files as they were read.
+    stamps: BTreeMap<PathBuf, Stamp>,
+}
+
+struct Studio<'a> {
+    shared: &'a Arc<Shared>,
+    read: Option<Read>,
+    /// The camera as the page has moved it.
+    pose: Option<Pose>,
+    stages: u64,
+    noise: mpsc::Sender<Arc<Frame>>,
+}
+
+impl Studio<'_> {
+    fn follow(&mut self, orders: &Orders) {
+        if let Some(pose) = orders.pose {
+            self.pose = pose;
+        }
+        if orders.reload && !self.reload() {
+            return;
+        }
+        self.make();
+    }
+
+    /// Reads the scene. Whether there is a picture to make of it: it is right, and not what it was.
+    fn reload(&mut self) -> bool {
+        let began = SystemTime::now();
+        let options = &self.shared.options;
+        let stamps = lock(&self.shared.watched).stamps();
+        let Loaded { scene, warnings } = match load(&options.scene, options) {
+            Ok(loaded) => loaded,
+            Err(error) => {
+                let (told, files) = faults(error, &options.scene);
+                self.is_wrong(told, files, began);
+                return false;
+            }
+        };
+        let same = self.read.as_ref().is_some_and(|read| read.desc.sources == scene.sources && read.stamps == stamps);
+        // One that was interrupted by this order is made again.
+        if same && self.shared.state().phase == Phase::Done {
+            return false;
+        }
+        let written = Pose::of(&scene);
+        // Who has written another camera wants to see it.
+        if self.read.as_ref().is_some_and(|read| read.written != written) {
+            self.pose = None;
+        }
+        let warnings = told(&warnings, &scene.sources, &options.scene);
+        self.read = Some(Read { desc: scene, warnings, written, stamps });
+        true
+    }
+
+    /// What is wrong is shown over the last picture.
+    fn is_wrong(&self, told: Vec<Told>, files: Vec<PathBuf>, began: SystemTime) {
+        let mut watched = lock(&self.shared.watched);
+        // Those of before, too: a text that cannot be read names none.
+        let before: Vec<PathBuf> = watched.stamps().into_keys().collect();
+        watched.after_reading(before.into_iter().chain(files), began, News::Anything);
+        drop(watched);
+        self.shared.change(|state| {
+            state.phase = Phase::Wrong;
+            state.told = told;
+        });
+    }
+
+    /// Compiles and renders.
+    fn make(&mut self) {
+        let began = SystemTime::now();
+        let Some(read) = &mut self.read else { return };
+        self.shared.change(|state| state.phase = Phase::Loading);
+        let options = &self.shared.options;
+        let desc = described(&read.desc, self.pose, options);
+        if let Some(why) = too_large(&desc, self.shared.host.free_memory()) {
+            let files = tracer_core::named_files(&desc);
+            return self.is_wrong(vec![Told::plain(why)], files, began);
+        }
+        let scene = match tracer_core::compile(&desc) {
+            Ok(scene) => scene,
+            Err(CompileError { diagnostics }) => {
+                let mut faults = told(&diagnostics, &desc.sources, &options.scene);
+                faults.extend(read.warnings.iter().cloned());
+                return self.is_wrong(faults, tracer_core::named_files(&desc), began);
+            }
+        };
+        let files = scene.files.iter().cloned().chain(more_files(&desc, &options.scene));
+        let mut watched = lock(&self.shared.watched);
+        let odd = scene.warnings.iter().any(|warning| warning.code == codes::MTL_UNSUPPORTED);
+        watched.after_reading(files, began, if odd { News::Pictures } else { News::None });
+        read.stamps = watched.stamps();
+        drop(watched);
+        let mut warnings = read.warnings.clone();
+        warnings.extend(told(&scene.warnings, &desc.sources, &options.scene));
+        let written = read.written;
+        self.stages += 1;
+        self.shared.done.store(0, Ordering::Relaxed);
+        self.shared.change(|state| {
+            state.phase = Phase::Rendering;
+            state.told = warnings;
+            state.written = Some(written);
+            state.asked = scene.samples;
+            (state.began, state.took) = (Instant::now(), None);
+        });
+        self.render(desc, scene);
+    }
+
+    fn render(&mut self, desc: SceneDesc, mut scene: Scene) {
+        let number = self.stages;
+        let size = scene.size;
+        let threads = self.shared.options.threads;
+        if u64::from(size[0]) * u64::from(size[1]) > SMALL {
+            scene.size = size.map(|side| side.div_ceil(DRAFT));
+            let few = RenderOptions {
+                samples: Some(DRAFT),
+                caustics: Some(false),
+                layers: Some(LayerSet::default()),
+                threads,
+                ..RenderOptions::default()
+            };
+            let film = tracer_core::render(&scene, &few, &self.observer(number, Some(size)));
+            scene.size = size;
+            if *film.samples().start() > 0 {
+                show(self.shared, &self.noise, number, Arc::new(film), Some(size));
+            }
+        }
+        let stage = Arc::new(Stage { number, desc, scene });
+        self.shared.change(|state| state.stage = Some(Arc::clone(&stage)));
+        if !self.shared.is_wanted(false) {
+            return;
+        }
+        self.shared.change(|state| state.began = Instant::now());
+        let options = RenderOptions { threads, longest_pass: Some(LONGEST_PASS), ..RenderOptions::default() };
+        let film = tracer_core::render(&stage.scene, &options, &self.observer(number, None));
+        if self.shared.is_wanted(false) {
+            show(self.shared, &self.noise, number, Arc::new(film), None);
+            self.shared.change(|state| {
+                state.phase = Phase::Done;
+                state.took = Some(state.began.elapsed().as_secs_f64());
+            });
+        }
+    }
+
+    fn observer(&self, stage: u64, draft: Option<[u32; 2]>) -> Watching<'_> {
+        Watching { shared: self.shared, noise: Mutex::new(self.noise.clone()), stage, draft, shown: Mutex::new(None) }
+    }
+}
+
+/// Shows a film.
+fn show(shared: &Shared, noise: &mpsc::Sender<Arc<Frame>>, stage: u64, film: Arc<Film>, draft: Option<[u32; 2]>) {
+    let samples = *film.samples().start();
+    let frame = shared.change(|state| {
+        let number = state.frame.as_ref().map_or(1, |frame| frame.number + 1);
+        let size = draft.unwrap_or(film.size());
+        let frame = Arc::new(Frame { number, stage, film, draft: draft.is_some(), size, samples });
+        state.frame = Some(Arc::clone(&frame));
+        frame
+    });
+    if draft.is_none() {
+        // That nobody measures is told by there being no noise.
+        let _ = noise.send(frame);
+    }
+}
+
+/// Ends a rendering that nobody wants any more, and shows what there is of it.
+struct Watching<'a> {
+    shared: &'a Shared,
+    noise: Mutex<mpsc::Sender<Arc<Frame>>>,
+    stage: u64,
+    draft: Option<[u32; 2]>,
+    shown: Mutex<Option<Instant>>,
+}
+
+impl Observer for Watching<'_> {
+    fn progress(&self, progress: Progress) -> ControlFlow<()> {
+        if self.draft.is_none() {
+            self.shared.done.store(progress.samples_done, Ordering::Relaxed);
+            self.shared.total.store(progress.samples_total, Ordering::Relaxed);
+        }
+        if self.shared.is_wanted(self.draft.is_some()) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+
+    fn pass(&self, film: &Film) {
+        let mut shown = lock(&self.shown);
+        // A draft is shown when it is whole.
+        if self.draft.is_some() || shown.is_some_and(|at| at.elapsed() < FASTEST) {
+            return;
+        }
+        show(self.shared, &lock(&self.noise), self.stage, Arc::new(film.clone()), None);
+        *shown = Some(Instant::now());
+    }
+}
+
+/// The scene, under its name without folders.
+fn load(path: &Path, options: &Options) -> Result<Loaded, LoadError> {
+    let io = |source| LoadError::Io { path: path.to_owned(), source };
+    if std::fs::metadata(path).map_err(io)?.len() > MAX_FILE_BYTES {
+        // Which tells so.
+        return scene_format::load_with(path, &options.overrides);
+    }
+    let bytes = std::fs::read(path).map_err(io)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let syntax = options.syntax.or(Syntax::from_path(path));
+    scene_format::load_bytes(&name, bytes, syntax, folder, &options.overrides)
+}
+
+/// What is wrong with a scene that did not load and with the files that it names, and those files.
+fn faults(error: LoadError, scene: &Path) -> (Vec<Told>, Vec<PathBuf>) {
+    let folder = scene.parent().unwrap_or(Path::new(""));
+    match error {
+        LoadError::Io { source, .. } => {
+            let name = scene.file_name().unwrap_or_default().to_string_lossy();
+            let text = if source.kind() == std::io::ErrorKind::NotFound {
+                format!("error: {name} is not there any more; as soon as it is, it is shown")
+            } else {
+                format!("error: cannot read {name}: {source}")
+            };
+            (vec![Told::plain(text)], Vec::new())
+        }
+        LoadError::Invalid { mut diagnostics, sources, files } => {
+            diagnostics.extend(tracer_core::check_files(&files, folder, &sources));
+            diagnostics.sort_by_key(|fault| fault.span);
+            keep_first(&mut diagnostics);
+            let files = files.iter().map(|file| folder.join(&file.path));
+            let files = files.chain(sources.iter().skip(1).filter_map(|source| file_of(source, scene))).collect();
+            (told(&diagnostics, &sources, scene), files)
+        }
+    }
+}
+
+/// Texts of the scene beside its first.
+fn more_files(desc: &SceneDesc, scene: &Path) -> Vec<PathBuf> {
+    let more = desc.sources.iter().skip(1).filter(|source: &&Source| source.name != "--set");
+    more.filter_map(|source| file_of(source, scene)).collect()
+}
+
+/// The scene with what options and page say.
+fn described(desc: &SceneDesc, pose: Option<Pose>, options: &Options) -> SceneDesc {
+    let mut desc = desc.clone();
+    if let Some([width, height]) = options.size {
+        desc.image.width = width.into();
+        desc.image.height = height.into();
+    }
+    if let Some(samples) = options.samples {
+        desc.render.samples = samples.into();
+    }
+    if let Some(Pose { position, look_at, up, fov }) = pose {
+        desc.camera.position = position.into();
+        desc.camera.look_at = look_at.into();
+        desc.camera.up = up.into();
+        desc.camera.fov = fov.into();
+    }
+    desc
+}
+
+/// Why a picture cannot be shown: later the system would end the program.
+fn too_large(desc: &SceneDesc, free: Option<u64>) -> Option<String> {
+    // What is rendered, what is shown, and what was shown before that; each developed once for a page.
+    const FILMS: u64 = 3;
+    const BYTES_PER_PIXEL: u64 = 64;
+    let size = [desc.image.width.value, desc.image.height.value];
+    let layers: LayerSet = desc.output.layers.iter().copied().collect();
+    let film = Film::bytes_of(Crop::whole(size), desc.render.clamp.is_some(), true, layers);
+    let needed = FILMS * film + BYTES_PER_PIXEL * u64::from(size[0]) * u64::from(size[1]);
+    let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
+    (needed > free?).then(|| {
+        format!(
+            "error: to preview {}x{} pixels takes {:.1} GiB of memory, and {:.1} are free\n\
+             hint: start it with --size, as in --size {}x{}",
+            size[0],
+            size[1],
+            gib(needed),
+            gib(free.unwrap_or(0)),
+            size[0].div_ceil(8),
+            size[1].div_ceil(8),
+        )
+    })
+}

@@ -1,0 +1,256 @@
+// `tracer preview` in a real browser. Run by `cargo xtask prove preview`: needs chromium, and playwright-core in target/prove/node.
+// With PREVIEW_SHOTS=FOLDER it leaves pictures of the page there, to be looked at.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { Program, SCENE, wait } from "./program.mjs";
+
+const root = fileURLToPath(new URL("../../../../", import.meta.url));
+const require = createRequire(join(root, "target/prove/node/"));
+const { chromium } = require("playwright-core");
+
+const folder = mkdtempSync(join(tmpdir(), "preview-"));
+const shots = process.env.PREVIEW_SHOTS;
+if (shots) mkdirSync(shots, { recursive: true });
+const shoot = async (page, name) => shots && page.screenshot({ path: join(shots, `${name}.png`) });
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  headless: true,
+  args: [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+  ],
+});
+
+/** A page that fails the test where its scripts do, or where it asks anybody but the preview. */
+async function open(address, settings = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true, ...settings });
+  const page = await context.newPage();
+  page.on("pageerror", (error) => assert.fail(`the page's script: ${error.stack}`));
+  page.on("request", (request) => {
+    const url = request.url();
+    assert.ok(url.startsWith(address) || /^(data|blob):/.test(url), `the page asks for ${url}`);
+  });
+  await page.goto(address);
+  return page;
+}
+
+const phase = (page, name) => page.waitForFunction((name) => document.body.dataset.phase === name, name, { timeout: 60000 });
+/** What the canvas shows in the middle of the picture. */
+const middle = (page) => page.evaluate(() => {
+  const canvas = document.getElementById("picture");
+  return [...canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data];
+});
+const text = (page, id) => page.textContent(`#${id}`);
+
+const tests = {
+  async "the picture follows the file"({ program, page }) {
+    await phase(page, "done");
+    const before = await middle(page);
+    assert.ok(before[0] > 1.5 * before[1], `the ball is red: ${before}`);
+    await shoot(page, "dark");
+    program.renameSave(SCENE.replace("0.9, 0.2, 0.1", "0.1, 0.2, 0.9"));
+    await page.waitForFunction(() => {
+      const canvas = document.getElementById("picture");
+      const [red, , blue] = canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data;
+      return blue > 1.5 * red;
+    }, null, { timeout: 60000 });
+    await phase(page, "done");
+    const said = await text(page, "figures");
+    assert.match(said, /320 x 240, 16 of 16 samples, .*samples\/s, noise/);
+    program.renameSave(SCENE);
+    await page.waitForFunction(() => document.body.dataset.phase !== "done").catch(() => {});
+    await phase(page, "done");
+  },
+
+  async "what is wrong lies over the last picture"({ program, page }) {
+    await phase(page, "done");
+    const before = await middle(page);
+    program.renameSave(SCENE.replace("radius: 1,", "radus: 1,"));
+    await phase(page, "wrong");
+    await page.waitForSelector("#faults:not([hidden])");
+    const said = await text(page, "faultList");
+    for (const word of ["error[E0201]", "radus: 1", "^^^^^", "did you mean `radius`?", "scene.ron:8"]) {
+      assert.ok(said.includes(word), `${word} is not in ${said}`);
+    }
+    assert.match(await text(page, "faultsTitle"), /^1 error; the picture is that of the last right text/);
+    assert.deepEqual(await middle(page), before);
+    assert.match(await page.title(), /^! scene.ron/);
+    await shoot(page, "dark-error");
+    await page.click("#faultList button");
+    await wait(() => readFileSync(join(folder, "opened"), "utf8").includes("scene.ron 8 "), "the editor is told the line");
+    await page.keyboard.press("e");
+    await page.waitForSelector("#faultList", { state: "hidden" });
+    program.renameSave(SCENE);
+    await phase(page, "done");
+    await page.waitForSelector("#faults", { state: "hidden" });
+  },
+
+  async "exposure and tone map"({ page }) {
+    await phase(page, "done");
+    const before = await middle(page);
+    await page.focus("#exposure");
+    await page.fill("#exposure", "-3");
+    await page.waitForFunction((red) => {
+      const canvas = document.getElementById("picture");
+      return canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[0] < red / 2;
+    }, before[0], { timeout: 60000 });
+    assert.equal(await text(page, "exposureShown"), "-3 EV");
+    await page.selectOption("#tone", "agx");
+    await page.click("#lookReset");
+    await page.waitForFunction((before) => {
+      const canvas = document.getElementById("picture");
+      return [...canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data].join() === before;
+    }, before.join(), { timeout: 60000 });
+  },
+
+  async "zoom, by keys and by wheel"({ page }) {
+    await phase(page, "done");
+    await page.focus("#picture");
+    await page.keyboard.press("1");
+    await page.waitForFunction(() => document.getElementById("zoom").textContent === "100 %");
+    // A pixel of the picture is one of the screen.
+    const wide = await page.evaluate(() => {
+      const canvas = document.getElementById("picture");
+      const row = canvas.getContext("2d").getImageData(0, canvas.height / 2, canvas.width, 1).data;
+      const edge = [...row.slice(0, 3)].join();
+      let count = 0;
+      for (let x = 0; x < canvas.width; x++) if ([...row.slice(4 * x, 4 * x + 3)].join() !== edge) count += 1;
+      return count;
+    });
+    assert.equal(wide, 320);
+    for (const key of ["+", "+", "-", "ArrowLeft", "ArrowUp"]) await page.keyboard.press(key);
+    await page.mouse.move(500, 400);
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction(() => parseFloat(document.getElementById("zoom").textContent) > 200);
+    await shoot(page, "zoomed");
+    await page.keyboard.press("0");
+    await page.waitForSelector("#fit[aria-pressed=true]");
+  },
+
+  async "saved pictures"({ page }) {
+    await phase(page, "done");
+    for (const [id, name, magic] of [["savePng", "scene.png", "\x89PNG"], ["saveExr", "scene.exr", "v/1\x01"]]) {
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#${id}`)]);
+      assert.equal(download.suggestedFilename(), name);
+      assert.equal(readFileSync(await download.path()).toString("latin1", 0, 4), magic);
+    }
+  },
+
+  async "the keyboard alone"({ page }) {
+    await phase(page, "done");
+    await page.evaluate(() => document.activeElement?.blur());
+    const reached = new Set();
+    for (let k = 0; k < 40; k++) {
+      await page.keyboard.press("Tab");
+      reached.add(await page.evaluate(() => document.activeElement?.id ?? ""));
+    }
+    const all = await page.evaluate(() =>
+      [...document.querySelectorAll("button, a[href], select, input, canvas")]
+        .filter((element) => element.offsetParent !== null && !element.disabled && element.id)
+        .map((element) => element.id));
+    for (const id of all) assert.ok(reached.has(id), `#${id} is not reached by Tab`);
+    await page.keyboard.press("?");
+    await page.waitForSelector("dialog[open]");
+    await shoot(page, "keys");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("dialog", { state: "hidden" });
+  },
+
+  async "everything has a name for screen readers"({ page }) {
+    await phase(page, "done");
+    const nameless = await page.evaluate(() =>
+      [...document.querySelectorAll("button, a[href], select, input, canvas, progress, section[aria-labelledby]")]
+        .filter((element) => !(element.getAttribute("aria-label") || element.textContent.trim() || element.labels?.length))
+        .map((element) => element.outerHTML));
+    assert.deepEqual(nameless, []);
+    assert.match(await page.getAttribute("#picture", "aria-label"), /^Picture of scene.ron, 320 by 240 pixels, 16 samples$/);
+  },
+
+  async "two pages, each in its own look"({ program, page }) {
+    const other = await open(program.address);
+    await phase(other, "done");
+    const before = await middle(page);
+    await other.fill("#exposure", "-4");
+    await other.waitForFunction((red) => {
+      const canvas = document.getElementById("picture");
+      return canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[0] < red / 2;
+    }, before[0], { timeout: 60000 });
+    assert.deepEqual(await middle(page), before);
+    await other.context().close();
+  },
+
+  async "a phone, and light"({ program }) {
+    for (const [name, settings] of [
+      ["light", { colorScheme: "light" }],
+      ["phone-dark", { viewport: { width: 390, height: 780 }, deviceScaleFactor: 2, hasTouch: true }],
+      ["phone-light", { viewport: { width: 390, height: 780 }, deviceScaleFactor: 2, hasTouch: true, colorScheme: "light" }],
+    ]) {
+      const page = await open(program.address, { colorScheme: "dark", ...settings });
+      await phase(page, "done");
+      await page.waitForFunction(() => document.body.dataset.frame);
+      await page.waitForTimeout(200);
+      await shoot(page, name);
+      const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(over <= 0, `${name} is ${over} pixels too wide`);
+      program.renameSave(SCENE.replace("radius: 1,", "radus: 1, colour: 3,").replace("fov: 40", "fov: 400"));
+      await phase(page, "wrong");
+      await page.waitForSelector("#faults:not([hidden])");
+      await shoot(page, `${name}-error`);
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0, `${name} with errors`);
+      program.renameSave(SCENE);
+      await phase(page, "done");
+      await page.context().close();
+    }
+  },
+
+  async "ten saves in a second, and a file that is gone for a while"({ program, page }) {
+    for (let k = 0; k < 10; k++) {
+      program.renameSave(SCENE.replace("width: 320", `width: ${321 + k}`));
+      await new Promise((done) => setTimeout(done, 90));
+    }
+    await page.waitForFunction(() => document.getElementById("figures").textContent.startsWith("330 x 240, 16 of 16"), null, { timeout: 60000 });
+    program.remove();
+    await phase(page, "wrong");
+    assert.match(await text(page, "faultList"), /scene.ron is not there any more/);
+    program.renameSave(SCENE);
+    await phase(page, "done");
+  },
+
+  // The last one: it ends the program.
+  async "a program that has ended is told"({ program, page }) {
+    await program.end();
+    await phase(page, "gone");
+    assert.match(await text(page, "phase"), /Not connected/);
+  },
+};
+
+const program = new Program(root, folder);
+let failed = 0;
+try {
+  await program.start();
+  const page = await open(program.address, { colorScheme: "dark" });
+  const only = process.argv[2];
+  for (const [name, test] of Object.entries(tests)) {
+    if (only && !name.includes(only)) continue;
+    const began = Date.now();
+    try {
+      await test({ program, page, open, shoot, folder });
+      console.log(`ok      ${name} (${Date.now() - began} ms)`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAILED  ${name}: ${error.stack}`);
+      await shoot(page, `failed-${failed}`);
+    }
+  }
+} finally {
+  await program.end();
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,50 @@
+//! The words of `tracer preview`.
+
+use super::{Size, SyntaxName, count, size};
+use clap::Args;
+use std::net::IpAddr;
+use std::path::PathBuf;
+
+const PREVIEW_EXAMPLES: &str = "\
+Examples:
+  tracer preview scenes/fig4.ron --open
+  tracer preview scene.ron --port 8000 --editor code
+
+Prints the address of the page; docs/preview.md tells the rest.";
+
+/// `tracer preview`
+#[derive(Debug, Args)]
+#[command(after_help = PREVIEW_EXAMPLES)]
+pub struct PreviewArgs {
+    /// Scene file (.ron, .toml)
+    pub scene: PathBuf,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub open: bool,
+    /// Port [default: one that is free]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Address to listen at [default: 127.0.0.1, this computer alone]
+    #[arg(long, value_name = "IP", default_value = "127.0.0.1", hide_default_value = true)]
+    #[arg(help = "Listen at this address [default: 127.0.0.1]")]
+    pub address: IpAddr,
+    /// Command that opens a file at a line: code, or \"vi +{line} {file}\" [default: that of TRACER_EDITOR, VISUAL or EDITOR]
+    #[arg(long, value_name = "COMMAND", help = "Opens the lines of errors: code, \"ed +{line} {file}\"")]
+    pub editor: Option<String>,
+    /// Set a field of the scene: camera.fov=40 (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Syntax of the scene [default: by its name]
+    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
+    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    pub syntax: Option<SyntaxName>,
+    /// Samples per pixel
+    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    pub samples: Option<u32>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
+    /// Threads [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
