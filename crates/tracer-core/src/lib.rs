@@ -53,7 +53,7 @@ pub mod scene;
 pub mod shapes;
 pub mod texture;
 
-pub use compile::{CompileError, CompileTimes, check_files, compile, named_files};
+pub use compile::{CompileError, CompileTimes, Kept, check_files, compile, compile_keeping, named_files};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};

@@ -40,7 +40,8 @@ pub(crate) use ray_space::{PAD, SMALLEST_COMPONENT};
 
 use crate::level::Level;
 use arena::Arena;
-use coplanar::{Coplanar, Precedence};
+use coplanar::Coplanar;
+pub(crate) use coplanar::Ranks;
 use kernels::{Batch, MeshRecord, TreeView};
 use layout::{INSTANCE_UNITS, InstanceRecord, Ref};
 
@@ -155,16 +156,16 @@ impl Accel {
     /// # Errors
     /// Geometry that refers to what is not there, lies beyond the range of f32 arithmetic, or is too large.
     pub fn build(geometry: &Geometry, acceleration: Acceleration) -> Result<Self, BuildError> {
-        Self::build_with(geometry, acceleration, &|_, _| 0)
+        Self::build_with(geometry, acceleration, &Ranks::default())
     }
 
-    /// As [`build`](Self::build), where of triangles in one plane those of the least precedence win.
+    /// As [`build`](Self::build), where of triangles in one plane those of the least rank win.
     pub(crate) fn build_with(
         geometry: &Geometry,
         acceleration: Acceleration,
-        precedence: Precedence,
+        ranks: &Ranks,
     ) -> Result<Self, BuildError> {
-        build::build(geometry, acceleration, precedence)
+        build::build(geometry, acceleration, ranks)
     }
 
     /// The same structure, asked by itself with another level of vector instructions. The answers are the same. A

@@ -1,7 +1,8 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
+use super::kept::{Kept, load_texture};
 use crate::scene::{Albedo, Material, TextureUse, materials};
-use crate::texture::{self, Texels, Texture};
+use crate::texture::{Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
 use scene_format::desc::{self, Emissive, MaterialRef, TextureFilter, TextureWrap};
@@ -9,6 +10,7 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
 fn compiled(material: &desc::Material, color: Albedo) -> Material {
@@ -181,18 +183,22 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// Loads the textures.
-    pub fn finish(self, diagnostics: &mut Diagnostics) -> (Vec<Material>, Vec<Texture>, Vec<TextureUse>) {
+    pub fn finish(
+        self,
+        kept: Option<&Kept>,
+        diagnostics: &mut Diagnostics,
+    ) -> (Vec<Material>, Vec<Arc<Texture>>, Vec<TextureUse>) {
         let load = |image: &Image| match image {
-            Image::File(path, span) => texture::load(path).map_err(|error| Box::new(error.to_diagnostic(*span))),
-            Image::Squares(colors) => Ok(squares(*colors)),
+            Image::File(path, span) => load_texture(kept, path).map_err(|error| Box::new(error.to_diagnostic(*span))),
+            Image::Squares(colors) => Ok(Arc::new(squares(*colors))),
         };
         let loaded: Vec<_> = self.images.par_iter().map(load).collect();
         let mut images = Vec::with_capacity(loaded.len());
         for (result, image) in loaded.into_iter().zip(&self.images) {
             match result {
-                Ok(mut texture) => {
+                Ok(texture) => {
                     if let Image::File(_, span) = image {
-                        diagnostics.extend(texture.warnings.drain(..).map(|w| Diagnostic { span: *span, ..w }));
+                        diagnostics.extend(texture.warnings.iter().cloned().map(|w| Diagnostic { span: *span, ..w }));
                     }
                     images.push(texture);
                 }
@@ -200,7 +206,9 @@ impl<'a> MaterialBuilder<'a> {
             }
         }
         if images.len() == self.images.len() {
-            let texture = |path: &Path| self.index_of_file.get(path).and_then(|&index| images.get(index));
+            let texture = |path: &Path| {
+                self.index_of_file.get(path).and_then(|&index| images.get(index)).map(|image: &Arc<Texture>| &**image)
+            };
             super::energy::warn(self.desc, texture, diagnostics);
         }
         (self.materials, images, self.uses)

@@ -4,11 +4,12 @@
 //! ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to a size of about one, and its instances
 //! carry matrices.
 
+use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
 use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use crate::bvh;
-use crate::mesh::{self, MeshData, NO_INDEX, normals::vertex_normals};
+use crate::mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 use crate::scene::materials::BxdfFlags;
 use crate::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
@@ -19,11 +20,12 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The meshes of a scene: its files, and the shapes that are made of triangles.
 pub struct Loaded {
     /// Each file once, then each shape once.
-    files: Vec<MeshData>,
+    files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
 }
@@ -31,7 +33,7 @@ pub struct Loaded {
 impl Loaded {
     /// The mesh of an object of triangles, if it could be loaded.
     pub fn file(&self, object: usize) -> Option<&MeshData> {
-        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file))
+        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file)).map(|file| &**file)
     }
 
     /// The MTL files that were read.
@@ -41,7 +43,7 @@ impl Loaded {
 }
 
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
-pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
+pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
@@ -68,14 +70,14 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
             }
         });
     }
-    let results: Vec<_> = paths.par_iter().map(|(path, _)| mesh::load(path)).collect();
+    let results: Vec<_> = paths.par_iter().map(|(path, _)| load_mesh(kept, path)).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
     for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
-            Ok(mut data) => {
-                let told = data.warnings.drain(..).filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
-                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w }));
+            Ok(data) => {
+                let told = data.warnings.iter().filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
+                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w.clone() }));
                 file_of_path.push(Some(files.len()));
                 files.push(data);
             }
@@ -86,7 +88,7 @@ pub fn load(desc: &SceneDesc, diagnostics: &mut Diagnostics) -> Loaded {
         }
     }
     let first_shape = files.len();
-    files.extend(shapes.iter().map(|shape| shape.mesh()));
+    files.extend(shapes.iter().map(|shape| Arc::new(shape.mesh())));
     let of_geometry = |geometry| match geometry {
         Geometry::File(path) => file_of_path[path],
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
@@ -371,20 +373,10 @@ impl Built {
         shapes: &[bvh::ShapeGeometry],
         first_shape: u32,
         materials: &[Material],
-    ) -> Result<bvh::Accel, bvh::BuildError> {
+        kept: Option<&Kept>,
+    ) -> Result<Arc<bvh::Accel>, bvh::BuildError> {
         let first_primitive = first_shape + shapes.len() as u32;
         let t = &self.triangles;
-        // Of surfaces in one place: what shines, then what lets no light through.
-        let precedence = |primitive: u32, instance: u32| {
-            let triangle = (primitive - first_primitive) as usize;
-            let whole = self.instances[instance as usize].material;
-            let material = if whole == NONE { t.material[triangle] } else { whole };
-            match materials.get(material as usize) {
-                _ if t.light.get(triangle).is_some_and(|&light| light != NONE) => 0,
-                Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => 2,
-                _ => 1,
-            }
-        };
         let meshes: Vec<bvh::MeshGeometry> = self
             .meshes
             .iter()
@@ -398,7 +390,23 @@ impl Built {
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
         let geometry = bvh::Geometry { spheres, shapes, first_shape, meshes, instances };
-        bvh::Accel::build_with(&geometry, acceleration, &precedence)
+        build_tree(kept, &geometry, acceleration, &self.ranks(materials))
+    }
+
+    /// Who wins where surfaces lie in one place: what shines, then what lets no light through.
+    fn ranks(&self, materials: &[Material]) -> bvh::Ranks {
+        let of_material = |index: u32| match materials.get(index as usize) {
+            Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => 2,
+            _ => 1,
+        };
+        let t = &self.triangles;
+        let shines = |triangle: usize| t.light.get(triangle).is_some_and(|&light| light != NONE);
+        let of_triangle = |(triangle, &material)| if shines(triangle) { 0 } else { of_material(material) };
+        let of_instance = |instance: &Instance| (instance.material != NONE).then(|| of_material(instance.material));
+        bvh::Ranks {
+            triangles: t.material.iter().enumerate().map(of_triangle).collect(),
+            instances: self.instances.iter().map(of_instance).collect(),
+        }
     }
 
     /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].

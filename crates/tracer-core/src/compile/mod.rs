@@ -4,6 +4,7 @@ mod curved;
 mod energy;
 mod environment;
 mod files;
+mod kept;
 mod materials;
 mod meshes;
 mod nearby;
@@ -21,6 +22,7 @@ use crate::scene::{
 use curved::Curved;
 pub use files::check_files;
 use glam::DVec3;
+pub use kept::Kept;
 use materials::MaterialBuilder;
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, PixelFilter, Reuse};
@@ -28,6 +30,7 @@ use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -64,15 +67,33 @@ pub struct CompileTimes {
 /// All faults of the assets at once: missing or unreadable files, wrong meshes and textures, singular transforms, each at the place in
 /// the scene file that names it.
 pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
+    compile_with(desc, None)
+}
+
+/// As [`compile`], to the same scene, but what is in `kept` and has not changed is neither read nor built anew, and what was read and built is kept in
+/// it. For programs that compile a scene again and again while it is edited.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileError> {
+    let compiled = compile_with(desc, Some(kept));
+    // A scene with faults has not told what it uses.
+    if compiled.is_ok() {
+        kept.sweep();
+    }
+    compiled
+}
+
+fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileError> {
     let start = Instant::now();
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
-    let loaded = meshes::load(desc, &mut diagnostics);
+    let loaded = meshes::load(desc, kept, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
     let curved = curved::load(desc, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
-    let (materials, images, uses) = builder.finish(&mut diagnostics);
+    let (materials, images, uses) = builder.finish(kept, &mut diagnostics);
     let background = environment::load(desc, &mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
@@ -121,18 +142,18 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials)
+    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built, &materials)
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
                 .map(|accel| boxes_of(&accel))
         }
-        accel => accel.as_ref().map(boxes_of),
+        accel => accel.as_deref().map(boxes_of),
     }
     .unzip();
     let tree = start.elapsed().as_secs_f64();
@@ -257,7 +278,8 @@ fn build_tree(
     shapes: &[Shape],
     built: &meshes::Built,
     materials: &[Material],
-) -> Result<Option<bvh::Accel>, Box<Diagnostic>> {
+    kept: Option<&Kept>,
+) -> Result<Option<Arc<bvh::Accel>>, Box<Diagnostic>> {
     if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
         return Ok(None);
     }
@@ -269,7 +291,7 @@ fn build_tree(
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
     let shapes: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
-    built.tree(acceleration, &hung, &shapes, spheres.len() as u32, materials).map(Some).map_err(|error| {
+    built.tree(acceleration, &hung, &shapes, spheres.len() as u32, materials, kept).map(Some).map_err(|error| {
         Box::new(
             Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),

@@ -113,7 +113,7 @@ pub struct Scene {
     /// The scene as tables for the engine.
     pub(crate) tables: Tables,
     /// The tree over meshes and many spheres; `None` when there are neither.
-    pub(crate) accel: Option<crate::bvh::Accel>,
+    pub(crate) accel: Option<std::sync::Arc<crate::bvh::Accel>>,
     /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
     pub(crate) top_boxes: Option<crate::bvh::TopBoxes>,
     /// The boxes under those.

@@ -69,7 +69,7 @@ impl Scene {
             textures,
             geometry_bytes: geometry_bytes as u64,
             texture_bytes: if textures == 0 { 0 } else { size_of_val(&self.tables.textures.words[..]) as u64 },
-            tree: self.accel.as_ref().map(crate::bvh::Accel::stats),
+            tree: self.accel.as_deref().map(crate::bvh::Accel::stats),
             bounds: self.bounds(),
         }
     }

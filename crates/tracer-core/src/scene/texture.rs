@@ -2,6 +2,7 @@
 
 use crate::texture::{Texels, Texture};
 use scene_format::desc::{TextureFilter, TextureWrap};
+use std::sync::Arc;
 
 /// Where a texture lies in the buffer, and how it is looked up. Columns, index = texture.
 #[derive(Default)]
@@ -79,7 +80,7 @@ const AS_IT_IS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 impl TextureTable {
     /// The words of each picture once, however many uses it has.
-    pub fn new(images: Vec<Texture>, uses: &[TextureUse]) -> Self {
+    pub fn new(images: Vec<Arc<Texture>>, uses: &[TextureUse]) -> Self {
         let mut table = TextureTable { uses: uses.to_vec(), ..TextureTable::default() };
         if uses.iter().any(|u| u.mapping != AS_IT_IS) {
             table.mapping = uses.iter().flat_map(|u| u.mapping.as_flattened()).map(|&x| x as f32).collect();
@@ -89,9 +90,9 @@ impl TextureTable {
         let mut place = Vec::with_capacity(images.len());
         for image in images {
             let offset = table.words.len() as u32;
-            let wide = match image.texels {
+            let wide = match &image.texels {
                 Texels::Srgb8(words) => {
-                    table.words.extend_from_slice(&words);
+                    table.words.extend_from_slice(words);
                     0
                 }
                 Texels::Linear(texels) => {

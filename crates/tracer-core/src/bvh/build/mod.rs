@@ -11,7 +11,7 @@ mod wide;
 
 use super::arena::Arena;
 use super::bounds::Bounds;
-use super::coplanar::{Coplanar, Precedence};
+use super::coplanar::{Coplanar, Ranks};
 use super::geometry::{Geometry, NONE, ShapeGeometry};
 use super::kernels::{DEEPEST, MeshRecord};
 use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
@@ -104,11 +104,7 @@ struct Tree<'a> {
     contents: Contents<'a>,
 }
 
-pub(crate) fn build(
-    geometry: &Geometry,
-    acceleration: Acceleration,
-    precedence: Precedence,
-) -> Result<Accel, BuildError> {
+pub(crate) fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> Result<Accel, BuildError> {
     let start = Instant::now();
     check(geometry)?;
     let mut direct = vec![NONE; geometry.meshes.len()];
@@ -178,7 +174,7 @@ pub(crate) fn build(
     // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
     assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
     let table_bytes = meshes.len() * size_of::<MeshRecord>();
-    let coplanar = Coplanar::find(geometry, precedence);
+    let coplanar = Coplanar::find(geometry, ranks);
     let stats = AccelStats {
         triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
         parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),

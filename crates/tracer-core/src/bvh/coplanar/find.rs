@@ -11,7 +11,7 @@
 //! each plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
 
 use super::super::geometry::{Geometry, NONE};
-use super::{Coplanar, Grid, LONG, Member, Precedence};
+use super::{Coplanar, Grid, LONG, Member, Ranks};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -41,7 +41,7 @@ struct Face {
     height: f64,
     /// The largest coordinate.
     reach: f64,
-    precedence: u8,
+    rank: u8,
 }
 
 impl Face {
@@ -68,8 +68,8 @@ impl Face {
 
 impl Coplanar {
     /// Those of a scene, if it has any.
-    pub(crate) fn find(geometry: &Geometry, precedence: Precedence) -> Option<Self> {
-        let mut faces = faces(geometry, precedence);
+    pub(crate) fn find(geometry: &Geometry, ranks: &Ranks) -> Option<Self> {
+        let mut faces = faces(geometry, ranks);
         let scene = faces.iter().map(|face| face.reach).fold(0.0, f64::max);
         faces.par_sort_by(|a, b| {
             let id = |face: &Face| (face.primitive, face.instance);
@@ -80,8 +80,13 @@ impl Coplanar {
     }
 }
 
+/// The id of the scene's first triangle.
+fn first_primitive(geometry: &Geometry) -> u32 {
+    geometry.meshes.iter().map(|mesh| mesh.first_primitive).min().unwrap_or(0)
+}
+
 /// The triangles that are looked at, without those too small or too narrow to have a plane.
-fn faces(geometry: &Geometry, precedence: Precedence) -> Vec<Face> {
+fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
     let mut copies = vec![0; geometry.meshes.len()];
     geometry.instances.iter().for_each(|instance| copies[instance.mesh as usize] += 1);
     let counts = copies.iter().zip(geometry.meshes).map(|(copies, mesh)| copies * mesh.triangles.len());
@@ -92,6 +97,7 @@ fn faces(geometry: &Geometry, precedence: Precedence) -> Vec<Face> {
         sum = sum.saturating_add(count);
         looked_at[mesh] = sum <= MOST_TRIANGLES;
     }
+    let first = first_primitive(geometry);
     let of_instance = |index: usize| {
         let instance = &geometry.instances[index];
         let mesh = &geometry.meshes[instance.mesh as usize];
@@ -99,13 +105,13 @@ fn faces(geometry: &Geometry, precedence: Precedence) -> Vec<Face> {
         (0u32..).zip(triangles).filter_map(move |(k, triangle)| {
             let corners = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
             let id = (mesh.first_primitive + k, index as u32);
-            face(corners, instance.placement, id, precedence(id.0, id.1))
+            face(corners, instance.placement, id, ranks.of(id.0 - first, id.1))
         })
     };
     (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect()
 }
 
-fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), precedence: u8) -> Option<Face> {
+fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), rank: u8) -> Option<Face> {
     let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2.0, corners);
     match placement {
         None => corners.iter().for_each(|corner| terms = terms.max(corner.abs())),
@@ -134,7 +140,7 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), p
         error,
         height,
         reach: terms.max_element(),
-        precedence,
+        rank,
     };
     (area > 0.0 && area.is_finite() && error < height / 512.0).then_some(face)
 }
@@ -212,7 +218,7 @@ fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)
                     let (a, b) = (&faces[k as usize], &faces[other as usize]);
                     // Corners that two share may have been rounded apart.
                     if overlap(&flat(k), &flat(other), 16.0 * UNIT * (a.reach + b.reach)) {
-                        let rank = |face: &Face| (face.precedence, face.primitive, face.instance);
+                        let rank = |face: &Face| (face.rank, face.primitive, face.instance);
                         found.push(if rank(a) < rank(b) { (k, other, gap) } else { (other, k, gap) });
                     }
                 }
@@ -260,7 +266,7 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     named.dedup();
     let mut member_of = vec![NONE; faces.len()];
     (0..).zip(&named).for_each(|(member, &k)| member_of[k as usize] = member);
-    let first = geometry.meshes.iter().map(|mesh| mesh.first_primitive).min().unwrap_or(0);
+    let first = first_primitive(geometry);
     let end = geometry.meshes.iter().map(|mesh| mesh.first_primitive + mesh.triangles.len() as u32).max().unwrap_or(0);
     let mut offsets = vec![0f32; (end - first) as usize];
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
@@ -279,7 +285,7 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     for (&k, mut list) in named.iter().zip(lists) {
         list.sort_unstable_by_key(|&member| {
             let face = &faces[named[member as usize] as usize];
-            (face.precedence, face.primitive, face.instance)
+            (face.rank, face.primitive, face.instance)
         });
         let face = &faces[k as usize];
         let begin = winners.len() as u32;

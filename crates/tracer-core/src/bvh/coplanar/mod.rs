@@ -25,8 +25,24 @@ use super::ray_space::RaySpace;
 use super::triangle::passes;
 use super::{Hits, Occlusion, Rays};
 
-/// Who wins: by (precedence, primitive, instance), the least.
-pub(crate) type Precedence<'a> = &'a (dyn Fn(u32, u32) -> u8 + Sync);
+/// Who wins: by (rank, primitive, instance), the least.
+#[derive(Debug, Default)]
+pub struct Ranks {
+    /// Of each triangle, in the order of their primitives; none: 0.
+    pub triangles: Vec<u8>,
+    /// Of all triangles of an instance whose own is not 0.
+    pub instances: Vec<Option<u8>>,
+}
+
+impl Ranks {
+    /// The rank of the `k`th triangle in an instance.
+    fn of(&self, k: u32, instance: u32) -> u8 {
+        match self.triangles.get(k as usize) {
+            None | Some(0) => 0,
+            Some(&own) => self.instances.get(instance as usize).copied().flatten().unwrap_or(own),
+        }
+    }
+}
 
 /// Lists of more winners than this have a grid over them.
 const LONG: usize = 16;

@@ -235,7 +235,7 @@ fn on_triangles<F: Lanes>(
     // All of it along the normal, whatever its direction: a ray that starts on the edge of two coplanar triangles must not meet the
     // other one, whose distance is wrong by its vertices' coordinates, not by those across the plane (which may be zero).
     let mut offset = error.0 + error.1 + error.2;
-    if let Some(offsets) = scene.accel.as_ref().and_then(Accel::coplanar_offsets) {
+    if let Some(offsets) = scene.accel.as_deref().and_then(Accel::coplanar_offsets) {
         offset = offset.max(F::gather(offsets, triangle));
     }
 

@@ -1,0 +1,164 @@
+//! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
+
+use crate::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
+use crate::mesh::{self, MeshData, MeshError};
+use crate::texture::{self, Texture, TextureError};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+use xxhash_rust::xxh3::Xxh3;
+
+/// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
+/// ([`compile_keeping`](crate::compile_keeping)). A file is read again when it has another time or size, a tree built
+/// again when anything that it is built of is another: bytes of the picture do not depend on what was kept.
+#[derive(Default)]
+pub struct Kept {
+    meshes: Mutex<BTreeMap<PathBuf, Entry<MeshData>>>,
+    textures: Mutex<BTreeMap<PathBuf, Entry<Texture>>>,
+    /// By what they were built of.
+    trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
+}
+
+struct Entry<T> {
+    /// The files that it was made of, and what tells that they are the same.
+    stamps: Vec<(PathBuf, Stamp)>,
+    value: Arc<T>,
+    /// Whether the scene that is being compiled uses it.
+    used: bool,
+}
+
+type Stamp = Option<(SystemTime, u64)>;
+
+fn stamp(path: &Path) -> Stamp {
+    let found = fs::metadata(path).ok()?;
+    Some((found.modified().ok()?, found.len()))
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What was made of a file, if it would be made again as it was; else it is made, and kept.
+fn file<T, E>(
+    entries: &Mutex<BTreeMap<PathBuf, Entry<T>>>,
+    path: &Path,
+    load: impl FnOnce() -> Result<T, E>,
+    others: impl FnOnce(&T) -> Vec<PathBuf>,
+) -> Result<Arc<T>, E> {
+    if let Some(entry) = lock(entries).get_mut(path)
+        && entry.stamps.iter().all(|(path, known)| known.is_some() && stamp(path) == *known)
+    {
+        entry.used = true;
+        return Ok(Arc::clone(&entry.value));
+    }
+    // Before it is read: what is written meanwhile is read the next time.
+    let own = stamp(path);
+    let began = SystemTime::now();
+    let value = Arc::new(load()?);
+    let fresh = |path: &Path| stamp(path).filter(|(written, _)| *written < began);
+    let others = others(&value).into_iter().map(|path| (path.clone(), fresh(&path)));
+    let stamps = std::iter::once((path.to_owned(), own)).chain(others).collect();
+    lock(entries).insert(path.to_owned(), Entry { stamps, value: Arc::clone(&value), used: true });
+    Ok(value)
+}
+
+/// A mesh file, read or kept.
+pub(super) fn load_mesh(kept: Option<&Kept>, path: &Path) -> Result<Arc<MeshData>, MeshError> {
+    match kept {
+        None => mesh::load(path).map(Arc::new),
+        Some(kept) => file(
+            &kept.meshes,
+            path,
+            || mesh::load(path),
+            |mesh| {
+                // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one
+                // is read again.
+                let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
+                mesh.libraries.iter().cloned().chain(odd).collect()
+            },
+        ),
+    }
+}
+
+/// A texture, read or kept.
+pub(super) fn load_texture(kept: Option<&Kept>, path: &Path) -> Result<Arc<Texture>, TextureError> {
+    match kept {
+        None => texture::load(path).map(Arc::new),
+        Some(kept) => file(&kept.textures, path, || texture::load(path), |_| Vec::new()),
+    }
+}
+
+/// A tree, built or kept.
+pub(super) fn build_tree(
+    kept: Option<&Kept>,
+    geometry: &Geometry<'_>,
+    acceleration: Acceleration,
+    ranks: &Ranks,
+) -> Result<Arc<Accel>, BuildError> {
+    let build = || Accel::build_with(geometry, acceleration, ranks).map(Arc::new);
+    let Some(kept) = kept else { return build() };
+    let key = key(geometry, acceleration, ranks);
+    if let Some((used, tree)) = lock(&kept.trees).get_mut(&key) {
+        *used = true;
+        return Ok(Arc::clone(tree));
+    }
+    let tree = build()?;
+    lock(&kept.trees).insert(key, (true, Arc::clone(&tree)));
+    Ok(tree)
+}
+
+impl Kept {
+    /// Lets go of what the last scene did not use.
+    pub(super) fn sweep(&self) {
+        lock(&self.meshes).retain(|_, entry| std::mem::take(&mut entry.used));
+        lock(&self.textures).retain(|_, entry| std::mem::take(&mut entry.used));
+        lock(&self.trees).retain(|_, (used, _)| std::mem::take(used));
+    }
+}
+
+/// 128 bits of all that a tree is built of: two scenes in 10^19 have the same.
+fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u128 {
+    let mut hash = Xxh3::new();
+    let mut add = |bytes: &[u8]| {
+        // With its length: no piece runs into the next.
+        hash.update(&(bytes.len() as u64).to_le_bytes());
+        hash.update(bytes);
+    };
+    add(&[match acceleration {
+        Acceleration::Bvh => 0,
+        Acceleration::BoundingBox => 1,
+        Acceleration::None => 2,
+    }]);
+    for sphere in geometry.spheres {
+        let crate::bvh::SphereGeometry { anchor, normal, curvature, lower, upper } = sphere;
+        for part in [anchor, normal, lower, upper] {
+            add(bytemuck::cast_slice(part));
+        }
+        add(&curvature.to_bits().to_le_bytes());
+    }
+    for shape in geometry.shapes {
+        add(bytemuck::bytes_of(&shape.row));
+        [shape.lower, shape.upper].iter().for_each(|corner| add(bytemuck::cast_slice(corner)));
+    }
+    add(&geometry.first_shape.to_le_bytes());
+    // All meshes of a scene share their positions.
+    let mut positions: Option<&[[f32; 3]]> = None;
+    for mesh in geometry.meshes {
+        if positions.is_none_or(|known| !std::ptr::eq(known, mesh.positions)) {
+            add(bytemuck::cast_slice(mesh.positions));
+            positions = Some(mesh.positions);
+        }
+        add(bytemuck::cast_slice(mesh.triangles));
+        add(&mesh.first_primitive.to_le_bytes());
+    }
+    for instance in geometry.instances {
+        add(&instance.mesh.to_le_bytes());
+        add(instance.placement.as_ref().map_or(&[], |rows| bytemuck::cast_slice(rows)));
+    }
+    add(&ranks.triangles);
+    let whole: Vec<u8> = ranks.instances.iter().map(|rank| rank.unwrap_or(u8::MAX)).collect();
+    add(&whole);
+    hash.digest128()
+}
