@@ -4,7 +4,8 @@
 //!
 //! - the **watch** (`watch.rs`) looks at all files that the scene uses and orders a new picture when one has changed;
 //! - the **studio** (`studio.rs`), one thread, loads, compiles and renders, and ends early when there is a new order;
-//! - the **server** (`server.rs`, `guard.rs`) gives one page, in this program, and what the page asks for: the state,
+//! - the **server** (`server.rs`, `guard.rs`, `answers/`) gives one page, in this program, and what the page asks
+//!   for: the state,
 //!   pictures, pixels;
 //! - the **page** (`page/`) draws them. It asks again and again: a request waits until there is something new.
 //!
@@ -12,11 +13,14 @@
 //! this crate cannot do itself, writing files, comes from its caller as a [`Host`].
 #![forbid(unsafe_code)]
 
+mod answers;
 mod editor;
 mod files;
 mod guard;
+mod layers;
 mod options;
 mod picture;
+mod pixel;
 mod server;
 mod shared;
 mod studio;

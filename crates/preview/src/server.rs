@@ -1,41 +1,33 @@
 //! The server: one page, and what it asks for. Nothing else is read or given, whatever the address says.
 
+use crate::answers::{App, Refusal, camera, open, picture, pixel, read, refused, state};
 use crate::guard::Guard;
-use crate::options::{Host, Kind, Options};
-use crate::shared::{Phase, Pose, Shared, State};
-use crate::told::Told;
-use crate::{picture, studio, watch};
+use crate::options::{Host, Options};
+use crate::shared::Shared;
+use crate::{studio, watch};
 use axum::Router;
-use axum::body::Bytes;
-use axum::extract::{DefaultBodyLimit, Query, Request, State as Extract};
-use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
+use axum::body::Body;
+use axum::extract::{Query, Request, State as Extract};
+use axum::http::request::Parts;
+use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
-use scene_format::desc::ToneMap;
-use serde::{Deserialize, Serialize};
-use std::future::pending;
+use serde::de::DeserializeOwned;
 use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::thread::JoinHandle;
-use std::time::Duration;
 use tokio::sync::oneshot;
-use tracer_core::Look;
-
-/// A page waits so long for news before it asks again.
-const PATIENCE: Duration = Duration::from_secs(20);
-/// While something is rendered there is news so often.
-const TICK: Duration = Duration::from_millis(200);
-/// Requests bring no more than this.
-const LARGEST_REQUEST: usize = 4096;
 
 /// What the page consists of, and nothing else can be had.
-const FILES: [(&str, &str, &str); 6] = [
+const FILES: [(&str, &str, &str); 9] = [
     ("", "text/html; charset=utf-8", include_str!("page/index.html")),
     ("page.css", "text/css; charset=utf-8", include_str!("page/page.css")),
     ("main.js", SCRIPT, include_str!("page/main.js")),
     ("view.js", SCRIPT, include_str!("page/view.js")),
     ("net.js", SCRIPT, include_str!("page/net.js")),
     ("faults.js", SCRIPT, include_str!("page/faults.js")),
+    ("camera.js", SCRIPT, include_str!("page/camera.js")),
+    ("inspector.js", SCRIPT, include_str!("page/inspector.js")),
+    ("compare.js", SCRIPT, include_str!("page/compare.js")),
 ];
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
@@ -106,10 +98,7 @@ impl Preview {
             .build()
             .map_err(|error| system("start the server", &error))?;
         let (end, ended) = oneshot::channel();
-        let app = Router::new()
-            .fallback(answer)
-            .layer(DefaultBodyLimit::max(LARGEST_REQUEST))
-            .with_state(Arc::new(App { shared: Arc::clone(&shared), guard }));
+        let app = Router::new().fallback(answer).with_state(Arc::new(App::new(Arc::clone(&shared), guard)));
         let thread = |name: &str| std::thread::Builder::new().name(name.to_owned());
         let server = thread("server").spawn(move || {
             runtime.block_on(async move {
@@ -163,18 +152,14 @@ impl Drop for Preview {
     }
 }
 
-struct App {
-    shared: Arc<Shared>,
-    guard: Guard,
-}
-
 /// Answers a request, with what every answer has.
 async fn answer(Extract(app): Extract<Arc<App>>, request: Request) -> Response {
     let mut response = if app.guard.lets_in(request.headers()) {
         match app.guard.behind_token(request.uri().path()) {
             Some(path) => {
                 let path = path.to_owned();
-                route(&app, &path, request).await
+                let (parts, body) = request.into_parts();
+                route(&app, &path, &parts, body).await
             }
             None => refused(StatusCode::NOT_FOUND, "not found"),
         }
@@ -193,286 +178,73 @@ async fn answer(Extract(app): Extract<Arc<App>>, request: Request) -> Response {
     response
 }
 
-async fn route(app: &Arc<App>, path: &str, request: Request) -> Response {
-    let shared = &app.shared;
-    let (parts, body) = request.into_parts();
-    match (&parts.method, path) {
-        (&Method::GET, "state") => match Query::try_from_uri(&parts.uri) {
-            Ok(Query(asked)) => state(shared, asked).await,
-            Err(error) => refused(StatusCode::BAD_REQUEST, &error.body_text()),
-        },
-        (&Method::GET, "frame") => match Query::try_from_uri(&parts.uri) {
-            Ok(Query(asked)) => frame(shared, asked).await,
-            Err(error) => refused(StatusCode::BAD_REQUEST, &error.body_text()),
-        },
-        (&Method::GET, "save") => match Query::try_from_uri(&parts.uri) {
-            Ok(Query(asked)) => save(shared, asked).await,
-            Err(error) => refused(StatusCode::BAD_REQUEST, &error.body_text()),
-        },
-        (&Method::POST, "open") => match read(&parts.headers, body).await {
-            Ok(asked) => open(shared, &asked),
-            Err((status, why)) => refused(status, &why),
-        },
-        (&Method::GET, _) => match FILES.iter().find(|(name, ..)| *name == path) {
+async fn route(app: &Arc<App>, path: &str, parts: &Parts, body: Body) -> Response {
+    let answered = match parts.method {
+        Method::GET => get(app, path, &parts.uri).await,
+        Method::POST => post(app, path, parts, body).await,
+        _ => Ok(refused(StatusCode::NOT_FOUND, "not found")),
+    };
+    answered.unwrap_or_else(|(status, why)| refused(status, &why))
+}
+
+async fn get(app: &Arc<App>, path: &str, uri: &Uri) -> Result<Response, Refusal> {
+    Ok(match path {
+        "state" => state::answer(app, query(uri)?).await,
+        "frame" => picture::frame(app, query(uri)?).await,
+        "save" => picture::save(app, query(uri)?).await,
+        "pixel" => pixel::answer(app, query(uri)?).await,
+        _ => match FILES.iter().find(|(name, ..)| *name == path) {
             Some((_, kind, text)) => ([(header::CONTENT_TYPE, *kind)], *text).into_response(),
             None => refused(StatusCode::NOT_FOUND, "not found"),
         },
+    })
+}
+
+/// What changes something; each brings JSON, which pages of other sites cannot send unasked.
+async fn post(app: &Arc<App>, path: &str, parts: &Parts, body: Body) -> Result<Response, Refusal> {
+    let headers = &parts.headers;
+    Ok(match path {
+        "open" => open::answer(&app.shared, &read(headers, body).await?),
+        "camera" => camera::moved(&app.shared, &read(headers, body).await?),
+        "camera/write" => {
+            read::<Nothing>(headers, body).await?;
+            camera::write(app).await
+        }
+        "camera/undo" => {
+            read::<Nothing>(headers, body).await?;
+            camera::undo(app).await
+        }
+        "pin" => {
+            read::<Nothing>(headers, body).await?;
+            picture::pin(app)
+        }
+        "more" => {
+            read::<Nothing>(headers, body).await?;
+            more(&app.shared)
+        }
         _ => refused(StatusCode::NOT_FOUND, "not found"),
-    }
-}
-
-/// A refusal, with its reason for the person.
-type Refusal = (StatusCode, String);
-
-fn refused(status: StatusCode, why: &str) -> Response {
-    (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], why.to_owned()).into_response()
-}
-
-/// What a request brings, as JSON.
-async fn read<T: for<'de> Deserialize<'de>>(headers: &HeaderMap, body: axum::body::Body) -> Result<T, Refusal> {
-    // Forms of other sites' pages cannot send this kind.
-    let is_json = headers.get(header::CONTENT_TYPE).is_some_and(|kind| kind == "application/json");
-    if !is_json {
-        return Err((StatusCode::UNSUPPORTED_MEDIA_TYPE, "expected JSON".to_owned()));
-    }
-    let bytes: Bytes = axum::body::to_bytes(body, LARGEST_REQUEST)
-        .await
-        .map_err(|_| (StatusCode::PAYLOAD_TOO_LARGE, "too large".to_owned()))?;
-    serde_json::from_slice(&bytes).map_err(|error| (StatusCode::BAD_REQUEST, error.to_string()))
-}
-
-/// Does what takes a while on a thread of its own.
-async fn aside(work: impl FnOnce() -> Response + Send + 'static) -> Response {
-    let done = tokio::task::spawn_blocking(work).await;
-    done.unwrap_or_else(|_| {
-        refused(StatusCode::INTERNAL_SERVER_ERROR, "tracer failed on this, which is a fault of tracer")
     })
 }
 
-#[derive(Deserialize)]
-struct AskedState {
-    /// The version that the page has.
-    #[serde(default)]
-    after: u64,
-}
+/// An order that needs no words.
+#[derive(serde::Deserialize)]
+struct Nothing {}
 
-/// The state as JSON, as soon as it is another than the page has.
-async fn state(shared: &Arc<Shared>, asked: AskedState) -> Response {
-    let mut versions = shared.versions();
-    let rendering = {
-        let state = shared.state();
-        if state.version != asked.after {
-            return axum::Json(Shown::of(&state, shared)).into_response();
-        }
-        state.phase == Phase::Rendering
-    };
-    let news = async {
-        while *versions.borrow_and_update() == asked.after {
-            if versions.changed().await.is_err() {
-                pending::<()>().await;
-            }
-        }
-    };
-    // That there is none is an answer, too: samples go on.
-    let _ = tokio::time::timeout(if rendering { TICK } else { PATIENCE }, news).await;
-    axum::Json(Shown::of(&shared.state(), shared)).into_response()
-}
-
-/// The state, as the page gets it.
-#[derive(Serialize)]
-struct Shown<'s> {
-    version: u64,
-    /// The scene file's name.
-    name: String,
-    phase: Phase,
-    told: &'s [Told],
-    /// Whether places can be opened.
-    editor: bool,
-    frame: Option<ShownFrame>,
-    samples_done: u64,
-    samples_total: u64,
-    asked: u32,
-    seconds: f64,
-    look: Option<ShownLook>,
-    camera: Option<Pose>,
-    written: Option<Pose>,
-}
-
-#[derive(Serialize)]
-struct ShownFrame {
-    number: u64,
-    stage: u64,
-    draft: bool,
-    size: [u32; 2],
-    samples: u32,
-    noise: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct ShownLook {
-    exposure: f64,
-    tone: &'static str,
-}
-
-impl<'s> Shown<'s> {
-    fn of(state: &'s State, shared: &Shared) -> Self {
-        let frame = state.frame.as_deref().map(|frame| ShownFrame {
-            number: frame.number,
-            stage: frame.stage,
-            draft: frame.draft,
-            size: frame.size,
-            samples: frame.samples,
-            noise: state
-                .noise
-                .filter(|(number, noise)| *number == frame.number && *noise > 0.0)
-                .map(|(_, noise)| noise),
-        });
-        let look = state.stage.as_ref().map(|stage| stage.scene.look);
-        Shown {
-            version: state.version,
-            name: shared.options.scene.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            phase: state.phase,
-            told: &state.told,
-            editor: shared.options.editor.is_some(),
-            frame,
-            samples_done: shared.done.load(Ordering::Relaxed),
-            samples_total: shared.total.load(Ordering::Relaxed),
-            asked: state.asked,
-            seconds: state.took.unwrap_or_else(|| state.began.elapsed().as_secs_f64()),
-            look: look.map(|look| ShownLook { exposure: look.exposure, tone: tone_name(look.tone_map) }),
-            camera: state.stage.as_ref().map(|stage| Pose::of(&stage.desc)),
-            written: state.written,
-        }
+fn query<T: DeserializeOwned>(uri: &Uri) -> Result<T, Refusal> {
+    match Query::try_from_uri(uri) {
+        Ok(Query(asked)) => Ok(asked),
+        Err(error) => Err((StatusCode::BAD_REQUEST, error.body_text())),
     }
 }
 
-/// The tone maps, as the page names them.
-const TONES: [(&str, ToneMap); 3] = [("none", ToneMap::None), ("filmic", ToneMap::Filmic), ("agx", ToneMap::AgX)];
-
-fn tone_name(tone: ToneMap) -> &'static str {
-    TONES.iter().find(|(_, map)| *map == tone).map_or("", |(name, _)| name)
-}
-
-/// How a page wants a picture developed; what it does not say is the scene's.
-#[derive(Deserialize)]
-struct AskedLook {
-    exposure: Option<f64>,
-    tone: Option<String>,
-}
-
-impl AskedLook {
-    fn look(&self, scene: Look) -> Result<Look, Refusal> {
-        let wrong = |why: &str| Err((StatusCode::BAD_REQUEST, why.to_owned()));
-        let exposure = self.exposure.unwrap_or(scene.exposure);
-        if exposure.is_nan() || exposure.abs() > 64.0 {
-            return wrong("the exposure is from -64 to 64 stops");
-        }
-        let tone_map = match &self.tone {
-            None => scene.tone_map,
-            Some(name) => match TONES.iter().find(|(known, _)| known == name) {
-                Some((_, tone_map)) => *tone_map,
-                None => return wrong("there is no such tone map"),
-            },
-        };
-        Ok(Look { exposure, tone_map })
-    }
-}
-
-/// The picture as it is now, as bytes for a canvas.
-async fn frame(shared: &Arc<Shared>, asked: AskedLook) -> Response {
-    let (frame, stage) = {
+/// Goes on with a picture that is done, to twice its samples.
+fn more(shared: &Shared) -> Response {
+    let asked = {
         let state = shared.state();
-        (state.frame.clone(), state.stage.clone())
+        let done = state.phase == crate::shared::Phase::Done;
+        state.frame.as_ref().filter(|_| done).map(|frame| frame.samples.saturating_mul(2))
     };
-    let Some(frame) = frame else { return refused(StatusCode::CONFLICT, "there is no picture yet") };
-    let look = match asked.look(stage.map_or(Look::default(), |stage| stage.scene.look)) {
-        Ok(look) => look,
-        Err((status, why)) => return refused(status, &why),
-    };
-    aside(move || {
-        let [width, height] = frame.film.size();
-        let headers = [
-            ("content-type", "application/octet-stream".to_owned()),
-            ("x-frame", frame.number.to_string()),
-            ("x-size", format!("{width}x{height}")),
-        ];
-        (headers, picture::developed(&frame.film, &look)).into_response()
-    })
-    .await
-}
-
-#[derive(Deserialize)]
-struct AskedFile {
-    kind: String,
-    exposure: Option<f64>,
-    tone: Option<String>,
-}
-
-/// The picture as a file.
-async fn save(shared: &Arc<Shared>, asked: AskedFile) -> Response {
-    let (kind, extension, media) = match asked.kind.as_str() {
-        "png" => (Kind::Png, "png", "image/png"),
-        "exr" => (Kind::Exr, "exr", "image/x-exr"),
-        _ => return refused(StatusCode::BAD_REQUEST, "pictures are png or exr"),
-    };
-    let (frame, stage) = {
-        let state = shared.state();
-        (state.frame.clone(), state.stage.clone())
-    };
-    let (Some(frame), Some(stage)) = (frame.filter(|frame| !frame.draft), stage) else {
-        return refused(StatusCode::CONFLICT, "there is no picture yet, but for a draft; wait a moment");
-    };
-    if frame.stage != stage.number {
-        return refused(StatusCode::CONFLICT, "the picture is being made anew; wait a moment");
-    }
-    let look = match (AskedLook { exposure: asked.exposure, tone: asked.tone }).look(stage.scene.look) {
-        Ok(look) => look,
-        Err((status, why)) => return refused(status, &why),
-    };
-    let shared = Arc::clone(shared);
-    aside(move || {
-        let bytes = match shared.host.encode(&stage.desc, &frame.film, &look, kind) {
-            Ok(bytes) => bytes,
-            Err(why) => return refused(StatusCode::INTERNAL_SERVER_ERROR, &why),
-        };
-        let stem = shared.options.scene.file_stem().unwrap_or_default().to_string_lossy();
-        // What would end the name in a header, or is not to be read in all of them.
-        let stem: String =
-            stem.chars().map(|c| if c.is_ascii_alphanumeric() || "-_. ".contains(c) { c } else { '_' }).collect();
-        let headers = [
-            ("content-type", media.to_owned()),
-            ("content-disposition", format!("attachment; filename=\"{stem}.{extension}\"")),
-        ];
-        (headers, bytes).into_response()
-    })
-    .await
-}
-
-#[derive(Deserialize)]
-struct AskedPlace {
-    /// Which of the diagnostics.
-    told: usize,
-    /// The version of the state that it was read in.
-    version: u64,
-}
-
-/// Opens the place of a diagnostic in the editor: only places that were told of can be.
-fn open(shared: &Shared, asked: &AskedPlace) -> Response {
-    let Some(editor) = &shared.options.editor else {
-        return refused(
-            StatusCode::CONFLICT,
-            "no editor is known; start the preview with --editor, as in --editor code",
-        );
-    };
-    let place = {
-        let state = shared.state();
-        // A later version may only have gone on with the picture.
-        let told = if asked.version <= state.version { state.told.get(asked.told) } else { None };
-        told.and_then(|told| told.place.clone())
-    };
-    let Some(place) = place else { return refused(StatusCode::NOT_FOUND, "there is no such place any more") };
-    match editor.open(&place.path, place.line, place.column) {
-        Ok(()) => StatusCode::NO_CONTENT.into_response(),
-        Err(why) => refused(StatusCode::INTERNAL_SERVER_ERROR, &why),
-    }
+    let Some(asked) = asked else { return refused(StatusCode::CONFLICT, "the picture is not done yet") };
+    shared.order(|orders| orders.samples = Some(asked));
+    StatusCode::NO_CONTENT.into_response()
 }

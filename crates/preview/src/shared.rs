@@ -88,6 +88,8 @@ pub struct State {
     pub written: Option<Pose>,
     /// Samples per pixel that are being made.
     pub asked: u32,
+    /// Camera samples that were there when the rendering began.
+    pub begun: u64,
     /// When the rendering began, and how long it took when it had ended.
     pub began: Instant,
     pub took: Option<f64>,
@@ -100,12 +102,14 @@ pub struct Orders {
     pub reload: bool,
     /// The camera was moved; `Some(None)`: it is the file's again.
     pub pose: Option<Option<Pose>>,
+    /// A picture that is done is to have so many samples.
+    pub samples: Option<u32>,
     pub quit: bool,
 }
 
 impl Orders {
     fn is_empty(&self) -> bool {
-        !self.reload && self.pose.is_none() && !self.quit
+        !self.reload && self.pose.is_none() && self.samples.is_none() && !self.quit
     }
 }
 
@@ -141,6 +145,7 @@ impl Shared {
             noise: None,
             written: None,
             asked: 0,
+            begun: 0,
             began: Instant::now(),
             took: None,
         };
@@ -183,7 +188,11 @@ impl Shared {
     pub fn order(&self, add: impl FnOnce(&mut Orders)) {
         let mut orders = lock(&self.orders);
         add(&mut orders);
-        let urgency = if orders.reload || orders.quit { CHANGED } else { MOVED };
+        let urgency = match *orders {
+            Orders { reload: true, .. } | Orders { quit: true, .. } => CHANGED,
+            Orders { pose: Some(_), .. } => MOVED,
+            _ => NONE,
+        };
         self.waiting.store(urgency, Ordering::Relaxed);
         self.ordered.notify_all();
     }

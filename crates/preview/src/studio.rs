@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, mpsc};
 use std::time::{Duration, Instant, SystemTime};
-use tracer_core::{CompileError, Crop, Film, LayerSet, Observer, Progress, RenderOptions, Scene};
+use tracer_core::{CompileError, Crop, Film, Kept, LayerSet, Observer, Progress, RenderOptions, Scene};
 
 /// Pictures are shown no faster than this.
 const FASTEST: Duration = Duration::from_millis(40);
@@ -33,7 +33,7 @@ pub fn run(shared: &Arc<Shared>) {
     let teller = Arc::clone(shared);
     // Without it there is no noise to be seen, and all else goes on.
     let _ = std::thread::Builder::new().name("noise".to_owned()).spawn(move || tell_noise(&teller, &frames));
-    let mut studio = Studio { shared, read: None, pose: None, stages: 0, noise };
+    let mut studio = Studio { shared, read: None, pose: None, stages: 0, kept: Kept::default(), noise };
     loop {
         let orders = shared.orders();
         if orders.quit {
@@ -78,6 +78,8 @@ struct Studio<'a> {
     /// The camera as the page has moved it.
     pose: Option<Pose>,
     stages: u64,
+    /// What has not changed since the last scene.
+    kept: Kept,
     noise: mpsc::Sender<Arc<Frame>>,
 }
 
@@ -86,10 +88,65 @@ impl Studio<'_> {
         if let Some(pose) = orders.pose {
             self.pose = pose;
         }
-        if orders.reload && !self.reload() {
+        let anew = orders.reload && self.reload();
+        // Over what is wrong the last picture stays as it is; the camera is moved when all is well again.
+        if self.shared.state().phase == Phase::Wrong && !anew {
             return;
         }
-        self.make();
+        if anew || orders.pose.is_some() {
+            self.make();
+        } else if let Some(samples) = orders.samples {
+            self.go_on(samples);
+        }
+    }
+
+    /// Adds samples to a picture that is done.
+    fn go_on(&self, samples: u32) {
+        let (stage, frame) = {
+            let state = self.shared.state();
+            (state.stage.clone(), state.frame.clone())
+        };
+        let (Some(stage), Some(frame)) = (stage, frame) else { return };
+        if frame.stage != stage.number || frame.draft {
+            return;
+        }
+        let size = frame.size.map(u64::from);
+        self.shared.change(|state| {
+            state.phase = Phase::Rendering;
+            state.asked = samples;
+            state.begun = u64::from(frame.samples) * size[0] * size[1];
+            (state.began, state.took) = (Instant::now(), None);
+        });
+        // What the scene has for an end is behind it: a noise goal, a time.
+        let options = RenderOptions { samples: Some(samples), noise: Some(f64::MIN_POSITIVE), ..self.options() };
+        let film = Film::clone(&frame.film);
+        let watching = self.observer(stage.number, None);
+        match tracer_core::resume(&stage.scene, &options, film, &watching) {
+            Ok(film) => self.is_done(stage.number, film),
+            Err(misfit) => self.shared.change(|state| {
+                state.phase = Phase::Done;
+                state.told.push(Told::plain(format!("error: cannot go on with this picture: {misfit}")));
+            }),
+        }
+    }
+
+    fn options(&self) -> RenderOptions {
+        RenderOptions {
+            threads: self.shared.options.threads,
+            longest_pass: Some(LONGEST_PASS),
+            ..RenderOptions::default()
+        }
+    }
+
+    /// Shows a picture that is done, unless something else is wanted by now.
+    fn is_done(&self, stage: u64, film: Film) {
+        if self.shared.is_wanted(false) {
+            show(self.shared, &self.noise, stage, Arc::new(film), None);
+            self.shared.change(|state| {
+                state.phase = Phase::Done;
+                state.took = Some(state.began.elapsed().as_secs_f64());
+            });
+        }
     }
 
     /// Reads the scene. Whether there is a picture to make of it: it is right, and not what it was.
@@ -144,7 +201,7 @@ impl Studio<'_> {
             let files = tracer_core::named_files(&desc);
             return self.is_wrong(vec![Told::plain(why)], files, began);
         }
-        let scene = match tracer_core::compile(&desc) {
+        let scene = match tracer_core::compile_keeping(&desc, &self.kept) {
             Ok(scene) => scene,
             Err(CompileError { diagnostics }) => {
                 let mut faults = told(&diagnostics, &desc.sources, &options.scene);
@@ -167,7 +224,7 @@ impl Studio<'_> {
             state.phase = Phase::Rendering;
             state.told = warnings;
             state.written = Some(written);
-            state.asked = scene.samples;
+            (state.asked, state.begun) = (scene.samples, 0);
             (state.began, state.took) = (Instant::now(), None);
         });
         self.render(desc, scene);
@@ -198,15 +255,8 @@ impl Studio<'_> {
             return;
         }
         self.shared.change(|state| state.began = Instant::now());
-        let options = RenderOptions { threads, longest_pass: Some(LONGEST_PASS), ..RenderOptions::default() };
-        let film = tracer_core::render(&stage.scene, &options, &self.observer(number, None));
-        if self.shared.is_wanted(false) {
-            show(self.shared, &self.noise, number, Arc::new(film), None);
-            self.shared.change(|state| {
-                state.phase = Phase::Done;
-                state.took = Some(state.began.elapsed().as_secs_f64());
-            });
-        }
+        let film = tracer_core::render(&stage.scene, &self.options(), &self.observer(number, None));
+        self.is_done(number, film);
     }
 
     fn observer(&self, stage: u64, draft: Option<[u32; 2]>) -> Watching<'_> {

@@ -1,6 +1,9 @@
 // The page: asks for the state again and again, and shows it.
 
+import { CameraMover } from "./camera.js";
+import { Compare } from "./compare.js";
 import * as faults from "./faults.js";
+import { Inspector } from "./inspector.js";
 import * as net from "./net.js";
 import { View } from "./view.js";
 
@@ -10,7 +13,7 @@ const PHASES = { loading: "Loading", rendering: "Rendering", done: "Done", wrong
 
 let current = null;
 // What the person has chosen; undefined: what the scene says.
-const chosen = { exposure: undefined, tone: undefined };
+const chosen = { exposure: undefined, tone: undefined, layer: "" };
 // The frame and look that are shown, or asked for.
 let shown = "";
 let fetching = false;
@@ -29,6 +32,50 @@ function say(text) {
   toast.hidden = false;
   clearTimeout(toasted);
   toasted = setTimeout(() => (toast.hidden = true), 5000);
+}
+
+const inspector = new Inspector(view, say);
+const compare = new Compare(view, say, () => compare.fetch(look()));
+const camera = new CameraMover(say);
+
+/** What a drag, the wheel and keys do while the camera is moved. */
+const steering = {
+  exclusive: true,
+  drag(dx, dy, event) {
+    if (event.shiftKey || event.buttons & 6) camera.pan(-dx * (view.canvas.width / view.canvas.height), dy);
+    else if (event.altKey) camera.zoom(Math.exp(dy * 2));
+    else camera.orbit(dx * Math.PI, dy * Math.PI);
+  },
+  wheel: (step) => camera.dolly(Math.exp(step / 800)),
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false;
+    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (way && event.shiftKey) camera.pan(0.03 * way[0], 0.03 * way[1]);
+    else if (way) camera.orbit(-0.06 * way[0], 0.06 * way[1]);
+    else if (event.key === "PageUp") camera.dolly(1 / 1.08);
+    else if (event.key === "PageDown") camera.dolly(1.08);
+    else return false;
+    return true;
+  },
+};
+
+/** The inspector's keys, while it holds a pixel. */
+const holding = {
+  drag: (dx, dy) => view.move(dx * view.canvas.width, dy * view.canvas.height),
+  key(event) {
+    const by = event.shiftKey ? 10 : 1;
+    const way = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] }[event.key];
+    if (way) inspector.step(...way);
+    return !!way;
+  },
+};
+
+function setTool(tool) {
+  view.tool = tool;
+  element("tool").setAttribute("aria-pressed", String(tool === steering));
+  element("picture").classList.toggle("steered", tool === steering);
+  if (tool !== holding) inspector.free();
+  if (tool === steering) say("Drag orbits, Shift pans, the wheel goes nearer; Esc lets go");
 }
 
 function look() {
@@ -55,7 +102,7 @@ function figures(state) {
   if (frame && !frame.draft) parts.push(`${frame.samples} of ${state.asked} samples`);
   const running = state.phase === "rendering" && state.samples_done > 0 && state.seconds > 0;
   if (running || state.phase === "done") {
-    const speed = state.samples_done / state.seconds;
+    const speed = (state.samples_done - state.samples_begun) / state.seconds;
     if (speed > 0 && Number.isFinite(speed)) parts.push(rate(speed));
     if (running && speed > 0) parts.push(`${time((state.samples_total - state.samples_done) / speed)} left`);
   }
@@ -81,6 +128,12 @@ function render(state) {
     const kind = frame.draft ? "draft" : `${frame.samples} samples`;
     element("picture").setAttribute("aria-label", `Picture of ${state.name}, ${frame.size[0]} by ${frame.size[1]} pixels, ${kind}`);
   }
+  const layers = element("layer");
+  if (layers.options.length !== state.layers.length + 1) {
+    layers.append(...state.layers.map((name) => new Option(name.replace("_", " "), name)));
+  }
+  element("more").disabled = state.phase !== "done";
+  camera.update(state);
   renderLook();
   fetchFrame();
 }
@@ -103,18 +156,20 @@ function renderLook() {
 /** Shows the newest frame in the look of now; one request at a time, so that slow ways are not filled. */
 async function fetchFrame() {
   if (fetching || !current?.frame) return;
-  const wanted = () => JSON.stringify([current.frame.number, look()]);
+  const query = () => (chosen.layer ? { ...look(), layer: chosen.layer } : look());
+  const wanted = () => JSON.stringify([current.frame.number, query()]);
   if (wanted() === shown) return;
   fetching = true;
   const asked = wanted();
   const { size } = current.frame;
   try {
-    const frame = await net.frame(look());
+    const frame = await net.frame(query());
     if (frame) {
       // It may be a later one than was asked for, of another size, which the next state tells.
       const is_same = frame.number === JSON.parse(asked)[0];
       view.show(frame.width, frame.height, frame.bytes, is_same ? size : current.frame.size);
       document.body.dataset.frame = frame.number;
+      inspector.refresh();
       shown = is_same ? asked : "";
     }
   } catch (error) {
@@ -146,6 +201,17 @@ async function follow() {
 function lookChanged() {
   renderLook();
   fetchFrame();
+  compare.fetch(look());
+}
+
+function setLayer(name) {
+  chosen.layer = name;
+  element("layer").value = name;
+  fetchFrame();
+}
+
+function more() {
+  net.post("more", {}).catch((error) => say(error.message));
 }
 
 function setExposure(stops) {
@@ -186,6 +252,13 @@ element("lookReset").addEventListener("click", () => {
   chosen.exposure = chosen.tone = undefined;
   lookChanged();
 });
+element("picture").addEventListener("click", () => {
+  if (inspector.held && !view.tool) setTool(holding);
+});
+element("inspectFree").addEventListener("click", () => setTool(null));
+element("layer").addEventListener("change", (event) => setLayer(event.target.value));
+element("tool").addEventListener("click", () => setTool(view.tool === steering ? null : steering));
+element("more").addEventListener("click", more);
 element("savePng").addEventListener("click", save);
 element("saveExr").addEventListener("click", save);
 element("fit").addEventListener("click", () => view.fit());
@@ -223,6 +296,26 @@ const keys = {
     chosen.tone = TONES[(TONES.indexOf(look().tone) + 1) % TONES.length];
     lookChanged();
   },
+  l: () => {
+    const names = ["", ...(current?.layers ?? [])];
+    setLayer(names[(names.indexOf(chosen.layer) + 1) % names.length]);
+  },
+  i: () => {
+    element("picture").focus();
+    setTool(holding);
+    inspector.step(0, 0);
+  },
+  p: () => compare.toggle(),
+  ",": () => compare.step(-2),
+  ".": () => compare.step(2),
+  c: () => {
+    element("picture").focus();
+    setTool(view.tool === steering ? null : steering);
+  },
+  w: () => element("cameraWrite").click(),
+  u: () => element("cameraUndo").click(),
+  m: () => element("more").click(),
+  Escape: () => setTool(null),
   e: () => faults.toggle(),
   s: savePng,
   "?": () => element("keys").showModal(),

@@ -16,22 +16,33 @@ export class View {
     this.zoom = 1;
     this.centre = [0, 0];
     this.waiting = false;
+    // What a drag and keys do: they move the picture, or what is put here does something else:
+    // { exclusive, drag(dx, dy, event), wheel(step), key(event) }; one that is exclusive has the wheel and clicks, too.
+    this.tool = null;
+    this.dragged = false;
+    // The pixel that is held by the inspector.
+    this.cross = null;
+    // Another picture, shown left of this share of the canvas.
+    this.pinned = null;
+    this.wipe = 0.5;
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.listen();
     this.resize();
   }
 
   show(width, height, bytes, size) {
-    if (this.picture.width !== width || this.picture.height !== height) {
-      this.picture.width = width;
-      this.picture.height = height;
-    }
-    this.picture.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
+    put(this.picture, width, height, bytes);
     if (size[0] !== this.size[0] || size[1] !== this.size[1]) {
       this.size = size;
       this.centre = [size[0] / 2, size[1] / 2];
       if (this.fitted) this.fit();
     }
+    this.draw();
+  }
+
+  showPinned(width, height, bytes) {
+    this.pinned ??= document.createElement("canvas");
+    put(this.pinned, width, height, bytes);
     this.draw();
   }
 
@@ -126,6 +137,35 @@ export class View {
     context.imageSmoothingEnabled = draft || this.zoom < 1;
     context.imageSmoothingQuality = draft ? "low" : "high";
     context.drawImage(this.picture, left, top, right - left, bottom - top);
+    if (this.pinned) {
+      context.save();
+      context.beginPath();
+      context.rect(0, 0, Math.round(canvas.width * this.wipe), canvas.height);
+      context.clip();
+      context.fillRect(0, 0, canvas.width, canvas.height);
+      // A state of another size fills the same place: it is held against this one.
+      context.imageSmoothingEnabled = this.pinned.width !== this.size[0] || this.zoom < 1;
+      context.drawImage(this.pinned, left, top, right - left, bottom - top);
+      context.restore();
+    }
+    if (this.cross) this.paintCross();
+  }
+
+  /** A frame around the pixel, dark and light, so that it is seen on any. */
+  paintCross() {
+    const { context } = this;
+    const [left, top] = this.placeOf(this.cross).map(Math.round);
+    const side = Math.max(Math.round(this.zoom), 3);
+    for (const [gap, colour] of [[2, "#000"], [1, "#fff"]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = 1;
+      context.strokeRect(left - gap + 0.5, top - gap + 0.5, side + 2 * gap - 1, side + 2 * gap - 1);
+    }
+    context.fillStyle = "#fff";
+    const middle = [left + side / 2, top + side / 2];
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      context.fillRect(middle[0] + dx * (side / 2 + 12) - (dx ? 6 : 0.5), middle[1] + dy * (side / 2 + 12) - (dy ? 6 : 0.5), dx ? 12 : 1, dy ? 12 : 1);
+    }
   }
 
   listen() {
@@ -134,19 +174,26 @@ export class View {
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
       const step = event.deltaMode === 1 ? event.deltaY * 20 : event.deltaY;
-      this.zoomTo(this.zoom * Math.exp(-step / 400), this.place(event));
+      if (this.tool?.exclusive && !event.ctrlKey) this.tool.wheel(step);
+      else this.zoomTo(this.zoom * Math.exp(-step / 400), this.place(event));
     }, { passive: false });
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       pointers.set(event.pointerId, this.place(event));
+      this.dragged = false;
       canvas.classList.add("dragged");
     });
     canvas.addEventListener("pointermove", (event) => {
       const before = pointers.get(event.pointerId);
       if (!before) return;
       const now = this.place(event);
+      const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+      // A hand that trembles clicks.
+      if (!this.dragged && pointers.size === 1 && Math.hypot(dx, dy) < 3 * (window.devicePixelRatio || 1)) return;
+      this.dragged = true;
       if (pointers.size === 1) {
-        this.move(now[0] - before[0], now[1] - before[1]);
+        if (this.tool) this.tool.drag(dx / canvas.width, dy / canvas.height, event);
+        else this.move(dx, dy);
       } else {
         // Two fingers: what is between them stays between them.
         const other = [...pointers].find(([id]) => id !== event.pointerId)[1];
@@ -161,11 +208,19 @@ export class View {
     };
     canvas.addEventListener("pointerup", end);
     canvas.addEventListener("pointercancel", end);
+    canvas.addEventListener("contextmenu", (event) => {
+      if (this.tool?.exclusive) event.preventDefault();
+    });
     canvas.addEventListener("dblclick", (event) => {
+      if (this.tool?.exclusive) return;
       if (this.fitted) this.zoomTo(1, this.place(event));
       else this.fit();
     });
     canvas.addEventListener("keydown", (event) => {
+      if (this.tool?.key(event)) {
+        event.preventDefault();
+        return;
+      }
       const step = (event.shiftKey ? 160 : 40) * (window.devicePixelRatio || 1);
       const by = { ArrowLeft: [step, 0], ArrowRight: [-step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[event.key];
       if (!by || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -173,4 +228,12 @@ export class View {
       this.move(...by);
     });
   }
+}
+
+function put(canvas, width, height, bytes) {
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  canvas.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
 }

@@ -142,6 +142,76 @@ const tests = {
     }
   },
 
+  async "pixels and layers"({ page }) {
+    await phase(page, "done");
+    await page.mouse.move(490, 420);
+    await page.waitForFunction(() => /objects\[0\] Sphere/.test(document.getElementById("pixelRows").textContent));
+    const said = await text(page, "pixelRows");
+    for (const word of ["linear RGB", "depth", "normal", "material"]) assert.ok(said.includes(word), `${word}: ${said}`);
+    await page.keyboard.press("i");
+    const x = Number(/^pixel(\d+), /.exec(said)[1]);
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction((x) => document.getElementById("pixelRows").textContent.startsWith(`pixel${x}, `), x + 1);
+    await page.selectOption("#layer", "normal");
+    // The ball's middle faces the camera: the blue of normal maps.
+    await page.waitForFunction(() => {
+      const canvas = document.getElementById("picture");
+      const at = [canvas.width / 2 - 30, canvas.height / 2 - 30];
+      const [red, , blue] = canvas.getContext("2d").getImageData(...at, 1, 1).data;
+      return blue > 200 && red < 180;
+    }, null, { timeout: 60000 });
+    await shoot(page, "normals");
+    await page.selectOption("#layer", "");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => document.getElementById("inspectFree").disabled);
+  },
+
+  async "a state is pinned"({ program, page }) {
+    await phase(page, "done");
+    await page.focus("#picture");
+    await page.keyboard.press("p");
+    await page.waitForSelector("#handle:not([hidden])");
+    program.renameSave(SCENE.replace("0.9, 0.2, 0.1", "0.1, 0.2, 0.9"));
+    // Left of the border the ball is red, right of it blue.
+    await page.waitForFunction(() => {
+      const canvas = document.getElementById("picture");
+      const at = (x) => canvas.getContext("2d").getImageData(canvas.width / 2 + x, canvas.height / 2, 1, 1).data;
+      return at(-40)[0] > 1.5 * at(-40)[2] && at(40)[2] > 1.5 * at(40)[0];
+    }, null, { timeout: 60000 });
+    await shoot(page, "pinned");
+    await page.keyboard.press("p");
+    await page.waitForSelector("#handle", { state: "hidden" });
+    program.renameSave(SCENE);
+    await page.waitForFunction(() => document.body.dataset.phase !== "done").catch(() => {});
+    await phase(page, "done");
+  },
+
+  async "the camera is moved, written and taken back"({ program, page }) {
+    await phase(page, "done");
+    await page.focus("#picture");
+    await page.keyboard.press("c");
+    for (let k = 0; k < 4; k++) await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("PageUp");
+    await page.mouse.move(400, 400);
+    await page.mouse.down();
+    await page.mouse.move(460, 430, { steps: 6 });
+    await page.mouse.up();
+    await page.waitForSelector("#cameraWrite:not(:disabled)");
+    await phase(page, "done");
+    await shoot(page, "moved");
+    assert.equal(readFileSync(program.scene, "utf8"), SCENE);
+    await page.keyboard.press("w");
+    await wait(() => readFileSync(program.scene, "utf8") !== SCENE, "it is written");
+    const written = readFileSync(program.scene, "utf8");
+    assert.equal(written.replace(/position: \([^)]*\)/, ""), SCENE.replace(/position: \([^)]*\)/, ""));
+    await page.waitForSelector("#cameraUndo:not(:disabled)");
+    await page.keyboard.press("u");
+    await wait(() => readFileSync(program.scene, "utf8") === SCENE, "it is taken back");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#tool[aria-pressed=false]");
+    await phase(page, "done");
+  },
+
   async "the keyboard alone"({ page }) {
     await phase(page, "done");
     await page.evaluate(() => document.activeElement?.blur());

@@ -17,7 +17,7 @@ fn the_page_comes_with_its_files_and_is_shut_to_others() {
     }
     // All that the page loads is here, and nothing of it is elsewhere.
     let mut files = vec![page.text()];
-    for name in ["page.css", "main.js", "view.js", "net.js", "faults.js"] {
+    for name in ["page.css", "main.js", "view.js", "net.js", "faults.js", "camera.js", "inspector.js", "compare.js"] {
         let file = sandbox.get(name);
         assert_eq!(file.status, 200, "{name}");
         files.push(file.text());

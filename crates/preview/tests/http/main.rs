@@ -1,5 +1,6 @@
 //! The preview over real HTTP: what it shows, what it does when files change, and whom it lets in.
 
+mod camera;
 mod guard;
 mod saves;
 mod support;
