@@ -164,7 +164,10 @@ async function fetchFrame() {
   const { size } = current.frame;
   try {
     const frame = await net.frame(query());
-    if (frame) {
+    if (!frame) {
+      // It is being made anew.
+      await new Promise((done) => setTimeout(done, 150));
+    } else {
       // It may be a later one than was asked for, of another size, which the next state tells.
       const is_same = frame.number === JSON.parse(asked)[0];
       view.show(frame.width, frame.height, frame.bytes, is_same ? size : current.frame.size);

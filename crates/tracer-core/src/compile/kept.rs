@@ -162,3 +162,71 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
     add(&whole);
     hash.digest128()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{compile, compile_keeping};
+    use scene_format::{SceneDesc, Syntax, load_str};
+
+    const OFF: &str = "OFF\n4 4 0\n-1 -1 -1\n1 1 -1\n1 -1 1\n-1 1 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n";
+
+    fn scene(folder: &Path, albedo: &str, x: f64) -> SceneDesc {
+        let text = format!(
+            "Scene(background: 1, objects: [Mesh(file: \"t.off\", transform: [Translate(({x}, 0, 0))], \
+             material: Diffuse(albedo: {albedo}))])"
+        );
+        load_str("s.ron", &text, Syntax::Ron, folder, &[]).expect("the scene is right").scene
+    }
+
+    fn tree(scene: &crate::Scene) -> *const Accel {
+        scene.accel.as_ref().map_or(std::ptr::null(), Arc::as_ptr)
+    }
+
+    #[test]
+    fn only_what_has_changed_is_built_anew() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mesh = folder.path().join("t.off");
+        fs::write(&mesh, OFF).expect("a file");
+        let kept = Kept::default();
+        let compiled = |albedo, x| compile_keeping(&scene(folder.path(), albedo, x), &kept).expect("it compiles");
+        let first = compiled("0.5", 0.0);
+        let read = Arc::downgrade(&lock(&kept.meshes)[&mesh].value);
+        // A material leaves mesh and tree as they are.
+        let second = compiled("0.2", 0.0);
+        assert_eq!(tree(&first), tree(&second));
+        assert_ne!(first.materials, second.materials);
+        // Another place is another tree of the same mesh; the old one is let go.
+        let third = compiled("0.2", 3.0);
+        assert_ne!(tree(&second), tree(&third));
+        assert!(std::ptr::eq(read.as_ptr(), Arc::as_ptr(&lock(&kept.meshes)[&mesh].value)));
+        assert_eq!(lock(&kept.trees).len(), 1);
+        // Another file is another mesh.
+        fs::write(&mesh, OFF.replace("1 1 -1", "1 1 -1.5")).expect("a file");
+        let fourth = compiled("0.2", 3.0);
+        assert_ne!(fourth.triangles.positions, third.triangles.positions);
+        assert!(read.upgrade().is_none(), "the mesh of before is let go");
+        // What is kept never shows.
+        let plain = compile(&scene(folder.path(), "0.2", 3.0)).expect("it compiles");
+        assert_eq!(plain.triangles.positions, fourth.triangles.positions);
+        assert_eq!(plain.accel.as_ref().map(|tree| tree.bytes()), fourth.accel.as_ref().map(|tree| tree.bytes()));
+        // Nor does it stay where a scene does without.
+        let ball = "Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+        let ball = load_str("s.ron", ball, Syntax::Ron, folder.path(), &[]).expect("right").scene;
+        compile_keeping(&ball, &kept).expect("it compiles");
+        assert!(lock(&kept.meshes).is_empty() && lock(&kept.trees).is_empty());
+    }
+
+    #[test]
+    fn a_file_that_is_gone_is_told_though_it_was_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mesh = folder.path().join("t.off");
+        fs::write(&mesh, OFF).expect("a file");
+        let kept = Kept::default();
+        compile_keeping(&scene(folder.path(), "0.5", 0.0), &kept).expect("it compiles");
+        fs::remove_file(&mesh).expect("it can be deleted");
+        assert!(compile_keeping(&scene(folder.path(), "0.5", 0.0), &kept).is_err());
+        fs::write(&mesh, OFF).expect("a file");
+        compile_keeping(&scene(folder.path(), "0.5", 0.0), &kept).expect("it compiles");
+    }
+}
