@@ -1,10 +1,9 @@
 //! Layers as pictures: their numbers in colours.
 
 use crate::shared::{Shared, Stage, lock};
-use scene_format::desc::Layer;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
-use tracer_core::{Film, LayerImage, LayerSet, Observer, Progress, RenderOptions, render, srgb_encode};
+use tracer_core::{Film, Layer, LayerImage, LayerSet, Observer, Progress, RenderOptions, render, srgb_encode};
 
 /// Samples of a layer's picture: edges are smooth, and it is there at once.
 const SAMPLES: u32 = 8;

@@ -1,9 +1,9 @@
 //! Colours of surfaces, constant or from a picture.
 
 use glam::DVec3;
-use scene_format::desc::{TextureFilter, TextureWrap};
 use tracer_core::Scene;
 use tracer_core::scene::{Albedo, Texel, TextureView};
+use tracer_core::scene::{TextureFilter, TextureWrap};
 
 /// The albedo at texture coordinates (u, v), v upwards.
 pub fn albedo(scene: &Scene, albedo: Albedo, [u, v]: [f64; 2]) -> DVec3 {

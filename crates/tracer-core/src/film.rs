@@ -13,7 +13,6 @@ mod pack;
 mod part;
 mod state;
 
-use crate::sampling::blocks::TILE;
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
 pub use layers::LayerImage;
@@ -22,14 +21,15 @@ pub use merge::{Gap, Gaps, MergeError, faults};
 pub use part::{Part, Split};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
+use tracer_kernels::sampling::blocks::TILE;
 
-use crate::layers::{Kept, LayerSet};
-use crate::level::Level;
-use crate::report::{Costs, Counters, Statistics};
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
 use std::ops::Range;
+use tracer_kernels::layers::{Kept, LayerSet};
+use tracer_kernels::level::Level;
+use tracer_kernels::report::{Costs, Counters, Statistics};
 
 /// Pixels of a tile.
 const PIXELS: usize = (TILE * TILE) as usize;
@@ -386,7 +386,7 @@ impl Film {
     fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
         let column = x / TILE - self.first_tile[0];
         let row = y / TILE - self.first_tile[1];
-        let z = crate::sampling::sampler::z_order(x % TILE, y % TILE);
+        let z = tracer_kernels::sampling::sampler::z_order(x % TILE, y % TILE);
         (&self.tiles[(row * self.tile_columns + column) as usize], z as usize)
     }
 

@@ -36,29 +36,22 @@
 #![deny(unsafe_code)]
 #![warn(clippy::undocumented_unsafe_blocks)]
 
-pub mod bvh;
 mod compile;
 mod develop;
 mod engine;
 mod files;
 mod film;
-pub(crate) mod lanes;
-pub(crate) mod layers;
-mod level;
-pub(crate) mod math;
 pub mod mesh;
-mod report;
-pub mod sampling;
 pub mod scene;
-pub mod shapes;
 pub mod texture;
 
-pub use compile::{CompileError, CompileTimes, Kept, check_files, compile, compile_keeping, named_files};
+pub use compile::{CompileError, Kept, check_files, compile, compile_keeping, named_files};
 pub use develop::{Image, Look, develop, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
-pub use layers::LayerSet;
-pub use level::Level;
-pub use report::{Costs, Counters, Stage, Statistics, TreeWork};
-pub use scene::Scene;
+pub use scene::{CompileTimes, Scene, layer_set, layer_word};
+pub use tracer_kernels::layers::{Layer, LayerSet};
+pub use tracer_kernels::level::Level;
+pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};
+pub use tracer_kernels::{bvh, sampling, shapes};

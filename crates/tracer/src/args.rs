@@ -12,11 +12,10 @@ use crate::commands::Template;
 use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_format::desc::Layer;
 use scene_format::{Override, Syntax};
 use std::path::PathBuf;
 use std::time::Duration;
-use tracer_core::{Crop, LayerSet, Split};
+use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
 More: bench-acceleration, bench-figures, schema, completions, man

@@ -7,10 +7,10 @@ use crate::picture::developed;
 use crate::shared::{Frame, lock};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
-use scene_format::desc::{Layer, ToneMap};
+use scene_format::desc::ToneMap;
 use serde::Deserialize;
 use std::sync::Arc;
-use tracer_core::{LayerSet, Look};
+use tracer_core::{Layer, LayerSet, Look};
 
 /// The tone maps, as the page names them.
 const TONES: [(&str, ToneMap); 3] = [("none", ToneMap::None), ("filmic", ToneMap::Filmic), ("agx", ToneMap::AgX)];

@@ -1,14 +1,14 @@
-//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see [`crate::shapes`]).
+//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see [`tracer_kernels::shapes`]).
 
 use super::materials::MaterialBuilder;
 use super::placing::{copies, place as place_matrix, sides};
-use crate::scene::{Frame, NONE, Shape, Sphere};
-use crate::shapes::UnitShape;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use tracer_kernels::scene::{Frame, NONE, Shape, Sphere};
+use tracer_kernels::shapes::UnitShape;
 
 /// An object with curved sides, as it is written.
 struct Written {

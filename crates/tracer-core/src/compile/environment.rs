@@ -1,10 +1,10 @@
 //! The background: black, a colour, or a picture of all directions.
 
-use crate::scene::Environment;
 use crate::texture::{self, Panorama};
 use glam::DVec3;
 use scene_format::desc::{self, Background};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use tracer_kernels::scene::Environment;
 
 /// The background with its picture loaded.
 pub(super) enum Loaded<'d> {

@@ -1,6 +1,5 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
 use crate::mesh::{self, MeshData, MeshError};
 use crate::texture::{self, Texture, TextureError};
 use std::collections::BTreeMap;
@@ -8,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
+use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
@@ -132,7 +132,7 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
         Acceleration::None => 2,
     }]);
     for sphere in geometry.spheres {
-        let crate::bvh::SphereGeometry { anchor, normal, curvature, lower, upper } = sphere;
+        let tracer_kernels::bvh::SphereGeometry { anchor, normal, curvature, lower, upper } = sphere;
         for part in [anchor, normal, lower, upper] {
             add(bytemuck::cast_slice(part));
         }

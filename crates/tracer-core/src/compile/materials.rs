@@ -1,26 +1,69 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
 use super::kept::{Kept, load_texture};
-use crate::scene::{Albedo, Material, TextureUse, materials};
 use crate::texture::{Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{self, Emissive, MaterialRef, TextureFilter, TextureWrap};
+use scene_format::desc::{self, Emissive, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tracer_kernels::scene::{Albedo, Material, TextureFilter, TextureUse, TextureWrap, materials};
 
 /// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
 fn compiled(material: &desc::Material, color: Albedo) -> Material {
     match material {
         desc::Material::Diffuse(_) => Material::Diffuse(materials::Diffuse { albedo: color }),
-        desc::Material::Mirror(words) => Material::Mirror(words.into()),
-        desc::Material::Transparent(words) => Material::Transparent((&**words).into()),
-        desc::Material::BlinnPhong(words) => Material::BlinnPhong(materials::BlinnPhong::new(words, color)),
-        desc::Material::Conductor(words) => Material::Conductor(materials::Conductor::new(words, color)),
+        desc::Material::Mirror(words) => Material::Mirror(mirror(words)),
+        desc::Material::Transparent(words) => Material::Transparent(transparent(words)),
+        desc::Material::BlinnPhong(words) => Material::BlinnPhong(blinn_phong(words, color)),
+        desc::Material::Conductor(words) => Material::Conductor(conductor(words, color)),
         desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
+    }
+}
+
+fn mirror(words: &desc::Mirror) -> materials::Mirror {
+    materials::Mirror { reflectance: words.reflectance.value }
+}
+
+fn transparent(words: &desc::Transparent) -> materials::Transparent {
+    materials::Transparent { ior: words.ior.value, transmittance: words.transmittance.value }
+}
+
+fn blinn_phong(words: &desc::BlinnPhong, albedo: Albedo) -> materials::BlinnPhong {
+    let (exponent, specular) = (words.exponent.value, words.specular.value);
+    materials::BlinnPhong { albedo, exponent, specular, energy_conserving: words.energy_conserving }
+}
+
+fn conductor(words: &desc::Conductor, color: Albedo) -> materials::Conductor {
+    let fresnel = match &words.reflectance {
+        desc::Reflectance::Metal(metal) => {
+            let [ior, k] = metal.ior_and_k();
+            materials::Fresnel::Complex { ior, k }
+        }
+        desc::Reflectance::Complex { ior, k } => materials::Fresnel::Complex { ior: ior.value, k: k.value },
+        desc::Reflectance::Tinted { edge_tint, .. } => {
+            materials::Fresnel::Tinted { reflectance: color, edge_tint: edge_tint.value }
+        }
+    };
+    let alpha = words.roughness.value * words.roughness.value;
+    materials::Conductor { fresnel, alpha, multiple_scattering: words.multiple_scattering }
+}
+
+fn filter(word: desc::TextureFilter) -> TextureFilter {
+    match word {
+        desc::TextureFilter::Bilinear => TextureFilter::Bilinear,
+        desc::TextureFilter::Nearest => TextureFilter::Nearest,
+    }
+}
+
+fn wrap(word: desc::TextureWrap) -> TextureWrap {
+    match word {
+        desc::TextureWrap::Repeat => TextureWrap::Repeat,
+        desc::TextureWrap::Clamp => TextureWrap::Clamp,
+        desc::TextureWrap::Mirror => TextureWrap::Mirror,
     }
 }
 
@@ -126,7 +169,7 @@ impl<'a> MaterialBuilder<'a> {
     fn albedo(&mut self, albedo: &desc::Albedo, base: Option<&Path>) -> Albedo {
         let (image, filter, wrap, mapping) = match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
-            desc::Albedo::Texture(t) => (self.file(t, base), t.filter, t.wrap, t.mapping.rows()),
+            desc::Albedo::Texture(t) => (self.file(t, base), filter(t.filter), wrap(t.wrap), t.mapping.rows()),
             desc::Albedo::Checkerboard(t) => {
                 // The squares are the texels of a picture that is laid over two of them.
                 let mapping = t.mapping.rows().map(|row| row.map(|x| 0.5 * x));

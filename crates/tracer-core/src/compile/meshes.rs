@@ -8,10 +8,7 @@ use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
 use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
-use crate::bvh;
 use crate::mesh::{MeshData, NO_INDEX, normals::vertex_normals};
-use crate::scene::materials::BxdfFlags;
-use crate::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -21,6 +18,9 @@ use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tracer_kernels::bvh;
+use tracer_kernels::scene::materials::BxdfFlags;
+use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
 
 /// The meshes of a scene: its files, and the shapes that are made of triangles.
 pub struct Loaded {

@@ -14,11 +14,7 @@ mod polygonal;
 mod radiances;
 mod unmeant;
 
-use crate::bvh;
-use crate::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, Scene, Shape, ShapeTable,
-    Sharing, Sphere, SphereTable, Tables, TextureTable,
-};
+use crate::scene::{CompileTimes, Scene};
 use curved::Curved;
 pub use files::check_files;
 use glam::DVec3;
@@ -32,6 +28,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+use tracer_kernels::bvh;
+use tracer_kernels::scene::{
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, Picture, Shape, ShapeTable,
+    Sharing, Sphere, SphereTable, Tables, TextureTable,
+};
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
 #[derive(Debug, thiserror::Error)]
@@ -48,17 +49,6 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
         0 => first.to_owned(),
         more => format!("{first} (and {more} more)"),
     }
-}
-
-/// Seconds that the parts of compiling took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CompileTimes {
-    /// Loading meshes, textures and placements.
-    pub assets: f64,
-    /// Placing everything in render space, tables.
-    pub tables: f64,
-    /// Building the tree.
-    pub tree: f64,
 }
 
 /// Compiles the scene. Relative paths start from `desc.base_dir`.
@@ -157,7 +147,9 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
     }
     .unzip();
     let tree = start.elapsed().as_secs_f64();
-    Ok(Scene {
+    let pictures =
+        images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
+    let rendered = tracer_kernels::scene::Scene {
         frame,
         camera: camera(desc, &frame),
         size: [desc.image.width.value, desc.image.height.value],
@@ -173,7 +165,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         noise: desc.render.noise.as_ref().map(|goal| goal.value),
         time: desc.render.time.as_ref().map(|seconds| seconds.value),
-        layers: desc.output.layers.iter().copied().collect(),
+        layers: crate::layer_set(&desc.output.layers),
         radiance_unit,
         background,
         spheres,
@@ -182,7 +174,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
             shapes: ShapeTable::new(&shapes),
             materials: material_table,
             lights: light_table,
-            textures: TextureTable::new(images, &uses),
+            textures: TextureTable::new(pictures, &uses),
             instances: instance_table,
         },
         shapes,
@@ -191,15 +183,26 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         meshes: built.meshes,
         triangles: built.triangles,
         instances: built.instances,
-        acceleration: desc.render.acceleration,
+        accel,
+        top_boxes,
+        second_boxes,
+        acceleration: acceleration(desc.render.acceleration),
+    };
+    Ok(Scene {
+        rendered,
         look: crate::develop::Look { exposure: desc.effects.exposure.value, tone_map: desc.effects.tone_map },
         files: files.into_iter().collect(),
         warnings: diagnostics,
         times: CompileTimes { assets, tables: tables_seconds, tree },
-        accel,
-        top_boxes,
-        second_boxes,
     })
+}
+
+fn acceleration(word: Acceleration) -> bvh::Acceleration {
+    match word {
+        Acceleration::Bvh => bvh::Acceleration::Bvh,
+        Acceleration::BoundingBox => bvh::Acceleration::BoundingBox,
+        Acceleration::None => bvh::Acceleration::None,
+    }
 }
 
 /// The files that the scene names, each once, as [`compile`] opens them: meshes, placements, pictures. What these name in turn is known
@@ -283,11 +286,7 @@ fn build_tree(
     if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
         return Ok(None);
     }
-    let acceleration = match acceleration {
-        Acceleration::Bvh => bvh::Acceleration::Bvh,
-        Acceleration::BoundingBox => bvh::Acceleration::BoundingBox,
-        Acceleration::None => bvh::Acceleration::None,
-    };
+    let acceleration = self::acceleration(acceleration);
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
     let shapes: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();

@@ -2,13 +2,12 @@
 //!
 //! Pixels of a block share, so their errors are alike, and where a block ends, so does what they have in common: were
 //! it always at the same place, the border would be seen. Blocks are cut anew for each sample index
-//! ([`crate::sampling::blocks`]), and all cuts together move by points of the sampler: the first 16 of them lie in all
+//! ([`tracer_kernels::sampling::blocks`]), and all cuts together move by points of the sampler: the first 16 of them lie in all
 //! columns and all rows, the first 256 at all places. Blocks at the picture's border hold fewer pixels.
 
 use crate::film::Crop;
-use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
-use crate::sampling::blocks::{Block, Cut, TILE};
-use crate::sampling::sampler::{Pair, Purpose, hash3};
+use tracer_kernels::sampling::blocks::{Block, Cut, TILE};
+use tracer_kernels::sampling::sampler::{Pair, Purpose, hash3};
 
 /// The blocks that touch a crop. Each is rendered whole, as far as it lies in the picture, so that the crop's pixels
 /// share with the same others as in the whole picture.
@@ -47,14 +46,7 @@ impl Grid {
     /// How the picture is cut at a sample index.
     pub fn cut(&self, sample: u32) -> Cut {
         let Some(pair) = &self.shifts else { return Cut::Straight };
-        let part = pair.sample_part(0, sample);
-        let [x, y] = [part.x, part.y].map(ArrayU::<1>::splat);
-        let (u, v) = pair.points::<ArrayF<1>>(ArrayU::splat(0), x, y);
-        let shift = [u, v].map(|u| {
-            let mut shift = [0.0];
-            u.store(&mut shift);
-            (shift[0] * TILE as f32) as u8
-        });
+        let shift = pair.point(0, 0, sample).map(|x| (x * TILE as f32) as u8);
         Cut::Ragged { salt: hash3(self.seed, sample, 0x7a66_ed01) as u32, shift }
     }
 
@@ -76,8 +68,8 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampling::blocks::{BLOCK_PIXELS, ITEM_PIXELS, Item, Pixels, QUARTERS};
     use std::collections::BTreeSet;
+    use tracer_kernels::sampling::blocks::{BLOCK_PIXELS, ITEM_PIXELS, Item, Pixels, QUARTERS};
 
     /// Where the pixels of a block lie.
     fn pixels(block: Block) -> Vec<[i32; 2]> {

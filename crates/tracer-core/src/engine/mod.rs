@@ -4,40 +4,29 @@
 //! independent and a pixel's sum is exact ([`crate::film`]), so threads take batches in any order and the film is the
 //! same.
 
-mod batch;
 mod grid;
-mod guide;
-#[allow(unsafe_code)]
-mod kernels;
-mod lane_io;
-mod light_paths;
 mod observer;
 mod options;
-mod pass;
 mod passes;
-mod pool;
-mod stages;
 mod technique;
 mod techniques;
 mod trace;
-mod watch;
 
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
-pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};
 
 use crate::film::{Crop, Film};
-use crate::level::Level;
-use crate::scene::Scene;
 use grid::Grid;
-use kernels::Kernels;
-use pass::Pass;
 use passes::{Painter, Passes, SAMPLES, is_looked_at};
-use pool::{Counted, Pool};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use technique::Engine;
 use techniques::Trial;
+use tracer_kernels::engine::kernels::Kernels;
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pool::{Counted, Pool};
+use tracer_kernels::level::Level;
+use tracer_kernels::scene::Scene;
 
 /// Why a film cannot be gone on with ([`resume`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

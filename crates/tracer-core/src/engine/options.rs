@@ -1,9 +1,9 @@
 //! What a caller may decide about a rendering.
 
 use crate::film::{Crop, Part};
-use crate::layers::LayerSet;
-use crate::level::Level;
 use std::time::{Duration, Instant};
+use tracer_kernels::layers::LayerSet;
+use tracer_kernels::level::Level;
 
 /// What a caller may decide about a rendering; `None` and zero take what the scene says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

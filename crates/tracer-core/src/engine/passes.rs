@@ -1,19 +1,19 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
-use super::batch::{Batch, ITEMS};
 use super::grid::Grid;
 use super::observer::{Observer, Progress};
-use super::pass::Pass;
-use super::pool::Pool;
 use super::technique::{Engine, OnFilm, Technique};
 use super::trace::trace;
 use crate::film::{Cells, Film, Keeper, Piece, Unfinished};
-use crate::report::Stage;
-use crate::sampling::blocks::{Item, QUARTERS, slots_of_block};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+use tracer_kernels::engine::batch::{Batch, ITEMS};
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::report::Stage;
+use tracer_kernels::sampling::blocks::{Item, QUARTERS, slots_of_block};
 
 /// Samples of a block that fill a batch.
 pub const SAMPLES: u32 = ITEMS as u32 / QUARTERS;

@@ -4,14 +4,14 @@
 //! `stages::light_paths`), by what [`Technique::tell`] has told them. All else it does here: calls are by pass, batch
 //! and vertex, never by lane.
 
-use super::batch::Batch;
-use super::kernels::Kernels;
-use super::pass::Pass;
-use super::pool::Pool;
 use crate::film::Cells;
-use crate::sampling::blocks::Block;
-use crate::scene::Scene;
 use std::ops::Range;
+use tracer_kernels::engine::batch::Batch;
+use tracer_kernels::engine::kernels::Kernels;
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::sampling::blocks::Block;
+use tracer_kernels::scene::Scene;
 
 /// A scene, and the stages compiled for this CPU.
 #[derive(Clone, Copy)]

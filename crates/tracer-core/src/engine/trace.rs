@@ -1,13 +1,13 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
-use super::batch::{Batch, Columns};
-use super::kernels::Kernels;
-use super::pass::Pass;
-use super::stages::deposit::deposit;
 use super::technique::{Engine, Technique, Vertex};
-use crate::bvh::{Accel, Coherence, Hits, Occlusion, Rays};
-use crate::level::Level;
-use crate::report::Stage;
+use tracer_kernels::bvh::{Accel, Coherence, Hits, Occlusion};
+use tracer_kernels::engine::batch::{Batch, rays};
+use tracer_kernels::engine::deposit;
+use tracer_kernels::engine::kernels::Kernels;
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::level::Level;
+use tracer_kernels::report::Stage;
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
 pub fn trace(engine: Engine<'_>, pass: Pass<'_>, techniques: &[Box<dyn Technique>], batch: &mut Batch) {
@@ -43,26 +43,6 @@ pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch
     occluded(engine, Coherence::Incoherent, batch);
     deposit(batch);
     batch.watch.lap(Stage::Deposit);
-}
-
-/// The first `len` rays of columns, for the tree.
-pub fn rays<'a>(
-    origin: &'a Columns,
-    direction: &'a Columns,
-    from_primitive: &'a [u32],
-    from_instance: &'a [u32],
-    len: usize,
-) -> Rays<'a> {
-    Rays {
-        ox: &origin[0][..len],
-        oy: &origin[1][..len],
-        oz: &origin[2][..len],
-        dx: &direction[0][..len],
-        dy: &direction[1][..len],
-        dz: &direction[2][..len],
-        from_primitive: &from_primitive[..len],
-        from_instance: &from_instance[..len],
-    }
 }
 
 /// What the rays of `batch.paths` hit; `camera`: they come from there.

@@ -5,9 +5,9 @@
 
 use super::state::Keeper;
 use super::{Crop, Film, TILE, Tile};
-use crate::sampling::blocks::{BLOCK_PIXELS, Pixels};
-use crate::sampling::sampler::z_order;
 use std::sync::{Mutex, MutexGuard};
+use tracer_kernels::sampling::blocks::{BLOCK_PIXELS, Pixels};
+use tracer_kernels::sampling::sampler::z_order;
 
 /// A film that threads add to.
 pub(crate) struct Cells<'a> {
@@ -115,7 +115,7 @@ impl<'a> Cells<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampling::blocks::{Block, Cut, Item, QUARTERS};
+    use tracer_kernels::sampling::blocks::{Block, Cut, Item, QUARTERS};
 
     /// However a block is cut, the pixels that it has in common with a crop are met once, at their places.
     #[test]

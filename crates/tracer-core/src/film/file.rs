@@ -16,12 +16,12 @@
 use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
 use super::{Crop, Film, FilmLayer, Part, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
-use crate::layers::{Kept, LayerSet};
-use crate::report::{Costs, Counters};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
 use std::ops::RangeInclusive;
+use tracer_kernels::layers::{Kept, LayerSet};
+use tracer_kernels::report::{Costs, Counters};
 use xxhash_rust::xxh3::Xxh3Default;
 
 /// No text begins so, and what changes the ends of lines breaks it.

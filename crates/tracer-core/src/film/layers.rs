@@ -3,11 +3,11 @@
 use super::exact::{LARGEST, LEAST, fixed};
 use super::pack::{pack, unpack};
 use super::{Crop, Film, PIXELS, Tile};
-use crate::layers::{FilmNumber, Kept, LayerSamples, LayerSet, Pixel, Units, definition, units};
-use crate::sampling::blocks::{ITEM_PIXELS, slots_of_block};
-use crate::scene::Scene;
 use rayon::prelude::*;
-use scene_format::desc::Layer;
+use tracer_kernels::layers::Layer;
+use tracer_kernels::layers::{FilmNumber, Kept, LayerSamples, LayerSet, Pixel, Units, definition, units};
+use tracer_kernels::sampling::blocks::{ITEM_PIXELS, slots_of_block};
+use tracer_kernels::scene::Scene;
 
 /// What a tile holds for its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,7 +175,7 @@ impl Film {
     /// # Examples
     ///
     /// ```
-    /// use scene_format::desc::Layer;
+    /// use tracer_kernels::layers::Layer;
     /// use std::path::Path;
     /// use tracer_core::{LayerSet, RenderOptions, Unobserved, compile, render};
     ///

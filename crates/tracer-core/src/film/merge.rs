@@ -6,11 +6,11 @@
 use super::file::{PROGRAM, kept, read_tile};
 use super::layers::SavedLayer;
 use super::{Crop, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
-use crate::report::Counters;
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::Read;
 use std::ops::Range;
+use tracer_kernels::report::Counters;
 
 /// Samples of rows that no part has.
 #[derive(Clone, Debug, PartialEq, Eq)]

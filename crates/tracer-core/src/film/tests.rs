@@ -89,7 +89,7 @@ fn what_is_taken_and_what_is_left_are_the_whole() {
     const LIMIT: f32 = 0.7;
     let sample = |k: u32, channel: u32| {
         filled(|pixel| {
-            let h = crate::sampling::sampler::hash3(k, pixel as u32, channel);
+            let h = tracer_kernels::sampling::sampler::hash3(k, pixel as u32, channel);
             let sign = if h >> 62 == 0 { -1.0 } else { 1.0 };
             // From 2^-31 to 2^23.
             f32::from_bits(0x3000_0000 + h as u32 % 0x1b00_0000) * sign

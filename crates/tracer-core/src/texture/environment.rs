@@ -1,6 +1,6 @@
 //! Pictures of all directions: HDR, EXR, PNG and JPEG files, decoded to linear light.
 
-use super::{Texels, TextureError, checked, format_of, from_picture, srgb::SRGB_TO_LINEAR};
+use super::{SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
 use crate::mesh::read_regular_file;
 use image::{DynamicImage, ImageFormat};
 use scene_format::codes;

@@ -18,11 +18,11 @@
 mod environment;
 mod error;
 mod extent;
-mod srgb;
 
 pub use environment::{Panorama, load_environment};
 pub use error::TextureError;
-pub use srgb::SRGB_TO_LINEAR;
+pub use tracer_kernels::scene::Texels;
+pub use tracer_kernels::srgb::SRGB_TO_LINEAR;
 
 use crate::mesh::read_regular_file;
 use image::metadata::Orientation;
@@ -69,15 +69,6 @@ impl Texture {
         };
         most.map_or(0.0, f64::from)
     }
-}
-
-/// The colours of a picture.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Texels {
-    /// Of an 8-bit file: sRGB, packed as `0x00BBGGRR`; [`SRGB_TO_LINEAR`] decodes each byte.
-    Srgb8(Vec<u32>),
-    /// Of a 16-bit file: linear RGB in 0 to 1, sRGB already decoded.
-    Linear(Vec<[f32; 3]>),
 }
 
 /// Reads the PNG or JPEG picture in `path`; its content decides which, not its extension.
@@ -158,7 +149,7 @@ fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
         | DynamicImage::ImageLuma16(_)
         | DynamicImage::ImageRgb16(_)
         | DynamicImage::ImageRgba16(_) => {
-            let table = srgb::linear_of_srgb16();
+            let table = tracer_kernels::srgb::linear_of_srgb16();
             let picture = picture.into_rgb16();
             Texels::Linear(
                 picture.as_raw().par_chunks_exact(3).map(|p| [0, 1, 2].map(|c| table[usize::from(p[c])])).collect(),

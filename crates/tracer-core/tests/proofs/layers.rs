@@ -5,9 +5,9 @@ use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Integrator, Layer, Material, MaterialRef, Object, PerAxis, PixelFilter, Placements, Rectangle,
+    Acceleration, Integrator, Material, MaterialRef, Object, PerAxis, PixelFilter, Placements, Rectangle,
 };
-use tracer_core::{Crop, Film, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
+use tracer_core::{Crop, Film, Layer, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
 use tracer_reference::{FirstHit, first_hits};
 
 fn with_layers(options: RenderOptions) -> RenderOptions {

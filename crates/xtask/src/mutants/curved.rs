@@ -2,7 +2,7 @@
 
 use super::{Mutant, proofs, suite};
 
-const CONE: &str = "crates/tracer-core/src/shapes/cone.rs";
+const CONE: &str = "crates/kernels/src/shapes/cone.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -22,35 +22,35 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "capsules-are-met-on-their-balls-only",
-        file: "crates/tracer-core/src/shapes/capsule.rs",
+        file: "crates/kernels/src/shapes/capsule.rs",
         find: "let parts = [side, ball_at(-half), ball_at(half)];",
         replace: "let parts = [None, ball_at(-half), ball_at(half)];",
         caught_by: suite("shapes", &[]),
     },
     Mutant {
         name: "disks-have-no-hole",
-        file: "crates/tracer-core/src/shapes/disk.rs",
+        file: "crates/kernels/src/shapes/disk.rs",
         find: "at.dot(at) >= inner * inner",
         replace: "at.dot(at) >= -inner * inner",
         caught_by: proofs(&["curved::curved_shapes"]),
     },
     Mutant {
         name: "normals-of-curved-shapes-go-by-the-map",
-        file: "crates/tracer-core/src/shapes/mod.rs",
+        file: "crates/kernels/src/shapes/mod.rs",
         find: "(map.transpose() * on.n).normalize()",
         replace: "(map.inverse() * on.n).normalize()",
         caught_by: proofs(&["curved::curved_shapes"]),
     },
     Mutant {
         name: "curved-glass-has-no-side",
-        file: "crates/tracer-core/src/engine/stages/shapes.rs",
+        file: "crates/kernels/src/engine/stages/shapes.rs",
         find: "u32::from(on.n.dot(direction) < 0.0) << lane",
         replace: "1 << lane",
         caught_by: proofs(&["curved::curved_shapes"]),
     },
     Mutant {
         name: "shapes-in-the-tree-are-nowhere-left",
-        file: "crates/tracer-core/src/bvh/kernels/leaves.rs",
+        file: "crates/kernels/src/bvh/kernels/leaves.rs",
         find: "leaf.row.hit(origin, direction, leaf.ids[0] == from)",
         replace: "leaf.row.hit(origin, direction, leaf.ids[1] == from)",
         caught_by: suite("shapes", &["the_tree"]),

@@ -2,23 +2,23 @@
 
 use super::{Mutant, proofs, units};
 
-const BSDF: &str = "crates/tracer-core/src/engine/stages/materials/mod.rs";
-const BLINN_PHONG: &str = "crates/tracer-core/src/engine/stages/materials/blinn_phong.rs";
-const CONDUCTOR: &str = "crates/tracer-core/src/engine/stages/materials/conductor.rs";
-const DIELECTRIC: &str = "crates/tracer-core/src/engine/stages/materials/dielectric.rs";
-const SURFACE: &str = "crates/tracer-core/src/engine/stages/surface.rs";
-const LIGHTS: &str = "crates/tracer-core/src/engine/stages/lights/mod.rs";
-const LIGHT_SELECTION: &str = "crates/tracer-core/src/engine/stages/lights/selection.rs";
-const SPHERE_LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/sphere.rs";
-const FLAT_LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/flat.rs";
-const CAMERA: &str = "crates/tracer-core/src/engine/stages/camera.rs";
-const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
-const SHARE: &str = "crates/tracer-core/src/engine/stages/share.rs";
-const SPHERES: &str = "crates/tracer-core/src/engine/stages/spheres.rs";
+const BSDF: &str = "crates/kernels/src/engine/stages/materials/mod.rs";
+const BLINN_PHONG: &str = "crates/kernels/src/engine/stages/materials/blinn_phong.rs";
+const CONDUCTOR: &str = "crates/kernels/src/engine/stages/materials/conductor.rs";
+const DIELECTRIC: &str = "crates/kernels/src/engine/stages/materials/dielectric.rs";
+const SURFACE: &str = "crates/kernels/src/engine/stages/surface.rs";
+const LIGHTS: &str = "crates/kernels/src/engine/stages/lights/mod.rs";
+const LIGHT_SELECTION: &str = "crates/kernels/src/engine/stages/lights/selection.rs";
+const SPHERE_LIGHT: &str = "crates/kernels/src/engine/stages/lights/sphere.rs";
+const FLAT_LIGHT: &str = "crates/kernels/src/engine/stages/lights/flat.rs";
+const CAMERA: &str = "crates/kernels/src/engine/stages/camera.rs";
+const SHADE: &str = "crates/kernels/src/engine/stages/shade.rs";
+const SHARE: &str = "crates/kernels/src/engine/stages/share.rs";
+const SPHERES: &str = "crates/kernels/src/engine/stages/spheres.rs";
 const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
-const TEXTURES: &str = "crates/tracer-core/src/engine/stages/textures.rs";
-const SAMPLER: &str = "crates/tracer-core/src/sampling/sampler.rs";
-const WARP: &str = "crates/tracer-core/src/sampling/warp.rs";
+const TEXTURES: &str = "crates/kernels/src/engine/stages/textures.rs";
+const SAMPLER: &str = "crates/kernels/src/sampling/sampler.rs";
+const WARP: &str = "crates/kernels/src/sampling/warp.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[

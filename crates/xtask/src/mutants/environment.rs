@@ -2,9 +2,9 @@
 
 use super::{Mutant, proofs, units};
 
-const LIGHT: &str = "crates/tracer-core/src/engine/stages/lights/environment.rs";
-const PICTURE: &str = "crates/tracer-core/src/scene/environment.rs";
-const SELECTION: &str = "crates/tracer-core/src/engine/stages/lights/selection.rs";
+const LIGHT: &str = "crates/kernels/src/engine/stages/lights/environment.rs";
+const PICTURE: &str = "crates/kernels/src/scene/environment.rs";
+const SELECTION: &str = "crates/kernels/src/engine/stages/lights/selection.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -45,7 +45,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "environment-counts-twice",
-        file: "crates/tracer-core/src/engine/stages/shade.rs",
+        file: "crates/kernels/src/engine/stages/shade.rs",
         find: "seen = throughput.mul(radiance).scale(shown * weight);",
         replace: "seen = throughput.mul(radiance).scale(shown * (weight * c(0.5) + c(0.5)));",
         caught_by: proofs(&["environment::a_picture_of_one_colour_is_a_background_of_that_colour"]),

@@ -8,14 +8,14 @@ const FILM: &str = "crates/tracer-core/src/film/layers.rs";
 pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "depth-along-the-ray",
-        file: "crates/tracer-core/src/layers/depth.rs",
+        file: "crates/kernels/src/layers/depth.rs",
         find: "let depth = hit.t * hit.direction.dot(forward);",
         replace: "let depth = hit.t + F::splat(0.0) * hit.direction.dot(forward);",
         caught_by: proofs(&["layers::a_wall_seen_straight_has_one_depth"]),
     },
     Mutant {
         name: "normals-of-the-triangles",
-        file: "crates/tracer-core/src/layers/normal.rs",
+        file: "crates/kernels/src/layers/normal.rs",
         find: "hit.surface.ns",
         replace: "hit.surface.ng",
         caught_by: proofs(&["layers::first_hits_are_those_of_the_reference"]),

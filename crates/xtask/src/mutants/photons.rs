@@ -2,15 +2,15 @@
 
 use super::{Mutant, proofs, units};
 
-const PHOTONS: &str = "crates/tracer-core/src/engine/stages/photons.rs";
-const AIM: &str = "crates/tracer-core/src/engine/stages/aim.rs";
-const SHADE: &str = "crates/tracer-core/src/engine/stages/shade.rs";
+const PHOTONS: &str = "crates/kernels/src/engine/stages/photons.rs";
+const AIM: &str = "crates/kernels/src/engine/stages/aim.rs";
+const SHADE: &str = "crates/kernels/src/engine/stages/shade.rs";
 const GLINTS: &str = "crates/tracer-core/src/engine/techniques/glints.rs";
-const BATCH: &str = "crates/tracer-core/src/engine/batch.rs";
+const BATCH: &str = "crates/kernels/src/engine/batch.rs";
 const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
-const LIGHT_PATHS: &str = "crates/tracer-core/src/engine/stages/light_paths.rs";
-const CELLS: &str = "crates/tracer-core/src/engine/guide/cells.rs";
-const PLAN: &str = "crates/tracer-core/src/engine/guide/plan.rs";
+const LIGHT_PATHS: &str = "crates/kernels/src/engine/stages/light_paths.rs";
+const CELLS: &str = "crates/kernels/src/engine/guide/cells.rs";
+const PLAN: &str = "crates/kernels/src/engine/guide/plan.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[

@@ -92,7 +92,7 @@ enum Outcome {
 }
 
 /// Where the engine's stages are compiled per CPU level.
-const KERNELS: &str = "crates/tracer-core/src/engine/kernels.rs";
+const KERNELS: &str = "crates/kernels/src/engine/kernels.rs";
 
 #[cfg(target_arch = "x86_64")]
 fn has_avx2() -> bool {

@@ -5,16 +5,16 @@ use super::{Mutant, proofs, suite, units};
 const COMPILE: &str = "crates/tracer-core/src/compile/mod.rs";
 const MESHES: &str = "crates/tracer-core/src/compile/meshes.rs";
 const PLACING: &str = "crates/tracer-core/src/compile/placing.rs";
-const LIGHT: &str = "crates/tracer-core/src/scene/light.rs";
-const SPHERE: &str = "crates/tracer-core/src/scene/sphere.rs";
+const LIGHT: &str = "crates/kernels/src/scene/light.rs";
+const SPHERE: &str = "crates/kernels/src/scene/sphere.rs";
 const FILM: &str = "crates/tracer-core/src/film.rs";
 const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
 const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
 const SRGB: &str = "crates/tracer-core/src/develop/srgb.rs";
 
-const TREE: &str = "crates/tracer-core/src/bvh/mod.rs";
-const COPLANAR: &str = "crates/tracer-core/src/bvh/coplanar/mod.rs";
-const COPLANAR_FIND: &str = "crates/tracer-core/src/bvh/coplanar/find.rs";
+const TREE: &str = "crates/kernels/src/bvh/mod.rs";
+const COPLANAR: &str = "crates/kernels/src/bvh/coplanar/mod.rs";
+const COPLANAR_FIND: &str = "crates/kernels/src/bvh/coplanar/find.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -231,14 +231,14 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "blocks-whose-pixels-touch",
-        file: "crates/tracer-core/src/sampling/blocks.rs",
+        file: "crates/kernels/src/sampling/blocks.rs",
         find: "+ 2 * steps as i32",
         replace: "+ steps as i32",
         caught_by: units(&["blocks", "grid"]),
     },
     Mutant {
         name: "blocks-cut-in-half-of-the-places",
-        file: "crates/tracer-core/src/sampling/blocks.rs",
+        file: "crates/kernels/src/sampling/blocks.rs",
         find: ">> 61",
         replace: ">> 62",
         caught_by: units(&["blocks"]),
@@ -309,70 +309,70 @@ pub const MUTANTS: &[Mutant] = &[
     // Tree.
     Mutant {
         name: "boxes-not-padded",
-        file: "crates/tracer-core/src/bvh/ray_space.rs",
+        file: "crates/kernels/src/bvh/ray_space.rs",
         find: "pub(crate) const PAD: f32 = 1.0 / 524_288.0;",
         replace: "pub(crate) const PAD: f32 = 0.0;",
         caught_by: suite("bvh_watertight", &["closed_meshes_do_not_leak"]),
     },
     Mutant {
         name: "triangle-edges-leak",
-        file: "crates/tracer-core/src/bvh/triangle.rs",
+        file: "crates/kernels/src/bvh/triangle.rs",
         find: "let w = b[0] * a[1] - b[1] * a[0];",
         replace: "let w = b[0] * a[1] - b[1] * a[0] - 1e-6;",
         caught_by: suite("bvh_closest", &["coplanar_grid", "few_triangles", "soup"]),
     },
     Mutant {
         name: "boxes-of-a-corner-too-few",
-        file: "crates/tracer-core/src/bvh/bounds.rs",
+        file: "crates/kernels/src/bvh/bounds.rs",
         find: "self.upper = self.upper.max(other.upper);",
         replace: "self.upper = self.upper.min(other.upper).max(self.lower);",
         caught_by: suite("bvh_closest", &["soup", "few_triangles"]),
     },
     Mutant {
         name: "parts-without-slack",
-        file: "crates/tracer-core/src/bvh/triangle.rs",
+        file: "crates/kernels/src/bvh/triangle.rs",
         find: "pub(crate) const SLACK: f32 = 1.0 / 1_048_576.0;",
         replace: "pub(crate) const SLACK: f32 = 0.0;",
         caught_by: suite("bvh_closest", &["a_cut_takes_no_hit_away_and_adds_none"]),
     },
     Mutant {
         name: "parts-beside-their-boxes",
-        file: "crates/tracer-core/src/bvh/kernels/leaves.rs",
+        file: "crates/kernels/src/bvh/kernels/leaves.rs",
         find: "let cut = isa.le4(lower[0], upper[0]);",
         replace: "let cut = 0;",
         caught_by: suite("bvh_closest", &["triangles_that_are_cut"]),
     },
     Mutant {
         name: "whole-triangles-as-parts",
-        file: "crates/tracer-core/src/bvh/kernels/leaves.rs",
+        file: "crates/kernels/src/bvh/kernels/leaves.rs",
         find: "let cut = isa.le4(lower[0], upper[0]);",
         replace: "let cut = 15;",
         caught_by: suite("bvh_closest", &["triangles_beside_those_that_are_cut_are_tested_as_anywhere_else"]),
     },
     Mutant {
         name: "half-a-triangle-is-lost",
-        file: "crates/tracer-core/src/bvh/build/parts.rs",
+        file: "crates/kernels/src/bvh/build/parts.rs",
         find: "Some(halves) => halves.iter().for_each",
         replace: "Some(halves) => halves.iter().skip(1).for_each",
         caught_by: suite("bvh_closest", &["triangles_that_are_cut"]),
     },
     Mutant {
         name: "parts-without-padding",
-        file: "crates/tracer-core/src/bvh/build/parts.rs",
+        file: "crates/kernels/src/bvh/build/parts.rs",
         find: "let pad = Vec4::splat(padding(self.corners(triangle)));",
         replace: "let pad = Vec4::splat(0.0 * padding(self.corners(triangle)));",
         caught_by: suite("bvh_watertight", &["closed_meshes_of_triangles_that_are_cut_do_not_leak"]),
     },
     Mutant {
         name: "cuts-that-do-not-pay",
-        file: "crates/tracer-core/src/bvh/build/parts.rs",
+        file: "crates/kernels/src/bvh/build/parts.rs",
         find: "const PAYS: f64 = 0.1;",
         replace: "const PAYS: f64 = 0.0;",
         caught_by: suite("bvh_closest", &["only_long_triangles_aslant_are_cut"]),
     },
     Mutant {
         name: "cuts-without-end",
-        file: "crates/tracer-core/src/bvh/build/parts.rs",
+        file: "crates/kernels/src/bvh/build/parts.rs",
         find: "let least = least.max(total / most);",
         replace: "let least = least.min(total / most);",
         caught_by: suite("bvh_same_bits", &["triangles_are_cut_the_same_for_any_number_of_threads"]),

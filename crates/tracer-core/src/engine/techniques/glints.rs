@@ -8,16 +8,16 @@
 //! and place: the same for any crop and any number of samples.
 
 use super::Trial;
-use crate::engine::batch::{Batch, CHAINS, ITEMS, path};
-use crate::engine::pass::{Pass, Task};
 use crate::engine::technique::{Engine, Technique};
 use crate::engine::trace::closest;
-use crate::report::{Counters, Stage};
-use crate::sampling::blocks::{Block, ITEM_PIXELS, Item, TILE};
-use crate::sampling::sampler::hash3;
-use crate::scene::Material;
-use crate::scene::materials::BxdfFlags;
 use std::time::Instant;
+use tracer_kernels::engine::batch::{Batch, CHAINS, ITEMS, path};
+use tracer_kernels::engine::pass::{Pass, Task};
+use tracer_kernels::report::{Counters, Stage};
+use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS, Item, TILE};
+use tracer_kernels::sampling::sampler::hash3;
+use tracer_kernels::scene::Material;
+use tracer_kernels::scene::materials::BxdfFlags;
 
 /// Which tiles have chains.
 #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! Guides ([`crate::engine::guide`]): made of photons before passes, and rays aimed by them after vertices.
+//! Guides ([`tracer_kernels::engine::guide`]): made of photons before passes, and rays aimed by them after vertices.
 //!
 //! The guide gets better as samples are added: that of sample index s is made from more photons at every doubling of s,
 //! up to [`MOST_PHOTONS`]. It depends on scene, seed and s only: the same for any crop, threads, lanes and number of
@@ -6,21 +6,21 @@
 
 use super::Trial;
 use super::photons::photons;
-use crate::engine::batch::Batch;
-use crate::engine::guide::casters::Casters;
-use crate::engine::guide::cells::{Cells, SphereRows};
-use crate::engine::guide::plan::Plan;
-use crate::engine::guide::{Guide, MOST_CASTERS};
-use crate::engine::pass::Pass;
-use crate::engine::pool::Pool;
-use crate::engine::stages::aim::AIMS_UNTIL;
 use crate::engine::technique::{Engine, Technique, Vertex};
-use crate::report::Stage;
-use crate::sampling::sampler::hash3;
-use crate::scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
+use tracer_kernels::engine::AIMS_UNTIL;
+use tracer_kernels::engine::batch::Batch;
+use tracer_kernels::engine::guide::casters::Casters;
+use tracer_kernels::engine::guide::cells::{Cells, SphereRows};
+use tracer_kernels::engine::guide::plan::Plan;
+use tracer_kernels::engine::guide::{Guide, MOST_CASTERS};
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::report::Stage;
+use tracer_kernels::sampling::sampler::hash3;
+use tracer_kernels::scene::Scene;
 
 /// Photons of the largest guide.
 const MOST_PHOTONS: u32 = 1 << 18;

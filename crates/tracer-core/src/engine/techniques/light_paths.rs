@@ -1,22 +1,22 @@
-//! Light paths ([`crate::engine::light_paths`]): followed at the beginning of a pass, onto whatever pixels they fall.
+//! Light paths ([`tracer_kernels::engine::light_paths`]): followed at the beginning of a pass, onto whatever pixels they fall.
 
 use super::Trial;
 use super::photons::{batches, load};
-use crate::bvh::Coherence;
-use crate::engine::batch::{Batch, PATHS};
-use crate::engine::guide::plan::{Plan, Share};
-use crate::engine::light_paths::LightPaths;
-use crate::engine::pass::{Pass, PhotonPass};
-use crate::engine::pool::Pool;
-use crate::engine::stages::camera::density;
-use crate::engine::stages::light_paths::LightPass;
 use crate::engine::technique::{Engine, OnFilm, Technique};
 use crate::engine::trace::{closest, occluded};
-use crate::report::Stage;
-use crate::scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
+use tracer_kernels::bvh::Coherence;
+use tracer_kernels::engine::LightPass;
+use tracer_kernels::engine::batch::{Batch, PATHS};
+use tracer_kernels::engine::density;
+use tracer_kernels::engine::guide::plan::{Plan, Share};
+use tracer_kernels::engine::light_paths::LightPaths;
+use tracer_kernels::engine::pass::{Pass, PhotonPass};
+use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::report::Stage;
+use tracer_kernels::scene::Scene;
 
 /// The light paths of a rendering.
 struct OfRendering {

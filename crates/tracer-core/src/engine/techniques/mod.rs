@@ -6,13 +6,13 @@ mod light_paths;
 mod photons;
 mod reuse;
 
-use super::guide::plan::Plan;
 use super::options::RenderOptions;
-use super::pass::Pass;
-use super::pool::Pool;
 use super::technique::{Engine, Technique};
 use crate::film::Crop;
 use std::sync::Arc;
+use tracer_kernels::engine::guide::plan::Plan;
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pool::Pool;
 
 /// What a technique may try before it says whether it is worth its while.
 pub struct Trial<'a> {

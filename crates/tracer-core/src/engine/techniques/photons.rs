@@ -1,14 +1,14 @@
 //! Photons from the lights to where they are stored.
 
-use crate::engine::batch::{Batch, Columns, PATHS, Photons};
-use crate::engine::guide::cells::Photon;
-use crate::engine::guide::plan::{Plan, Share};
-use crate::engine::pass::PhotonPass;
-use crate::engine::pool::Pool;
 use crate::engine::technique::Engine;
 use crate::engine::trace::closest;
-use crate::report::Stage;
 use std::time::Instant;
+use tracer_kernels::engine::batch::{Batch, Columns, PATHS, Photons};
+use tracer_kernels::engine::guide::cells::Photon;
+use tracer_kernels::engine::guide::plan::{Plan, Share};
+use tracer_kernels::engine::pass::PhotonPass;
+use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::report::Stage;
 
 /// Sends so many photons; what was stored, in an order that depends on nothing else.
 pub fn photons(engine: Engine<'_>, plan: &Plan, seed: u32, count: u32, pool: &Pool) -> Vec<Photon> {

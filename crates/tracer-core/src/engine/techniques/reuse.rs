@@ -1,17 +1,17 @@
-//! Pixels share the second vertices of their paths ([`crate::engine::stages::share`]).
+//! Pixels share the second vertices of their paths ([`tracer_kernels::engine::share`]).
 
 use super::Trial;
-use crate::bvh::Coherence;
-use crate::engine::batch::{Batch, Group, ITEMS, Shadows};
-use crate::engine::pass::Pass;
-use crate::engine::stages::shaft::Obstacles;
 use crate::engine::technique::{Engine, Technique, Vertex};
 use crate::engine::trace::{bounce, occluded_in_tree};
-use crate::report::Stage;
-use crate::sampling::blocks::{Block, ITEM_PIXELS, Item, QUARTERS, TILE};
-use crate::sampling::sampler::hash3;
-use crate::scene::Sharing;
 use std::time::Instant;
+use tracer_kernels::bvh::Coherence;
+use tracer_kernels::engine::Obstacles;
+use tracer_kernels::engine::batch::{Batch, Group, ITEMS, Shadows};
+use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::report::Stage;
+use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS, Item, QUARTERS, TILE};
+use tracer_kernels::sampling::sampler::hash3;
+use tracer_kernels::scene::Sharing;
 
 /// Under a background pixels share in all blocks where such a share of the paths has a second vertex, as in rooms with
 /// a window, in none where it is [`OUTDOORS`] or less, and in a part of the blocks between, so that pictures of a

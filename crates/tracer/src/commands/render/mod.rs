@@ -29,7 +29,7 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, LayerSet, RenderOptions, Scene, develop, render, resume};
+use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, develop, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
@@ -232,7 +232,7 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     if let Some(exposure) = args.exposure {
         desc.effects.exposure = exposure.into();
     }
-    for &layer in &args.layers {
+    for layer in args.layers.iter().copied().map(tracer_core::layer_word) {
         if !desc.output.layers.contains(&layer) {
             desc.output.layers.push(layer);
         }
@@ -258,7 +258,7 @@ fn check_memory(crop: Crop, desc: &SceneDesc) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let layers: LayerSet = desc.output.layers.iter().copied().collect();
+    let layers = tracer_core::layer_set(&desc.output.layers);
     // As numbers, as channels and as bytes.
     let of_pixel = BYTES_PER_PIXEL + 12 * layers.channels() as u64;
     let needed = memory::of_film(crop, &desc.render, layers) + pixels * of_pixel;

@@ -9,7 +9,6 @@ use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
-use tracer_core::LayerSet;
 
 /// A picture to write.
 pub struct Output {
@@ -122,7 +121,7 @@ fn exr_beside(outputs: &[Output], args: &RenderArgs) -> String {
 
 /// Says where a scene's layers go nowhere: a quick look at it is no fault.
 pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
-    let layers: LayerSet = desc.output.layers.iter().copied().collect();
+    let layers = tracer_core::layer_set(&desc.output.layers);
     if !layers.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
         shell.say(&format!(
             "warning: the scene's layers ({layers}) are written into EXR only; add -o {}",

@@ -1,0 +1,337 @@
+//! Finding triangles that lie in one plane and overlap.
+//!
+//! Rounding has moved a corner by at most half a unit in the last place along each axis, hence a plane with unit
+//! normal n by e = k 2^-24 sum |n_i| max |v_i|, k being 1, and some 8 for a mesh that is placed by a matrix (its
+//! coordinates, the matrix, its inverse). With twice that for room, the plane of a triangle of height h and centre c is
+//! known at a point p to e (1 + 2 |p - c| / h).
+//!
+//! Triangles are put into the cells of a grid over their planes, given by the squares of the normal's components and
+//! the distance from the origin, which know no sign; the coarser the cells, the worse the plane is known. The best
+//! known ones gather first, from their own cells and coarser ones, those whose corners are all in their plane. In
+//! each plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
+
+use super::super::geometry::{Geometry, NONE};
+use super::{Coplanar, Grid, LONG, Member, Ranks};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+/// More triangles than this are not looked at, copies counted; meshes with the fewest come first. Surfaces in one plane
+/// are those of boxes, rectangles and buildings, and meshes of millions of triangles must not wait for a search.
+const MOST_TRIANGLES: usize = 1 << 18;
+
+/// 2^-24.
+const UNIT: f64 = 1.0 / 16_777_216.0;
+
+/// The sides of the cells, from fine to coarse.
+const CELLS: [f64; 4] = [1.0 / 262_144.0, 1.0 / 8192.0, 1.0 / 256.0, 1.0 / 8.0];
+
+/// A cell is so many times as wide as the doubt about a plane.
+const ROOM: f64 = 16.0;
+
+/// A triangle of the scene, in render space.
+struct Face {
+    primitive: u32,
+    instance: u32,
+    corners: [DVec3; 3],
+    normal: DVec3,
+    centre: DVec3,
+    /// How far its corners may be off across the plane.
+    error: f64,
+    /// The least of its heights.
+    height: f64,
+    /// The largest coordinate.
+    reach: f64,
+    rank: u8,
+}
+
+impl Face {
+    /// How well its plane is known, in parts of the scene's reach.
+    fn doubt(&self, scene: f64) -> f64 {
+        let angle = 2.0 * self.error / self.height;
+        angle.max((self.error + angle * self.reach) / scene)
+    }
+
+    /// Whether all of another one lies in its plane; and how far off its plane may be there.
+    fn holds(&self, other: &Self) -> Option<f64> {
+        let mut most: f64 = 0.0;
+        for corner in other.corners {
+            let beside = corner - self.centre;
+            let known = self.error * (1.0 + 2.0 * beside.length() / self.height) + other.error;
+            if beside.dot(self.normal).abs() > known {
+                return None;
+            }
+            most = most.max(known);
+        }
+        Some(most)
+    }
+}
+
+impl Coplanar {
+    /// Those of a scene, if it has any.
+    pub fn find(geometry: &Geometry, ranks: &Ranks) -> Option<Self> {
+        let mut faces = faces(geometry, ranks);
+        let scene = faces.iter().map(|face| face.reach).fold(0.0, f64::max);
+        faces.par_sort_by(|a, b| {
+            let id = |face: &Face| (face.primitive, face.instance);
+            a.doubt(scene).total_cmp(&b.doubt(scene)).then(id(a).cmp(&id(b)))
+        });
+        let pairs = pairs_in(planes(&faces, scene), &faces);
+        if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs)) }
+    }
+}
+
+/// The id of the scene's first triangle.
+fn first_primitive(geometry: &Geometry) -> u32 {
+    geometry.meshes.iter().map(|mesh| mesh.first_primitive).min().unwrap_or(0)
+}
+
+/// The triangles that are looked at, without those too small or too narrow to have a plane.
+fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
+    let mut copies = vec![0; geometry.meshes.len()];
+    geometry.instances.iter().for_each(|instance| copies[instance.mesh as usize] += 1);
+    let counts = copies.iter().zip(geometry.meshes).map(|(copies, mesh)| copies * mesh.triangles.len());
+    let mut order: Vec<(usize, usize)> = counts.zip(0..).collect();
+    order.sort_unstable();
+    let (mut looked_at, mut sum) = (vec![false; order.len()], 0usize);
+    for (count, mesh) in order {
+        sum = sum.saturating_add(count);
+        looked_at[mesh] = sum <= MOST_TRIANGLES;
+    }
+    let first = first_primitive(geometry);
+    let of_instance = |index: usize| {
+        let instance = &geometry.instances[index];
+        let mesh = &geometry.meshes[instance.mesh as usize];
+        let triangles = if looked_at[instance.mesh as usize] { mesh.triangles } else { &[] };
+        (0u32..).zip(triangles).filter_map(move |(k, triangle)| {
+            let corners = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+            let id = (mesh.first_primitive + k, index as u32);
+            face(corners, instance.placement, id, ranks.of(id.0 - first, id.1))
+        })
+    };
+    (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect()
+}
+
+fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), rank: u8) -> Option<Face> {
+    let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2.0, corners);
+    match placement {
+        None => corners.iter().for_each(|corner| terms = terms.max(corner.abs())),
+        Some(rows) => {
+            let column = |k: usize| DVec3::new(rows[0][k].into(), rows[1][k].into(), rows[2][k].into());
+            let matrix = DMat3::from_cols(column(0), column(1), column(2));
+            let size = DMat3::from_cols(matrix.x_axis.abs(), matrix.y_axis.abs(), matrix.z_axis.abs());
+            corners.iter().for_each(|corner| terms = terms.max(size * corner.abs() + column(3).abs()));
+            placed = corners.map(|corner| matrix * corner + column(3));
+            units = 16.0;
+        }
+    }
+    let [a, b, c] = placed;
+    let across = (b - a).cross(c - a);
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    let (area, normal) = (across.length(), across.normalize_or_zero());
+    let error = units * UNIT * normal.abs().dot(terms);
+    let height = area / longest;
+    let centre = (a + b + c) / 3.0;
+    let face = Face {
+        primitive: id.0,
+        instance: id.1,
+        corners: placed,
+        normal,
+        centre,
+        error,
+        height,
+        reach: terms.max_element(),
+        rank,
+    };
+    (area > 0.0 && area.is_finite() && error < height / 512.0).then_some(face)
+}
+
+/// Groups of triangles in one plane, the best known one first, with how far off the planes may be.
+fn planes(faces: &[Face], scene: f64) -> Vec<(Vec<u32>, f64)> {
+    let level_of =
+        |face: &Face| CELLS.iter().position(|cell| *cell >= ROOM * face.doubt(scene)).unwrap_or(CELLS.len() - 1);
+    let mut cells: Vec<Vec<(u64, u32)>> = vec![Vec::new(); CELLS.len()];
+    for (k, face) in (0..).zip(faces) {
+        let level = level_of(face);
+        let ball = 4.0 * face.doubt(scene) / CELLS[level];
+        let at = coordinates(face, scene).map(|x| x / CELLS[level]);
+        let ends = at.map(|x| [(x - ball).floor() as i64, (x + ball).floor() as i64]);
+        let mut corners: Vec<u64> = (0..8).map(|corner| key([0, 1, 2].map(|i| ends[i][corner >> i & 1]))).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        cells[level].extend(corners.into_iter().map(|key| (key, k)));
+    }
+    cells.par_iter_mut().for_each(|cells| cells.par_sort_unstable());
+    let mut free = vec![true; faces.len()];
+    let mut planes = Vec::new();
+    for (k, face) in (0u32..).zip(faces) {
+        if !free[k as usize] {
+            continue;
+        }
+        let (mut members, mut gap) = (vec![k], 0f64);
+        free[k as usize] = false;
+        for level in level_of(face)..CELLS.len() {
+            let key = key(coordinates(face, scene).map(|x| (x / CELLS[level]).floor() as i64));
+            let from = cells[level].partition_point(|entry| entry.0 < key);
+            for &(_, other) in cells[level][from..].iter().take_while(|entry| entry.0 == key) {
+                if free[other as usize]
+                    && let Some(known) = face.holds(&faces[other as usize])
+                {
+                    free[other as usize] = false;
+                    members.push(other);
+                    gap = gap.max(known);
+                }
+            }
+        }
+        if members.len() > 1 {
+            planes.push((members, gap));
+        }
+    }
+    planes
+}
+
+/// Where a plane is, whatever the sign of its normal. Squares of components change by at most twice the angle between
+/// two planes, which is at most twice the larger doubt.
+fn coordinates(face: &Face, scene: f64) -> [f64; 3] {
+    [face.normal.x * face.normal.x, face.normal.y * face.normal.y, face.normal.dot(face.centre).abs() / scene]
+}
+
+/// A number of a cell, of few that share it.
+fn key(cell: [i64; 3]) -> u64 {
+    cell.iter().fold(0, |key: u64, &x| (key ^ x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29))
+}
+
+/// The pairs that overlap, winner first, with how far apart they may be.
+fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)> {
+    let mut pairs: Vec<(u32, u32, f64)> = planes
+        .into_par_iter()
+        .flat_map_iter(|(members, gap)| {
+            let axes = other_axes(faces[members[0] as usize].normal);
+            let flat = |k: u32| faces[k as usize].corners.map(|corner| axes.map(|axis| corner[axis]));
+            let least = |k: u32| flat(k).iter().fold(f64::INFINITY, |least, corner| least.min(corner[0]));
+            let most = |k: u32| flat(k).iter().fold(f64::NEG_INFINITY, |most, corner| most.max(corner[0]));
+            let mut order: Vec<(f64, f64, u32)> = members.iter().map(|&k| (least(k), most(k), k)).collect();
+            order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+            let (mut open, mut found): (Vec<(f64, u32)>, Vec<_>) = (Vec::new(), Vec::new());
+            for (lower, upper, k) in order {
+                open.retain(|other| other.0 > lower);
+                for &(_, other) in &open {
+                    let (a, b) = (&faces[k as usize], &faces[other as usize]);
+                    // Corners that two share may have been rounded apart.
+                    if overlap(&flat(k), &flat(other), 16.0 * UNIT * (a.reach + b.reach)) {
+                        let rank = |face: &Face| (face.rank, face.primitive, face.instance);
+                        found.push(if rank(a) < rank(b) { (k, other, gap) } else { (other, k, gap) });
+                    }
+                }
+                open.push((upper, k));
+            }
+            found
+        })
+        .collect();
+    pairs.sort_unstable_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    pairs
+}
+
+/// The axes of the plane in which triangles with this normal are seen best.
+fn other_axes(normal: DVec3) -> [usize; 2] {
+    let n = normal.abs();
+    match (n.x >= n.y && n.x >= n.z, n.y >= n.z) {
+        (true, _) => [1, 2],
+        (_, true) => [2, 0],
+        _ => [0, 1],
+    }
+}
+
+/// Whether two triangles of a plane overlap by more than a margin in every direction across their sides.
+fn overlap(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3], margin: f64) -> bool {
+    [a, b].into_iter().all(|of| {
+        (0..3).all(|k| {
+            let (p, q) = (of[k], of[(k + 1) % 3]);
+            let across = [p[1] - q[1], q[0] - p[0]];
+            let length = (across[0] * across[0] + across[1] * across[1]).sqrt();
+            let along = |x: &[f64; 2]| (x[0] - p[0]) * across[0] + (x[1] - p[1]) * across[1];
+            let (least, most) = span(a.map(|x| along(&x)));
+            let (lower, upper) = span(b.map(|x| along(&x)));
+            most.min(upper) - least.max(lower) > margin * length
+        })
+    })
+}
+
+fn span(x: [f64; 3]) -> (f64, f64) {
+    (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]))
+}
+
+fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> Coplanar {
+    let mut named: Vec<u32> = pairs.iter().flat_map(|pair| [pair.0, pair.1]).collect();
+    named.sort_unstable_by_key(|&k| (faces[k as usize].primitive, faces[k as usize].instance));
+    named.dedup();
+    let mut member_of = vec![NONE; faces.len()];
+    (0..).zip(&named).for_each(|(member, &k)| member_of[k as usize] = member);
+    let first = first_primitive(geometry);
+    let end = geometry.meshes.iter().map(|mesh| mesh.first_primitive + mesh.triangles.len() as u32).max().unwrap_or(0);
+    let mut offsets = vec![0f32; (end - first) as usize];
+    let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
+    for &(winner, loser, gap) in pairs {
+        lists[member_of[loser as usize] as usize].push(member_of[winner as usize]);
+        // A ray that starts near a plane is off across it by some five units of the farthest corner (see `RaySpace`).
+        let reach = faces[winner as usize].reach.max(faces[loser as usize].reach);
+        let offset = (gap + 8.0 * UNIT * reach) as f32;
+        for k in [winner, loser] {
+            let place = (faces[k as usize].primitive - first) as usize;
+            offsets[place] = offsets[place].max(offset);
+        }
+    }
+    let mut winners: Vec<u32> = Vec::new();
+    let mut members = Vec::with_capacity(named.len());
+    for (&k, mut list) in named.iter().zip(lists) {
+        list.sort_unstable_by_key(|&member| {
+            let face = &faces[named[member as usize] as usize];
+            (face.rank, face.primitive, face.instance)
+        });
+        let face = &faces[k as usize];
+        let begin = winners.len() as u32;
+        winners.extend_from_slice(&list);
+        members.push(Member {
+            primitive: face.primitive,
+            instance: face.instance,
+            corners: face.corners.map(|corner| corner.as_vec3().to_array()),
+            normal: face.normal.as_vec3().to_array(),
+            winners: [begin, winners.len() as u32],
+            grid: (list.len() > LONG).then(|| grid(face, &list, faces, &named)),
+        });
+    }
+    Coplanar { first, offsets, members, winners }
+}
+
+/// A grid over the winners of a triangle, some one to a cell. Each reaches a quarter of a cell beyond its box: the
+/// point where a ray meets the plane is known so well unless the ray hardly leaves it.
+fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
+    let axes = other_axes(face.normal);
+    let cells = (list.len() as f64).sqrt().ceil().min(256.0) as usize;
+    let spans = axes.map(|axis| span(face.corners.map(|corner| corner[axis])));
+    let scale = spans.map(|(lower, upper)| cells as f64 / (upper - lower));
+    let mut held: Vec<Vec<u32>> = vec![Vec::new(); cells * cells];
+    for &member in list {
+        let corners = faces[named[member as usize] as usize].corners;
+        let [x, y] = [0, 1].map(|k: usize| {
+            let (lower, upper) = span(corners.map(|corner| corner[axes[k]]));
+            let cell = |x: f64| ((x - spans[k].0) * scale[k]).clamp(0.0, (cells - 1) as f64) as usize;
+            cell(lower - 0.25 / scale[k])..=cell(upper + 0.25 / scale[k])
+        });
+        for row in y {
+            x.clone().for_each(|column| held[row * cells + column].push(member));
+        }
+    }
+    let mut grid = Grid {
+        axes,
+        lower: spans.map(|span| span.0 as f32),
+        scale: scale.map(|x| x as f32),
+        cells,
+        starts: vec![0],
+        lists: Vec::new(),
+    };
+    for mut cell in held {
+        grid.lists.append(&mut cell);
+        grid.starts.push(grid.lists.len() as u32);
+    }
+    grid
+}

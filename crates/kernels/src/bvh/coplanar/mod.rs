@@ -1,0 +1,177 @@
+//! Surfaces in one place: where triangles lie in one plane, one above the other, one of them wins wherever both are.
+//!
+//! Which of two triangles in one plane a ray meets first is a matter of rounding, and would be another one from ray to
+//! ray: both speckle. So they are found when the tree is built (`find`), each with those that win over it, and once
+//! the closest hit is known, whoever it is on, the hit goes to the first of those whose edge functions say that
+//! the ray's line passes through it (see [`triangle`](super::triangle)). The answer is a function of the ray and of
+//! the triangles alone: of all that lie there the line passes the same ones, whichever of them the tree
+//! finds, and each of them has the winner in its list, as what the line passes at one place overlaps. t stays
+//! that of the closest.
+//!
+//! What wins is what shines, then what lets no light through, then what lets it through, then the smaller
+//! (primitive, instance). A lamp let into the ceiling shines, and glass on a table shows the table.
+//!
+//! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
+//! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
+//! triangles pays for one question a batch.
+//!
+//! What lies farther apart than rounding takes it stays apart: two triangles are in one plane if the corners of one
+//! are no farther from the plane of the other than twice what the rounding of both may have moved them.
+
+mod find;
+
+use super::geometry::NONE;
+use super::ray_space::RaySpace;
+use super::triangle::passes;
+use super::{Hits, Occlusion, Rays};
+
+/// Who wins: by (rank, primitive, instance), the least.
+#[derive(Debug, Default)]
+pub struct Ranks {
+    /// Of each triangle, in the order of their primitives; none: 0.
+    pub triangles: Vec<u8>,
+    /// Of all triangles of an instance whose own is not 0.
+    pub instances: Vec<Option<u8>>,
+}
+
+impl Ranks {
+    /// The rank of the `k`th triangle in an instance.
+    fn of(&self, k: u32, instance: u32) -> u8 {
+        match self.triangles.get(k as usize) {
+            None | Some(0) => 0,
+            Some(&own) => self.instances.get(instance as usize).copied().flatten().unwrap_or(own),
+        }
+    }
+}
+
+/// Lists of more winners than this have a grid over them.
+const LONG: usize = 16;
+
+/// The triangles of a scene that lie in one plane with others and overlap them.
+pub struct Coplanar {
+    /// The id of the first triangle.
+    first: u32,
+    /// How far rays start off each triangle; 0 where nothing else lies in its plane.
+    offsets: Vec<f32>,
+    /// By (primitive, instance), rising.
+    members: Vec<Member>,
+    /// Of all members: indices into `members`.
+    winners: Vec<u32>,
+}
+
+struct Member {
+    primitive: u32,
+    instance: u32,
+    /// In render space, as the tree tests them where the mesh is there already.
+    corners: [[f32; 3]; 3],
+    normal: [f32; 3],
+    /// Where those that win over it stand in `Coplanar::winners`, the first to win first.
+    winners: [u32; 2],
+    grid: Option<Grid>,
+}
+
+/// Squares over a triangle, for those that have hundreds of others on them.
+struct Grid {
+    axes: [usize; 2],
+    lower: [f32; 2],
+    /// Cells per length.
+    scale: [f32; 2],
+    /// Cells along each side.
+    cells: usize,
+    /// The winners that reach into each cell: where they begin in `lists`, and the end of the last.
+    starts: Vec<u32>,
+    lists: Vec<u32>,
+}
+
+impl Grid {
+    /// The winners near the place where a ray meets the plane, the first to win first.
+    fn near(&self, origin: [f32; 3], direction: [f32; 3], t: f32) -> &[u32] {
+        let cell = [0, 1].map(|k: usize| {
+            let at = t.mul_add(direction[self.axes[k]], origin[self.axes[k]]);
+            // NaN and what lies beyond end up in a cell at the border.
+            ((at - self.lower[k]) * self.scale[k]).max(0.0).min((self.cells - 1) as f32) as usize
+        });
+        let place = cell[1] * self.cells + cell[0];
+        &self.lists[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+}
+
+impl Coplanar {
+    /// How far rays start off each triangle at least, by its place among the triangles.
+    pub fn offsets(&self) -> &[f32] {
+        &self.offsets
+    }
+
+    fn offset_of(&self, primitive: u32) -> f32 {
+        primitive.checked_sub(self.first).and_then(|k| self.offsets.get(k as usize)).copied().unwrap_or(0.0)
+    }
+
+    fn member(&self, primitive: u32, instance: u32) -> Option<&Member> {
+        if primitive == NONE || self.offset_of(primitive) == 0.0 {
+            return None;
+        }
+        let at = self.members.binary_search_by_key(&(primitive, instance), |m| (m.primitive, m.instance)).ok()?;
+        Some(&self.members[at])
+    }
+
+    /// The first of those that win over a member whose edges the ray's line passes between, but for the one that the ray
+    /// leaves, `from`.
+    fn winner(&self, member: &Member, rays: &Rays, ray: usize, t: f32) -> Option<&Member> {
+        let [first, end] = member.winners;
+        if first == end {
+            return None;
+        }
+        let (origin, direction) = ray_of(rays, ray);
+        let from = (rays.from_primitive[ray], rays.from_instance[ray]);
+        let space = RaySpace::new(origin, direction)?;
+        let list = match &member.grid {
+            Some(grid) => grid.near(origin, direction, t),
+            None => &self.winners[first as usize..end as usize],
+        };
+        let mut others = list.iter().map(|&k| &self.members[k as usize]).filter(|m| (m.primitive, m.instance) != from);
+        others.find(|winner| passes(&space, winner.corners))
+    }
+
+    /// Gives the closest hits of some rays to those who win there.
+    pub fn settle(&self, rays: &Rays, active: &[u32], hits: &mut Hits) {
+        for ray in active.iter().map(|&ray| ray as usize) {
+            let Some(member) = self.member(hits.primitive[ray], hits.instance[ray]) else { continue };
+            if let Some(winner) = self.winner(member, rays, ray, hits.t[ray]) {
+                hits.primitive[ray] = winner.primitive;
+                hits.instance[ray] = winner.instance;
+            }
+        }
+    }
+
+    /// The ends of shadow rays, each before all that lies in the plane that it goes to. The plane is nearer than `tmax`
+    /// by the offset over the cosine.
+    pub fn ends(&self, rays: &Rays, active: &[u32], occlusion: &Occlusion) -> Vec<f32> {
+        let mut ends = occlusion.tmax.to_vec();
+        for ray in active.iter().map(|&ray| ray as usize) {
+            let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
+            let Some(member) = self.member(primitive, instance) else { continue };
+            let (_, d) = ray_of(rays, ray);
+            let n = member.normal;
+            let across = (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).abs();
+            let before = self.offset_of(primitive) / across;
+            // Along the plane nothing is left, nor is anything to be seen there.
+            ends[ray] = if before < ends[ray] { ends[ray] - before } else { 0.0 };
+        }
+        ends
+    }
+
+    /// Blocks the rays that go to what another one covers.
+    pub fn cover(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion) {
+        for ray in active.iter().map(|&ray| ray as usize) {
+            let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
+            let Some(member) = self.member(primitive, instance) else { continue };
+            if self.winner(member, rays, ray, occlusion.tmax[ray]).is_some() {
+                occlusion.occluded[ray] = 1;
+            }
+        }
+    }
+}
+
+fn ray_of(rays: &Rays, ray: usize) -> ([f32; 3], [f32; 3]) {
+    ([rays.ox[ray], rays.oy[ray], rays.oz[ray]], [rays.dx[ray], rays.dy[ray], rays.dz[ray]])
+}

@@ -1,0 +1,22 @@
+//! Batches of paths and the stages that they go through, over lanes. Who calls the stages in which order is for `tracer-core`.
+
+pub mod batch;
+pub mod guide;
+// The unit tests do without them: they take most of the crate's time to compile.
+#[cfg(not(test))]
+#[allow(unsafe_code)]
+pub mod kernels;
+mod lane_io;
+pub mod light_paths;
+pub mod pass;
+pub mod pool;
+#[cfg_attr(test, allow(dead_code))]
+mod stages;
+pub mod watch;
+
+pub use stages::aim::AIMS_UNTIL;
+pub use stages::camera::density;
+pub use stages::deposit::deposit;
+pub use stages::light_paths::LightPass;
+pub use stages::shaft::Obstacles;
+pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};

@@ -1,0 +1,291 @@
+//! Lights, and the tree by which one of them is chosen.
+
+use super::table::Table;
+use super::{Environment, Sphere};
+use glam::DVec3;
+
+/// A light. What it shines it shines in all directions alike from each of its points, and it reflects nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// A sphere of `Scene::spheres`.
+    Sphere {
+        /// Index into `Scene::spheres`.
+        sphere: u32,
+        /// Radiance per channel, in `Scene::radiance_unit`.
+        radiance: [f64; 3],
+        /// It shines inwards, too.
+        two_sided: bool,
+    },
+    /// A parallelogram of two triangles: all p = corner + u edges\[0\] + v edges\[1\], u and v from 0 to 1.
+    Parallelogram(FlatLight),
+    /// A triangle: the same with u + v at most 1.
+    Triangle(FlatLight),
+}
+
+/// A flat light, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatLight {
+    /// A corner.
+    pub corner: DVec3,
+    /// From there to both next corners. It shines to the side of edges\[0\] x edges\[1\].
+    pub edges: [DVec3; 2],
+    /// Radiance per channel, in `Scene::radiance_unit`.
+    pub radiance: [f64; 3],
+    /// It shines to the other side, too.
+    pub two_sided: bool,
+}
+
+impl FlatLight {
+    /// Unit normal of the side that it shines to; zero where it has no area.
+    pub fn normal(&self) -> DVec3 {
+        self.edges[0].cross(self.edges[1]).normalize_or_zero()
+    }
+}
+
+impl Light {
+    /// Radiance per channel, in `Scene::radiance_unit`.
+    pub fn radiance(&self) -> [f64; 3] {
+        match self {
+            Light::Sphere { radiance, .. } => *radiance,
+            Light::Parallelogram(flat) | Light::Triangle(flat) => flat.radiance,
+        }
+    }
+
+    /// Whether both of its sides shine.
+    pub fn two_sided(&self) -> bool {
+        match self {
+            Light::Sphere { two_sided, .. } => *two_sided,
+            Light::Parallelogram(flat) | Light::Triangle(flat) => flat.two_sided,
+        }
+    }
+
+    /// A flat light.
+    pub fn flat(&self) -> Option<&FlatLight> {
+        match self {
+            Light::Sphere { .. } => None,
+            Light::Parallelogram(flat) | Light::Triangle(flat) => Some(flat),
+        }
+    }
+
+    /// Its area, of one side. `spheres`: those of the scene.
+    pub fn area(&self, spheres: &[Sphere]) -> f64 {
+        let spanned = |flat: &FlatLight| flat.edges[0].cross(flat.edges[1]).length();
+        match self {
+            Light::Sphere { sphere, .. } => {
+                let radius = spheres.get(*sphere as usize).map_or(0.0, |s| s.radius);
+                4.0 * std::f64::consts::PI * radius * radius
+            }
+            Light::Parallelogram(flat) => spanned(flat),
+            Light::Triangle(flat) => 0.5 * spanned(flat),
+        }
+    }
+
+    /// Middle and radius of a sphere around it.
+    pub fn bounds(&self, spheres: &[Sphere]) -> (DVec3, f64) {
+        let (corners, count) = match self {
+            Light::Sphere { sphere, .. } => {
+                return spheres.get(*sphere as usize).map_or((DVec3::ZERO, 0.0), |s| (s.center, s.radius));
+            }
+            Light::Parallelogram(FlatLight { corner, edges: [a, b], .. }) => {
+                ([*corner, *corner + *a, *corner + *b, *corner + *a + *b], 4)
+            }
+            Light::Triangle(FlatLight { corner, edges: [a, b], .. }) => {
+                ([*corner, *corner + *a, *corner + *b, *corner], 3)
+            }
+        };
+        let corners = &corners[..count];
+        let center = corners.iter().sum::<DVec3>() / count as f64;
+        (center, corners.iter().map(|c| c.distance(center)).fold(0.0, f64::max))
+    }
+}
+
+/// Lights as look-up tables, and the tree by which one of them is chosen. Spheres come first.
+pub struct LightTable {
+    /// Number of lights.
+    pub len: u32,
+    /// Number of spheres among them.
+    pub spheres: u32,
+    /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it shines inwards, else 0.
+    pub rows: Table<9>,
+    /// Of the others, at least one row.
+    pub flat: Table<{ LightTable::FLAT }>,
+    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius and
+    /// power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and 1 for
+    /// [`LightTable::FEW`] lights at most, FEW / n for n; then the unit normal of a light with one side, and 0, else zeros and 1.
+    pub tree: Vec<f32>,
+    /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
+    pub trail: Vec<u32>,
+    /// Steps from the root to the deepest light.
+    pub depth: u32,
+    /// Light from all directions.
+    pub environment: Option<Environment>,
+}
+
+/// A light as the tree sees it.
+struct Emitter {
+    center: DVec3,
+    radius: f64,
+    /// Radiant intensity but for a factor, the largest of all directions: for spheres radius^2 times the sum of the channels.
+    power: f64,
+    /// Normal of the only side that shines.
+    normal: Option<DVec3>,
+}
+
+impl Emitter {
+    fn new(light: &Light, spheres: &[Sphere]) -> Self {
+        let (center, radius) = light.bounds(spheres);
+        let radiance = light.radiance().iter().sum::<f64>();
+        let power = match light {
+            Light::Sphere { .. } => radius * radius * radiance,
+            Light::Parallelogram(_) | Light::Triangle(_) => light.area(spheres) / std::f64::consts::PI * radiance,
+        };
+        let normal = light.flat().filter(|flat| !flat.two_sided).map(FlatLight::normal);
+        Emitter { center, radius, power, normal }
+    }
+}
+
+impl LightTable {
+    /// Numbers of a flat light: corner, edges, unit normal, radiance, area, how far off its plane rays end, and bits:
+    /// [`LightTable::TRIANGLE`], [`LightTable::TWO_SIDED`], [`LightTable::PLANE`].
+    pub const FLAT: usize = 18;
+    /// Bit of a triangle.
+    pub const TRIANGLE: u32 = 1;
+    /// Bit of a light with two sides.
+    pub const TWO_SIDED: u32 = 2;
+    /// Bit of a light that is no sphere.
+    pub const PLANE: u32 = 4;
+    /// Numbers of a node.
+    pub const STRIDE: u32 = 12;
+    /// Where a node holds what it is: see [`LightTable::tree`].
+    pub const CONTENT: usize = 5;
+    /// Where it holds which way it faces.
+    pub const FACING: usize = 8;
+    /// So many lights may all lie in the highest place of their sphere. Of more it is unlikely.
+    const FEW: f64 = 4.0;
+    /// Marks a node that is a light.
+    pub const LEAF: u32 = 1 << 31;
+
+    /// Of lights among which the spheres come first.
+    pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Environment>) -> Self {
+        let emitters: Vec<Emitter> = lights.iter().map(|light| Emitter::new(light, spheres)).collect();
+        let rows = lights.iter().filter_map(|light| {
+            let Light::Sphere { sphere, radiance, two_sided } = *light else { return None };
+            let s = spheres.get(sphere as usize)?;
+            let ([x, y, z], [r, g, b]) = (s.center.as_vec3().to_array(), radiance.map(|x| x as f32));
+            let inside = f32::from(u8::from(two_sided));
+            Some([x, y, z, s.radius as f32, r, g, b, f32::from_bits(sphere), inside])
+        });
+        let flat = lights.iter().filter_map(|light| {
+            let flat = light.flat()?;
+            let triangle = if matches!(light, Light::Triangle(_)) { Self::TRIANGLE } else { 0 };
+            Some(Self::flat_row(flat, light.area(spheres), triangle))
+        });
+        let pad = |mut v: Vec<u32>| {
+            v.resize(v.len().max(16), 0);
+            v
+        };
+        let mut builder = Builder { emitters: &emitters, tree: Vec::new(), trail: vec![0; emitters.len()], depth: 0 };
+        if !emitters.is_empty() {
+            let mut order: Vec<u32> = (0..emitters.len() as u32).collect();
+            builder.tree.resize(Self::STRIDE as usize, 0.0);
+            builder.node(0, &mut order, 0, 0);
+        }
+        let sphere_count = lights.iter().filter(|light| light.flat().is_none()).count();
+        LightTable {
+            len: emitters.len() as u32,
+            spheres: sphere_count as u32,
+            rows: Table::new(rows),
+            flat: Table::new(flat),
+            depth: builder.depth,
+            trail: pad(builder.trail),
+            tree: builder.tree,
+            environment,
+        }
+    }
+
+    /// Whether there is none to ask.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0 && self.environment.is_none()
+    }
+
+    /// Whether one is to be chosen.
+    #[inline(always)]
+    pub fn several(&self) -> bool {
+        self.len > 1 || (self.len == 1 && self.environment.is_some())
+    }
+
+    /// Whether there are lights other than spheres.
+    #[inline(always)]
+    pub fn has_flat(&self) -> bool {
+        self.spheres < self.len
+    }
+
+    fn flat_row(flat: &FlatLight, area: f64, triangle: u32) -> [f32; Self::FLAT] {
+        let mut row = [0.0; Self::FLAT];
+        let vectors = [flat.corner, flat.edges[0], flat.edges[1], flat.normal(), DVec3::from(flat.radiance)];
+        for (k, vector) in vectors.iter().enumerate() {
+            row[3 * k..3 * k + 3].copy_from_slice(&vector.as_vec3().to_array());
+        }
+        let (offset, flags) = Self::offset_and_flags(flat, triangle);
+        row[15] = area as f32;
+        row[16] = offset;
+        row[17] = f32::from_bits(flags);
+        row
+    }
+
+    /// How far off its plane rays start and end, and the bits of a flat light: twice the bound of a hit's error there (see `stages::surface`),
+    /// so that they do not meet it.
+    pub fn offset_and_flags(flat: &FlatLight, triangle: u32) -> (f32, u32) {
+        let [a, b] = flat.edges;
+        let corners = [flat.corner, flat.corner + a, flat.corner + b, flat.corner + a + b];
+        let magnitude = corners.iter().map(|c| c.abs().element_sum()).fold(0.0, f64::max);
+        let offset = magnitude * 7.0 * f64::from(f32::EPSILON);
+        (offset as f32, Self::PLANE | triangle | if flat.two_sided { Self::TWO_SIDED } else { 0 })
+    }
+}
+
+/// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their number.
+struct Builder<'a> {
+    emitters: &'a [Emitter],
+    tree: Vec<f32>,
+    trail: Vec<u32>,
+    depth: u32,
+}
+
+impl Builder<'_> {
+    /// Fills node `at` with these lights, which lie `depth` steps below the root along `trail`.
+    fn node(&mut self, at: usize, lights: &mut [u32], trail: u32, depth: u32) {
+        let emitters = self.emitters;
+        let of = |light: u32| &emitters[light as usize];
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &light in lights.iter() {
+            (low, high) = (low.min(of(light).center), high.max(of(light).center));
+        }
+        let center = (low + high) * 0.5;
+        let radius = lights.iter().map(|&l| (of(l).center - center).length() + of(l).radius).fold(0.0, f64::max);
+        let power: f64 = lights.iter().map(|&l| of(l).power).sum();
+        let content = if let [light] = *lights {
+            self.trail[light as usize] = trail;
+            self.depth = self.depth.max(depth);
+            LightTable::LEAF | light
+        } else {
+            let size = high - low;
+            let axis = (0..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest });
+            // The index decides between equal places, so that the tree depends on nothing else.
+            lights.sort_unstable_by(|&a, &b| of(a).center[axis].total_cmp(&of(b).center[axis]).then(a.cmp(&b)));
+            let first = self.tree.len();
+            self.tree.resize(first + 2 * LightTable::STRIDE as usize, 0.0);
+            let (left, right) = lights.split_at_mut(lights.len() / 2);
+            self.node(first, left, trail, depth + 1);
+            self.node(first + LightTable::STRIDE as usize, right, trail | 1 << depth, depth + 1);
+            first as u32 / LightTable::STRIDE
+        };
+        let numbers = [center.x, center.y, center.z, radius, power].map(|x| x as f32);
+        self.tree[at..at + 5].copy_from_slice(&numbers);
+        self.tree[at + LightTable::CONTENT] = f32::from_bits(content);
+        self.tree[at + LightTable::CONTENT + 1] = (LightTable::FEW / lights.len() as f64).min(1.0) as f32;
+        let normal = if let [light] = *lights { of(light).normal } else { None };
+        let facing = normal.map_or([0.0, 0.0, 0.0, 1.0], |n| [n.x, n.y, n.z, 0.0]);
+        self.tree[at + LightTable::FACING..at + LightTable::FACING + 4].copy_from_slice(&facing.map(|x| x as f32));
+    }
+}

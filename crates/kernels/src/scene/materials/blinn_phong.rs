@@ -1,0 +1,31 @@
+//! Blinn-Phong.
+
+use super::{Albedo, BxdfFlags, LEAST_EXPONENT, Lobe, MaterialKind, Row, Traits};
+
+/// albedo ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h), or with the glossy lobe of Ashikhmin and Shirley.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlinnPhong {
+    /// Colour of both lobes.
+    pub albedo: Albedo,
+    /// alpha.
+    pub exponent: f64,
+    /// s.
+    pub specular: f64,
+    /// The glossy lobe is s (alpha + 1)/(8 pi (wo.h) max(cos i, cos o)) cos^alpha theta_h.
+    pub energy_conserving: bool,
+}
+
+impl MaterialKind for BlinnPhong {
+    fn row(&self) -> Row {
+        let lobe = if self.energy_conserving { Lobe::BlinnPhongConserving } else { Lobe::BlinnPhong };
+        Row { lobe, color: self.albedo, parameters: [self.exponent, self.specular] }
+    }
+
+    fn traits(&self) -> Traits {
+        let flags = BxdfFlags::REFLECTION.or(BxdfFlags::DIFFUSE).or(BxdfFlags::GLOSSY);
+        // At normal incidence.
+        let lobe = if self.energy_conserving { self.specular } else { 4.0 * self.specular };
+        let narrow = self.exponent as f32 >= LEAST_EXPONENT;
+        Traits { flags, color: self.albedo, casts: if narrow { self.albedo.largest() * lobe } else { 0.0 } }
+    }
+}

@@ -1,0 +1,120 @@
+//! Metals: a specular lobe, or GGX with what is reflected several times among the bumps.
+
+use super::ggx;
+use super::{Albedo, BxdfFlags, LEAST_ALPHA, Lobe, MaterialKind, NARROWEST_ALPHA, Row, Traits};
+use crate::scene::table::Table;
+
+/// How much a metal reflects, by the angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fresnel {
+    /// Fresnel's equations for unpolarised light, n and k per channel.
+    Complex {
+        /// n.
+        ior: [f64; 3],
+        /// k.
+        k: [f64; 3],
+    },
+    /// F(c) = F0 + (1 - F0)(1 - c)^5 - b c (1 - c)^6, b such that at c = 1/7 Schlick's part is multiplied by the tint
+    /// (Kutz, Hasan, Edmondson 2021; OpenPBR 1.1).
+    Tinted {
+        /// F0.
+        reflectance: Albedo,
+        /// The tint.
+        edge_tint: [f64; 3],
+    },
+}
+
+/// A metal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conductor {
+    /// How much it reflects.
+    pub fresnel: Fresnel,
+    /// Width of the lobe; below `LEAST_ALPHA` it is a specular one.
+    pub alpha: f64,
+    /// Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017):
+    /// F_ms (1 - E(mu_o)) (1 - E(mu_i)) / (pi (1 - E_avg)), F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)).
+    pub multiple_scattering: bool,
+}
+
+impl Conductor {
+    fn is_specular(&self) -> bool {
+        self.alpha < LEAST_ALPHA
+    }
+}
+
+impl MaterialKind for Conductor {
+    fn row(&self) -> Row {
+        let lobe = if self.is_specular() { Lobe::SmoothConductor } else { Lobe::Conductor };
+        Row { lobe, color: self.traits().color, parameters: [self.alpha, 0.0] }
+    }
+
+    fn traits(&self) -> Traits {
+        let color = match self.fresnel {
+            Fresnel::Complex { ior, k } => {
+                // At normal incidence.
+                let square = |x: f64| x * x;
+                let at = |c: usize| (square(ior[c] - 1.0) + square(k[c])) / (square(ior[c] + 1.0) + square(k[c]));
+                Albedo::Color([at(0), at(1), at(2)])
+            }
+            Fresnel::Tinted { reflectance, .. } => reflectance,
+        };
+        let lobe = if self.is_specular() { BxdfFlags::SPECULAR } else { BxdfFlags::GLOSSY };
+        let casts = if self.alpha <= f64::from(NARROWEST_ALPHA) { color.largest() } else { 0.0 };
+        Traits { flags: BxdfFlags::REFLECTION.or(lobe), color, casts }
+    }
+
+    fn conductor(&self) -> Option<&Conductor> {
+        Some(self)
+    }
+}
+
+/// The conductors' rows, and 1 - E of each by the cosine.
+pub struct ConductorTable {
+    /// alpha; 1 where Fresnel's equations hold, else 0; n or tint; k; F_avg of the former; E_avg; 1 / (pi (1 - E_avg)), or 0.
+    pub rows: Table<13>,
+    /// 1 - E at the cosines (k / (STEPS - 1))^2, [`ggx::STEPS`] for each conductor.
+    pub losses: Vec<f32>,
+}
+
+impl ConductorTable {
+    /// `None` where there are none.
+    pub fn new<'a>(conductors: impl Iterator<Item = &'a Conductor>) -> Option<Self> {
+        let (mut rows, mut losses) = (Vec::new(), Vec::new());
+        for conductor in conductors {
+            let energy = ggx::Energy::of(if conductor.is_specular() { 0.0 } else { conductor.alpha });
+            let (exact, n, k, average) = match conductor.fresnel {
+                Fresnel::Complex { ior, k } => (1.0, ior, k, [0, 1, 2].map(|c| average(ior[c], k[c]))),
+                Fresnel::Tinted { edge_tint, .. } => (0.0, edge_tint, [0.0; 3], [0.0; 3]),
+            };
+            let left = 1.0 - energy.average;
+            let scale =
+                if conductor.multiple_scattering && left > 1e-6 { 1.0 / (std::f64::consts::PI * left) } else { 0.0 };
+            let numbers = [conductor.alpha, exact].into_iter().chain(n).chain(k).chain(average);
+            let mut row = [0.0; 13];
+            for (to, number) in row.iter_mut().zip(numbers.chain([energy.average, scale])) {
+                *to = number as f32;
+            }
+            rows.push(row);
+            losses.extend(energy.by_cosine.map(|e| (1.0 - e) as f32));
+        }
+        (!rows.is_empty()).then(|| ConductorTable { rows: Table::new(rows), losses })
+    }
+}
+
+/// Fresnel's reflectance of unpolarised light at a cosine: the mean of both polarisations (Born and Wolf, 14.4).
+fn exact(n: f64, k: f64, cos: f64) -> f64 {
+    let (c2, s2) = (cos * cos, 1.0 - cos * cos);
+    let t0 = n * n - k * k - s2;
+    let a2_b2 = (t0 * t0 + 4.0 * n * n * k * k).sqrt();
+    let a = (0.5 * (a2_b2 + t0)).max(0.0).sqrt();
+    let (t1, t2) = (a2_b2 + c2, 2.0 * cos * a);
+    let rs = (t1 - t2) / (t1 + t2);
+    let (t3, t4) = (c2 * a2_b2 + s2 * s2, t2 * s2);
+    0.5 * rs * (1.0 + (t3 - t4) / (t3 + t4))
+}
+
+/// 2 times the integral of F(c) c dc, by the midpoint rule in c^2.
+fn average(n: f64, k: f64) -> f64 {
+    const STEPS: u32 = 256;
+    (0..STEPS).map(|i| exact(n, k, ((f64::from(i) + 0.5) / f64::from(STEPS)).sqrt())).sum::<f64>() / f64::from(STEPS)
+}

@@ -1,0 +1,226 @@
+//! Materials in linear RGB: one file each, one line each in the registry below, and their look-up tables.
+//!
+//! What a material is made of is told by its `Row`, what others want to know of it by its [`Traits`]: nobody else has a `match` on kinds
+//! of material. How the lobes scatter over lanes stands in `engine/stages/materials`.
+
+mod blinn_phong;
+mod conductor;
+mod diffuse;
+mod emissive;
+mod ggx;
+mod mirror;
+mod transparent;
+
+pub use blinn_phong::BlinnPhong;
+pub use conductor::ConductorTable;
+pub use conductor::{Conductor, Fresnel};
+pub use diffuse::Diffuse;
+pub use emissive::Emissive;
+pub use ggx::STEPS as GGX_STEPS;
+pub use mirror::Mirror;
+pub use transparent::Transparent;
+
+use super::table::Table;
+
+/// Glossy lobes cast caustics from this exponent on; what wider ones reflect is found by light samples.
+pub const LEAST_EXPONENT: f32 = 50.0;
+
+/// GGX casts caustics up to this alpha: as narrow as a Blinn-Phong lobe of that exponent, alpha^2 = 2 / (exponent + 2).
+pub const NARROWEST_ALPHA: f32 = 0.196;
+
+/// Below this alpha a rough lobe is a specular one.
+pub const LEAST_ALPHA: f64 = 1e-4;
+
+/// A colour, constant or from a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Albedo {
+    /// Linear RGB.
+    Color([f64; 3]),
+    /// Index into the scene's textures.
+    Texture(u32),
+}
+
+impl Albedo {
+    /// The largest channel that it may have.
+    fn largest(&self) -> f64 {
+        match self {
+            Albedo::Color(color) => color.iter().fold(0.0, |a, &b| a.max(b)),
+            Albedo::Texture(_) => 1.0,
+        }
+    }
+}
+
+/// What lobes a material has, as pbrt's `BxdfFlags`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BxdfFlags(u32);
+
+impl BxdfFlags {
+    /// It scatters nothing.
+    pub const NONE: Self = BxdfFlags(0);
+    /// To the side that light comes from.
+    pub const REFLECTION: Self = BxdfFlags(1);
+    /// To the other side.
+    pub const TRANSMISSION: Self = BxdfFlags(2);
+    /// Alike in all directions.
+    pub const DIFFUSE: Self = BxdfFlags(4);
+    /// Mostly about one direction.
+    pub const GLOSSY: Self = BxdfFlags(8);
+    /// In one direction only: a Dirac delta.
+    pub const SPECULAR: Self = BxdfFlags(16);
+
+    /// Both together.
+    pub const fn or(self, other: Self) -> Self {
+        BxdfFlags(self.0 | other.0)
+    }
+
+    /// Whether all of these are there.
+    pub const fn has(self, flags: Self) -> bool {
+        self.0 & flags.0 == flags.0
+    }
+}
+
+/// What others want to know of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traits {
+    /// Its lobes.
+    pub flags: BxdfFlags,
+    /// Its colour without light: albedo, reflectance, transmittance; of what shines black.
+    pub color: Albedo,
+    /// The largest share of light that photons carry on, about; 0: it casts no caustics.
+    pub casts: f64,
+}
+
+/// The lobes that the engine has, by their numbers in the tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Lobe {
+    /// albedo / pi.
+    Lambert = 0,
+    /// Specular reflection.
+    Mirror = 1,
+    /// Specular reflection and transmission. Parameters: index of refraction.
+    Dielectric = 2,
+    /// Lambert and the report's glossy lobe. Parameters: alpha, s.
+    BlinnPhong = 3,
+    /// Lambert and the energy-conserving glossy lobe. Parameters: alpha, s.
+    BlinnPhongConserving = 4,
+    /// None: it shines.
+    Emitter = 5,
+    /// Specular reflection by Fresnel's equations or the F82-tint model. Parameters: alpha, place in the table of conductors.
+    SmoothConductor = 6,
+    /// GGX with these. Parameters: as before.
+    Conductor = 7,
+}
+
+/// A material's row in the tables.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Its lobes.
+    pub lobe: Lobe,
+    /// Their colour.
+    pub color: Albedo,
+    /// What the lobe says.
+    pub parameters: [f64; 2],
+}
+
+/// What a compiled material has to tell.
+pub trait MaterialKind {
+    /// Its row in the tables.
+    fn row(&self) -> Row;
+
+    /// What others want to know of it.
+    fn traits(&self) -> Traits;
+
+    /// Itself, if it is a conductor: the engine has a table of these.
+    fn conductor(&self) -> Option<&Conductor> {
+        None
+    }
+}
+
+/// The registry: one line for each material.
+macro_rules! materials {
+    ($($Name:ident;)+) => {
+        /// How a surface scatters light. The words are those of the scene language.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Material {
+            $( #[doc = concat!("[`", stringify!($Name), "`].")] $Name($Name), )+
+        }
+
+        impl Material {
+            fn kind(&self) -> &dyn MaterialKind {
+                match self {$( Material::$Name(material) => material, )+}
+            }
+        }
+    };
+}
+
+materials! {
+    Diffuse;
+    Mirror;
+    Transparent;
+    BlinnPhong;
+    Conductor;
+    Emissive;
+}
+
+impl Material {
+    /// What others want to know of it.
+    pub fn traits(&self) -> Traits {
+        self.kind().traits()
+    }
+}
+
+/// Materials as look-up tables, index = material; the last entry is the emitters' (black).
+pub struct MaterialTable {
+    /// The colour; the bits of one of [`Lobe`], and of texture + 1, or 0.
+    pub rows: Table<5>,
+    /// What the lobe says.
+    pub parameters: Table<2>,
+    /// The conductors', if there are any.
+    pub conductors: Option<ConductorTable>,
+    /// Which lobes occur, one bit each: a stage skips what no material asks for.
+    lobes: u32,
+    /// Whether any material has a texture.
+    pub textured: bool,
+    /// The emitters' entry.
+    pub emitter: u32,
+}
+
+impl MaterialTable {
+    /// Of the materials, in their order.
+    pub fn new(materials: &[Material]) -> Self {
+        let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
+        let conductors =
+            || materials.iter().enumerate().filter_map(|(k, material)| Some((k, material.kind().conductor()?)));
+        for (place, (k, _)) in conductors().enumerate() {
+            rows[k].parameters[1] = place as f64;
+        }
+        let emitter = rows.len() as u32;
+        rows.push(Emissive.row());
+        let texture = |row: &Row| match row.color {
+            Albedo::Color(_) => 0,
+            Albedo::Texture(t) => t + 1,
+        };
+        MaterialTable {
+            rows: Table::new(rows.iter().map(|row| {
+                let color = match row.color {
+                    Albedo::Color(color) => color,
+                    Albedo::Texture(_) => [1.0; 3],
+                };
+                let [r, g, b] = color.map(|x| x as f32);
+                [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(row))]
+            })),
+            parameters: Table::new(rows.iter().map(|row| row.parameters.map(|x| x as f32))),
+            conductors: ConductorTable::new(conductors().map(|(_, conductor)| conductor)),
+            lobes: rows.iter().fold(0, |bits, row| bits | 1 << row.lobe as u32),
+            textured: rows.iter().any(|row| texture(row) != 0),
+            emitter,
+        }
+    }
+
+    /// Whether any material has these lobes.
+    #[inline(always)]
+    pub fn has(&self, lobe: Lobe) -> bool {
+        self.lobes >> lobe as u32 & 1 == 1
+    }
+}

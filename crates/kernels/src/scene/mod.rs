@@ -1,0 +1,143 @@
+//! The compiled scene: `Sync`, in render space, made by `tracer_core::compile` and only read afterwards. Rendering it
+//! cannot fail. Its public fields are for looking at: the engine reads the tables beside them, which are not built
+//! anew when a field is changed.
+//!
+//! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of two so
+//! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
+
+mod camera;
+mod environment;
+mod frame;
+mod light;
+pub mod materials;
+mod mesh;
+mod shape;
+mod sphere;
+mod statistics;
+mod table;
+mod texture;
+
+pub use camera::{Camera, Filter};
+pub use environment::Environment;
+pub use frame::Frame;
+pub use light::LightTable;
+pub use light::{FlatLight, Light};
+pub use materials::{Albedo, Material};
+pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
+pub use mesh::InstanceTable;
+pub use mesh::{Instance, Mesh, Triangles};
+pub use shape::Shape;
+pub use shape::ShapeTable;
+pub use sphere::Sphere;
+pub use sphere::{LargeSphere, SmallSphere, SphereTable};
+pub use statistics::{Statistics, WorldBounds};
+pub use texture::{Picture, Texels, TextureFilter, TextureTable, TextureUse, TextureWrap};
+pub use texture::{Texel, TextureView};
+
+use crate::bvh::Acceleration;
+
+/// No primitive, no instance.
+pub const NONE: u32 = u32::MAX;
+
+/// When the pixels of a block share what they find.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Every pixel for itself.
+    Never,
+    /// Where a trial finds that hardly a path leaves the scene for its background.
+    Indoors,
+    /// Whatever the scene.
+    Always,
+}
+
+/// A compiled scene.
+pub struct Scene {
+    /// Where render space lies in the person's world.
+    pub frame: Frame,
+    /// Camera and pixel filter.
+    pub camera: Camera,
+    /// Picture size in pixels: width, height.
+    pub size: [u32; 2],
+    /// Samples per pixel, unless the caller says otherwise.
+    pub samples: u32,
+    /// Scattering events after the first hit.
+    pub max_bounces: u32,
+    /// Seed of all random choices, unless the caller says otherwise.
+    pub seed: u32,
+    /// Whether the pixels of a block share what they find, unless the caller says otherwise.
+    pub reuse: Sharing,
+    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
+    pub caustics: bool,
+    /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
+    pub clamp: Option<f32>,
+    /// The relative noise at which rendering ends, unless the caller says otherwise.
+    pub noise: Option<f64>,
+    /// Seconds after which rendering ends, unless the caller says otherwise.
+    pub time: Option<f64>,
+    /// What is kept of what camera rays hit first, unless the caller says otherwise.
+    pub layers: crate::layers::LayerSet,
+    /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or background is from
+    /// 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All of a film that is read is
+    /// in W/(sr m^2) again.
+    pub radiance_unit: f64,
+    /// Radiance of everything that no object covers, in `radiance_unit`, where it is the same in all directions; black where it is
+    /// [`Scene::environment`].
+    pub background: [f32; 3],
+    /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
+    pub spheres: Vec<Sphere>,
+    /// Curved shapes that are no spheres. Shape k has primitive id `spheres.len() + k`.
+    pub shapes: Vec<Shape>,
+    /// Materials; surfaces name them by index.
+    pub materials: Vec<Material>,
+    /// Lights: the spheres, then the others.
+    pub lights: Vec<Light>,
+    /// Meshes, each once.
+    pub meshes: Vec<Mesh>,
+    /// The triangles of all meshes. Triangle k has primitive id `spheres.len() + shapes.len() + k`.
+    pub triangles: Triangles,
+    /// Meshes placed in the scene.
+    pub instances: Vec<Instance>,
+    /// What finds the hits.
+    pub acceleration: Acceleration,
+    /// The scene as tables for the engine.
+    pub tables: Tables,
+    /// The tree over meshes and many spheres; `None` when there are neither.
+    pub accel: Option<std::sync::Arc<crate::bvh::Accel>>,
+    /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
+    pub top_boxes: Option<crate::bvh::TopBoxes>,
+    /// The boxes under those.
+    pub second_boxes: Option<crate::bvh::SecondBoxes>,
+}
+
+impl Scene {
+    /// The picture of all directions behind everything, if there is one.
+    pub fn environment(&self) -> Option<&Environment> {
+        self.tables.lights.environment.as_ref()
+    }
+
+    /// Whether light comes from where no object is.
+    pub fn is_open(&self) -> bool {
+        self.background.iter().any(|&x| x > 0.0) || self.environment().is_some()
+    }
+
+    /// A texture, by the index in [`Albedo::Texture`].
+    pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
+        self.tables.textures.view(index)
+    }
+}
+
+/// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
+pub struct Tables {
+    /// Spheres.
+    pub spheres: SphereTable,
+    /// Curved shapes.
+    pub shapes: ShapeTable,
+    /// Materials.
+    pub materials: MaterialTable,
+    /// Lights.
+    pub lights: LightTable,
+    /// Textures.
+    pub textures: TextureTable,
+    /// Instances.
+    pub instances: InstanceTable,
+}

@@ -1,0 +1,150 @@
+//! Spheres, held so that f32 is enough for any radius.
+//!
+//! A sphere is a point P on its surface (the nearest to the origin), the outward unit normal N there and the curvature k = 1/r,
+//! found in f64. With g = o - P a ray o + t d (d unit) meets it where k t^2 + 2 beta t + gamma = 0,
+//! beta = N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Where every ray is to test a sphere, there are two forms:
+//!
+//! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d + m.d with m = N - k P and
+//!   c = k P.P - 2 N.P: eight fused operations;
+//! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther, Akenine-Moeller: Precision
+//!   Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations of the same about P, and as exact where r is
+//!   small against the scene.
+
+use super::table::Table;
+use glam::DVec3;
+
+/// A sphere in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Centre.
+    pub center: DVec3,
+    /// Radius.
+    pub radius: f64,
+    /// Index into `Scene::materials`; [`super::NONE`] for a lamp that is no object.
+    pub material: u32,
+    /// Its object's place in the scene; of lamps that are none the number of objects and their own place.
+    pub object: u32,
+    /// Index into `Scene::lights`; [`super::NONE`] for an object.
+    pub light: u32,
+}
+
+/// A sphere by a point on its surface.
+#[derive(Clone, Copy, Debug)]
+struct Anchored {
+    p: [f32; 3],
+    n: [f32; 3],
+    k: f32,
+}
+
+/// A large sphere, lifted.
+#[derive(Clone, Copy, Debug)]
+pub struct LargeSphere {
+    /// Primitive id.
+    pub id: u32,
+    /// 1/r.
+    pub k: f32,
+    /// m.
+    pub m: [f32; 3],
+    /// c.
+    pub c: f32,
+}
+
+/// A small sphere, by its centre.
+#[derive(Clone, Copy, Debug)]
+pub struct SmallSphere {
+    /// Primitive id.
+    pub id: u32,
+    /// Centre.
+    pub center: [f32; 3],
+    /// r^2.
+    pub r2: f32,
+}
+
+/// Spheres as a look-up table (index = primitive id) and as lists for the linear stage.
+pub struct SphereTable {
+    /// P, N, k, and the bits of the material (the emitters' entry for lights) and of light + 1, or 0.
+    pub rows: Table<9>,
+    /// Number of spheres.
+    pub len: u32,
+    /// Large spheres, tested by every ray.
+    pub large: Vec<LargeSphere>,
+    /// Small spheres, tested by every ray because they are few.
+    pub small: Vec<SmallSphere>,
+    /// So many of the first spheres hang in the tree.
+    pub in_tree: usize,
+}
+
+/// Up to so many small spheres are tested by every ray over lanes; more of them go into the tree.
+const FEW: usize = 24;
+
+/// Radius from which a sphere is large, in render space.
+const LARGE: f64 = 0.125;
+
+/// How many spheres are small, if they are too many to be tested by every ray.
+fn many_small(spheres: &[Sphere]) -> usize {
+    let small = spheres.iter().filter(|s| s.radius < LARGE).count();
+    if small > FEW { small } else { 0 }
+}
+
+impl SphereTable {
+    /// Puts the spheres in the order of their primitive ids: those that hang in the tree first.
+    pub fn order(spheres: &mut [Sphere]) {
+        if many_small(spheres) > 0 {
+            spheres.sort_by_key(|s| s.radius >= LARGE);
+        }
+    }
+
+    /// Of spheres in their [`order`](SphereTable::order).
+    pub fn new(spheres: &[Sphere], emitter_material: u32) -> Self {
+        let anchored: Vec<Anchored> = spheres.iter().map(Anchored::new).collect();
+        let in_tree = many_small(spheres);
+        let every_ray = || (0..).zip(spheres.iter().zip(&anchored)).skip(in_tree);
+        let large = every_ray().filter(|(_, (s, _))| s.radius >= LARGE).map(|(id, (s, _))| LargeSphere::new(id, s));
+        let small = every_ray().filter(|(_, (s, _))| s.radius < LARGE).map(|(id, (_, a))| SmallSphere::new(id, a));
+        let rows = spheres.iter().zip(&anchored).map(|(s, &Anchored { p, n, k })| {
+            let material = if s.light == super::NONE { s.material } else { emitter_material };
+            let light = s.light.wrapping_add(1);
+            [p[0], p[1], p[2], n[0], n[1], n[2], k, f32::from_bits(material), f32::from_bits(light)]
+        });
+        SphereTable {
+            rows: Table::new(rows),
+            len: spheres.len() as u32,
+            large: large.collect(),
+            small: small.collect(),
+            in_tree,
+        }
+    }
+}
+
+/// P and N of a sphere: the point that is nearest to the origin.
+fn anchor(s: &Sphere) -> (DVec3, DVec3) {
+    let distance = s.center.length();
+    let n = if distance > 0.0 { -s.center / distance } else { DVec3::Z };
+    // Where |centre| and r are large and nearly equal, |centre| - r loses what centre + r n would lose per component.
+    (n * (s.radius - distance), n)
+}
+
+impl Anchored {
+    fn new(s: &Sphere) -> Self {
+        let (p, n) = anchor(s);
+        Anchored { p: p.as_vec3().to_array(), n: n.as_vec3().to_array(), k: (1.0 / s.radius) as f32 }
+    }
+}
+
+impl LargeSphere {
+    fn new(id: u32, s: &Sphere) -> Self {
+        let (p, n) = anchor(s);
+        let k = 1.0 / s.radius;
+        let c = k * p.dot(p) - 2.0 * n.dot(p);
+        LargeSphere { id, k: k as f32, m: (n - p * k).as_vec3().to_array(), c: c as f32 }
+    }
+}
+
+impl SmallSphere {
+    /// The sphere that the rounded P, N and k say, which is where rays that leave it start.
+    fn new(id: u32, a: &Anchored) -> Self {
+        let [p, n] = [a.p, a.n].map(|v| glam::Vec3::from(v).as_dvec3());
+        let r = 1.0 / f64::from(a.k);
+        SmallSphere { id, center: (p - n * r).as_vec3().to_array(), r2: (r * r) as f32 }
+    }
+}
