@@ -33,8 +33,7 @@
 
 // What a test expects reaches no picture: it may be computed by std. See clippy.toml.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
-#![deny(unsafe_code)]
-#![warn(clippy::undocumented_unsafe_blocks)]
+#![forbid(unsafe_code)]
 
 mod compile;
 mod develop;
