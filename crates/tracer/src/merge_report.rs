@@ -1,6 +1,6 @@
 //! The report of a merged picture as JSON; `docs/scale.md` is its documentation.
 
-use crate::commands::merge::{scene_of, shown};
+use crate::checkpoint::note;
 use crate::memory;
 use crate::report::{ClampedReport, FileReport, Noise, SceneReport};
 use serde::Serialize;
@@ -51,7 +51,7 @@ impl PartReport {
     /// Of a file.
     pub fn new(path: &Path, part: &Part) -> Self {
         let Part { crop, first, end, .. } = *part;
-        PartReport { file: shown(path), rows: [crop.y, crop.y + crop.height], samples: [first, end] }
+        PartReport { file: path.display().to_string(), rows: [crop.y, crop.y + crop.height], samples: [first, end] }
     }
 }
 
@@ -109,7 +109,7 @@ impl MergeReport {
         let counters = film.counters;
         let Crop { x, y, width, height } = film.crop();
         let (samples_min, samples_max) = film.samples().into_inner();
-        let [file, hash] = scene_of(head);
+        let [file, hash] = ["scene", "hash"].map(|name| note(head, name).to_owned());
         let mut rays = MergedRays {
             camera: counters.camera_rays,
             scattered: counters.scattered_rays,

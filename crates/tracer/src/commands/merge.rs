@@ -4,7 +4,7 @@ use super::render::outputs::{self, Output};
 use super::render::rescue::{Rescued, rescue};
 use super::render::write_report;
 use crate::args::MergeArgs;
-use crate::checkpoint::{Asked, differences, look, note, part_told, provenance};
+use crate::checkpoint::{Asked, differences, look, part_told, provenance};
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
 use crate::memory;
@@ -14,7 +14,7 @@ use crate::shell::{Shell, counted};
 use crate::write::{Place, is_one_file, write};
 use rayon::prelude::*;
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 use tracer_core::{Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, develop, film_faults};
@@ -224,14 +224,4 @@ fn check_memory(head: &FilmHead) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
-}
-
-/// The scene's name, as its parts tell it.
-pub fn scene_of(head: &FilmHead) -> [String; 2] {
-    ["scene", "hash"].map(|name| note(head, name).to_owned())
-}
-
-/// A path as it was named.
-pub fn shown(path: &Path) -> String {
-    path.display().to_string()
 }

@@ -55,6 +55,7 @@ fn lamp(center: &str, radius: f64, radiance: f64) -> String {
 }
 
 /// The rooms: their names, and scenes as a person would write them.
+// Long: a list of scenes.
 pub fn all() -> Vec<(&'static str, String)> {
     let scene = |eye: &str, at: &str, lights: String, background: f64, objects: String| {
         format!(

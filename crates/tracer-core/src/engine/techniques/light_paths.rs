@@ -1,4 +1,5 @@
-//! Light paths ([`tracer_kernels::engine::light_paths`]): followed at the beginning of a pass, onto whatever pixels they fall.
+//! Light paths ([`tracer_kernels::engine::light_paths`]): followed at the beginning of a pass, onto whatever pixels
+//! they fall.
 
 use super::Trial;
 use super::photons::{batches, load};
