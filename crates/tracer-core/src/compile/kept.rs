@@ -1,6 +1,5 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::mesh::{self, MeshData, MeshError};
 use crate::texture::{self, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
+use tracer_mesh::{self as mesh, MeshData, MeshError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it

@@ -8,7 +8,6 @@ use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
 use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
-use crate::mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -21,6 +20,7 @@ use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
+use tracer_mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 
 /// The meshes of a scene: its files, and the shapes that are made of triangles.
 pub struct Loaded {

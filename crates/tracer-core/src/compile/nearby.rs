@@ -1,6 +1,5 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
-use crate::mesh::MeshFormat;
 use scene_format::codes;
 use scene_format::desc::{Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
@@ -9,6 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tracer_mesh::MeshFormat;
 
 /// Names in folders that are looked at, all together: the search must be short wherever the scene lies.
 const MAX_NAMES: usize = 5000;

@@ -2,13 +2,13 @@
 //! map: exact, watertight, and one set of vertices for a million boxes.
 
 use super::placing::sides;
-use crate::mesh::MeshData;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{Instances, MaterialRef, Object, Placements, RectBox, Rectangle, Shading, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use std::path::Path;
 use std::sync::Arc;
+use tracer_mesh::MeshData;
 
 /// Where triangles come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

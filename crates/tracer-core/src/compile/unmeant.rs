@@ -4,12 +4,12 @@
 use super::curved::Curved;
 use super::meshes::{Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
-use crate::mesh::MeshData;
 use glam::{DAffine3, DVec3};
 use scene_format::desc::{Albedo, Light, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
+use tracer_mesh::MeshData;
 
 /// More copies of an object than this are not looked at: millions of them must not take their time twice.
 const MOST_COPIES: usize = 10_000;
