@@ -1,4 +1,4 @@
-//! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY and STL share.
+//! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY, STL and glTF share.
 
 use super::cursor::Fault;
 use super::data::{MAX_COORDINATE, MeshData, NO_INDEX};
@@ -24,6 +24,8 @@ pub(super) struct Builder {
     pub(super) oddities: Oddities,
     /// Vertices whose normal has no length.
     zero_normals: usize,
+    /// Triangles of parts without normals.
+    flat_triangles: u64,
     cutter: PolygonCutter,
 }
 
@@ -36,6 +38,17 @@ impl Builder {
             self.oddities.add(Oddity::ZeroNormal);
         }
         self.mesh.normals.push(normal.unwrap_or_default());
+    }
+
+    /// Vertices up to this one have no normals, where none were added.
+    pub(super) fn lack_normals(&mut self, vertices: usize) {
+        self.zero_normals += vertices.saturating_sub(self.mesh.normals.len());
+        self.mesh.normals.resize(vertices, [0.0; 3]);
+    }
+
+    /// Takes note of triangles without normals.
+    pub(super) fn without_normals(&mut self, triangles: u64) {
+        self.flat_triangles += triangles;
     }
 
     /// The texture coordinates of the next vertex, written at a byte.
@@ -122,7 +135,11 @@ impl Builder {
 
     /// The mesh with its warning; without triangles the error, with what the file has instead.
     #[expect(clippy::indexing_slicing, reason = "there is a normal for every vertex")]
-    pub(super) fn finish(self, path: &Path, found: &str) -> Result<MeshData, MeshError> {
+    pub(super) fn finish(mut self, path: &Path, found: &str) -> Result<MeshData, MeshError> {
+        if !self.mesh.normals.is_empty() {
+            self.lack_normals(self.mesh.positions.len());
+            self.oddities.add_many(Oddity::MissingNormals, self.flat_triangles);
+        }
         let Builder { mut mesh, oddities, zero_normals, .. } = self;
         if mesh.triangles.is_empty() {
             let odd = oddities.summary();
@@ -134,7 +151,12 @@ impl Builder {
         } else if zero_normals > 0 {
             let normals = &mesh.normals;
             let without = |corner: u32| if normals[corner as usize] == [0.0; 3] { NO_INDEX } else { corner };
-            mesh.normal_triangles = Some(mesh.triangles.iter().map(|triangle| triangle.map(without)).collect());
+            let corners: Vec<[u32; 3]> = mesh.triangles.iter().map(|triangle| triangle.map(without)).collect();
+            if corners.as_flattened().iter().all(|&corner| corner == NO_INDEX) {
+                mesh.normals = Vec::new();
+            } else {
+                mesh.normal_triangles = Some(corners);
+            }
         }
         mesh.warnings.extend(oddities.to_warning(path));
         Ok(mesh)

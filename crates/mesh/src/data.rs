@@ -35,9 +35,10 @@ pub struct MeshData {
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,
-    /// The MTL files that were read for it.
+    /// Further files that were read for it: MTL files, buffers of glTF.
     pub libraries: Vec<PathBuf>,
-    /// Recoverable oddities: at most one `W0510` for the mesh file and one `W0511` for its materials. They have no span.
+    /// Recoverable oddities: at most one `W0510` for the mesh file, one `W0511` for its materials, and one
+    /// `W0512` for what else of it is not taken. They have no span.
     pub warnings: Diagnostics,
 }
 

@@ -52,6 +52,14 @@ pub enum MeshError {
         /// What was expected; may be empty.
         expected: String,
     },
+    /// The file cannot be read without an extension of glTF that is not known here.
+    #[error("{}: the file requires the glTF extension `{name}`", path.display())]
+    Extension {
+        /// The file.
+        path: PathBuf,
+        /// The extension.
+        name: String,
+    },
     /// The file has no triangle.
     #[error("{}: the mesh has no triangles", path.display())]
     Empty {
@@ -77,7 +85,8 @@ impl MeshError {
         MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
     }
 
-    /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh) or `E0511` (empty mesh).
+    /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh), `E0511` (empty
+    /// mesh) or `E0513` (an extension is needed).
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             MeshError::File(error) => error.to_diagnostic(span),
@@ -102,6 +111,17 @@ impl MeshError {
                 Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken{at}: {message}"))
                     .expected(expected.clone())
                     .at_line(path, line)
+            }
+            MeshError::Extension { path, name } => {
+                let message = format!("the mesh file requires the glTF extension `{name}`, which is not known here");
+                let hint = match name.contains("compression") {
+                    true => "export it without compression",
+                    false => "export it without this extension",
+                };
+                Diagnostic::error(codes::GLTF_EXTENSION, span, message)
+                    .expected("a glTF file that requires no extension but KHR_mesh_quantization")
+                    .hint(hint)
+                    .at_line(path, 0)
             }
             MeshError::Empty { path, hint } => Diagnostic::error(codes::EMPTY_MESH, span, self.to_string())
                 .expected("at least one triangle with an area")

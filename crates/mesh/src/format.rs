@@ -13,11 +13,16 @@ pub enum MeshFormat {
     Ply,
     /// Stereolithography, ASCII and binary.
     Stl,
+    /// glTF 2.0 as text, with buffers beside it or within.
+    Gltf,
+    /// glTF 2.0 in its binary container.
+    Glb,
 }
 
 impl MeshFormat {
     /// All there are: what else asks about formats of meshes asks these.
-    pub const ALL: [MeshFormat; 4] = [MeshFormat::Obj, MeshFormat::Off, MeshFormat::Ply, MeshFormat::Stl];
+    pub const ALL: [MeshFormat; 6] =
+        [MeshFormat::Obj, MeshFormat::Off, MeshFormat::Ply, MeshFormat::Stl, MeshFormat::Gltf, MeshFormat::Glb];
 
     /// Name and extension.
     const fn entry(self) -> (&'static str, &'static str) {
@@ -26,6 +31,8 @@ impl MeshFormat {
             MeshFormat::Off => ("OFF", "off"),
             MeshFormat::Ply => ("PLY", "ply"),
             MeshFormat::Stl => ("STL", "stl"),
+            MeshFormat::Gltf => ("glTF", "gltf"),
+            MeshFormat::Glb => ("GLB", "glb"),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Triangle meshes from files: OBJ (with MTL), OFF, PLY and STL, placements of copies, and vertex normals.
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, and vertex normals.
 //!
 //! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
 //! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
@@ -26,6 +26,7 @@ mod cursor;
 mod data;
 mod files;
 mod format;
+mod gltf;
 mod mtl;
 mod obj;
 mod oddities;
@@ -66,6 +67,7 @@ pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, M
         MeshFormat::Off => off::read,
         MeshFormat::Ply => ply::read,
         MeshFormat::Stl => stl::read,
+        MeshFormat::Gltf | MeshFormat::Glb => gltf::read,
     };
     read(text, path)
 }

@@ -41,10 +41,14 @@ pub(super) enum Oddity {
     TrailingByte,
     /// A PLY face with texture coordinates for each corner.
     CornerUvs,
+    /// A glTF primitive of points or lines.
+    OtherPrimitive,
+    /// A glTF primitive without positions.
+    NoPositions,
 }
 
 impl Oddity {
-    const ALL: [Oddity; 16] = [
+    const ALL: [Oddity; 18] = [
         Oddity::DegenerateTriangle,
         Oddity::CrossingPolygon,
         Oddity::SmallFace,
@@ -61,6 +65,8 @@ impl Oddity {
         Oddity::TrailingLine,
         Oddity::TrailingByte,
         Oddity::CornerUvs,
+        Oddity::OtherPrimitive,
+        Oddity::NoPositions,
     ];
 
     /// What is counted, for one and for many, and what was done with it.
@@ -90,6 +96,8 @@ impl Oddity {
             Oddity::CornerUvs => {
                 ["face with texture coordinates of its own", "faces with texture coordinates of their own", "ignored"]
             }
+            Oddity::OtherPrimitive => ["primitive of points or lines", "primitives of points or lines", "left out"],
+            Oddity::NoPositions => ["primitive without `POSITION`", "primitives without `POSITION`", "left out"],
         }
     }
 }

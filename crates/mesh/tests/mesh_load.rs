@@ -68,14 +68,14 @@ fn files_that_cannot_be_read_are_named_with_a_hint() {
             "cat.fbx",
             "E0502",
             "cat.fbx: meshes of this type cannot be read".into(),
-            "a mesh file that ends in `.obj`, `.off`, `.ply` or `.stl`",
-            "export the mesh as OBJ, OFF, PLY or STL",
+            "a mesh file that ends in `.obj`, `.off`, `.ply`, `.stl`, `.gltf` or `.glb`",
+            "export the mesh as OBJ, OFF, PLY, STL, glTF or GLB",
         ),
         (
             "cat.obj.gz",
             "E0502",
             "cat.obj.gz: meshes of this type cannot be read".into(),
-            "a mesh file that ends in `.obj`, `.off`, `.ply` or `.stl`",
+            "a mesh file that ends in `.obj`, `.off`, `.ply`, `.stl`, `.gltf` or `.glb`",
             "unpack the file first",
         ),
     ] {

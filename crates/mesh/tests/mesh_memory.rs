@@ -115,6 +115,75 @@ fn stl_files() -> Vec<File> {
     ]
 }
 
+/// As [`ply_files`]. What lists of JSON hold is a word in memory for two bytes of the file, and a list that grows is there twice.
+fn gltf_files() -> Vec<File> {
+    let repeated = |head: &str, item: &str, tail: &str| {
+        let items = item.repeat((8 << 20) / item.len().max(1));
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},{head}{}{tail}}}", items.trim_end_matches(',')).into_bytes()
+    };
+    let container = |json: &str, binary: &[u8]| {
+        let json = format!("{json}{}", " ".repeat(json.len().next_multiple_of(4) - json.len()));
+        let mut bytes =
+            [&b"glTF\x02\0\0\0"[..], &(28 + json.len() as u32 + binary.len() as u32).to_le_bytes()].concat();
+        for (kind, content) in [(b"JSON", json.as_bytes()), (b"BIN\0", binary)] {
+            bytes.extend([&(content.len() as u32).to_le_bytes()[..], kind, content].concat());
+        }
+        bytes
+    };
+    let vertices = |count: usize, indices: usize, mode: u32| {
+        format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}},\"indices\":1,\
+             \"mode\":{mode}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":{count}}},\
+             {{\"bufferView\":1,\"componentType\":5121,\"type\":\"SCALAR\",\"count\":{indices}}}],\"bufferViews\":[{{\"buffer\":0,\
+             \"byteLength\":{0}}},{{\"buffer\":0,\"byteOffset\":{0},\"byteLength\":{indices}}}],\"buffers\":[{{\"byteLength\":{1}}}]}}",
+            12 * count,
+            12 * count + indices
+        )
+    };
+    let floats =
+        |count: usize| -> Vec<u8> { (0..3 * count).flat_map(|k| ((k * k % 97) as f32).to_le_bytes()).collect() };
+    let data = "AAAA".repeat(2 << 20);
+    let file = |what, bytes, times| (what, MeshFormat::Gltf, bytes, times);
+    vec![
+        file("glTF nodes", repeated("\"nodes\":[", "{},", "]"), 28),
+        file("glTF nodes that are none", repeated("\"nodes\":[", "0,", "]"), 28),
+        file("glTF roots", repeated("\"nodes\":[{}],\"scenes\":[{\"nodes\":[", "0,", "]}]"), 28),
+        file("glTF chain of nodes", chain(), 28),
+        file("glTF primitives", repeated("\"meshes\":[{\"primitives\":[", "0,", "]}]"), 28),
+        file("glTF extensions", repeated("\"extensionsUsed\":[", "\"\",", "]"), 28),
+        file("glTF of things not read", repeated("\"extras\":[", "[0],", "]"), 9),
+        file(
+            "glTF buffer in text",
+            repeated(
+                &format!(
+                    "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}}}}]}}],\"accessors\":[{{\"bufferView\":0,\
+                     \"componentType\":5126,\"type\":\"VEC3\",\"count\":3}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\
+                     \"buffers\":[{{\"byteLength\":36,\"uri\":\"data:;base64,{data}\"}}],\"extras\":[0"
+                ),
+                "",
+                "]",
+            ),
+            9,
+        ),
+        file("GLB vertices", container(&vertices(700_000, 3, 4), &[floats(700_000), vec![0, 1, 2]].concat()), 9),
+        file(
+            "GLB strip of bytes",
+            container(
+                &vertices(200, 8 << 20, 5),
+                &[floats(200), (0..8 << 20).map(|k| (k % 200) as u8).collect()].concat(),
+            ),
+            28,
+        ),
+    ]
+}
+
+/// Nodes, each the only child of the one before.
+fn chain() -> Vec<u8> {
+    let count = 300_000;
+    let nodes: String = (1..count).map(|child| format!("{{\"children\":[{child}]}},")).collect();
+    format!("{{\"asset\":{{\"version\":\"2.0\"}},\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{nodes}{{}}]}}").into_bytes()
+}
+
 #[test]
 fn memory_is_in_proportion_to_the_file() {
     // The shortest statements that give the most data, 8 MB of each.
@@ -142,7 +211,7 @@ fn memory_is_in_proportion_to_the_file() {
         ("OBJ oddities", MeshFormat::Obj, repeated(square, "x\ny\n") + "f 1 2 3\n"),
     ];
     let files = files.map(|(what, format, text)| (what, format, text.into_bytes(), 9));
-    for (what, format, text, times) in files.into_iter().chain(ply_files()).chain(stl_files()) {
+    for (what, format, text, times) in files.into_iter().chain(ply_files()).chain(stl_files()).chain(gltf_files()) {
         let peak = peak_of(|| {
             let _ = parse(&text, format, Path::new("none/m"));
         });

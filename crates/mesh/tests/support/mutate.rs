@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 /// Words that mutations put in: numbers at the limits and statements out of place.
-const WORDS: [&str; 30] = [
+const WORDS: [&str; 33] = [
     "nan",
     "inf",
     "1e999",
@@ -36,6 +36,9 @@ const WORDS: [&str; 30] = [
     "property list uchar int vertex_indices\n",
     "binary_big_endian",
     "end_header\n",
+    "{}",
+    "],[",
+    "\"sparse\":",
 ];
 
 /// How many mutants of each kind are made.
@@ -44,10 +47,11 @@ pub fn mutants() -> usize {
 }
 
 /// A linear congruential generator (Knuth's MMIX), its upper bits.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn below(&mut self, bound: usize) -> usize {
+    /// A number below a bound.
+    pub fn below(&mut self, bound: usize) -> usize {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 33) as usize % bound.max(1)
     }

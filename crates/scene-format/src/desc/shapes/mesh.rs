@@ -12,7 +12,7 @@ use std::sync::Arc;
 scene_struct! {
     /// A triangle mesh.
     pub struct Mesh as "Mesh", "a mesh" {
-        /// OBJ, OFF, PLY or STL file, relative to the scene file.
+        /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Mesh);
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
