@@ -27,6 +27,7 @@ mod data;
 mod files;
 mod format;
 mod gltf;
+mod inline;
 mod mtl;
 mod obj;
 mod oddities;
@@ -43,6 +44,7 @@ pub use data::{MAX_COORDINATE, MeshData, NO_INDEX};
 pub use error::{MeshError, Place};
 pub use files::{FileError, read_regular_file};
 pub use format::MeshFormat;
+pub use inline::mesh_of;
 
 use std::path::Path;
 

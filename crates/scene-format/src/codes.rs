@@ -276,7 +276,8 @@ codes! {
     /// Scene(version: 2, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     NEWER_VERSION "E0208" "a newer version of the language";
-    /// The strength of a light is written in one of three ways, and here in several or in none.
+    /// Something is written in one of several ways, and here in more than one or in none: the strength of a light, or the triangles of a mesh
+    /// (`file`, or `points` with `faces`).
     ///
     /// ```ron
     /// Scene(

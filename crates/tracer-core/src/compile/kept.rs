@@ -218,6 +218,28 @@ mod tests {
     }
 
     #[test]
+    fn meshes_of_the_scene_itself_are_not_mixed_up() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let kept = Kept::default();
+        let desc = |height: f64| {
+            let mesh =
+                |z: f64| format!("Mesh(points: [(0, 0, {z}), (1, 0, {z}), (0, {height}, {z})], faces: [[0, 1, 2]])");
+            let text = format!("Scene(background: 1, objects: [{}, {}])", mesh(0.0), mesh(-1.0));
+            load_str("s.ron", &text, Syntax::Ron, folder.path(), &[]).expect("the scene is right").scene
+        };
+        for height in [1.0, 2.0, 1.0] {
+            let with = compile_keeping(&desc(height), &kept).expect("it compiles");
+            let plain = compile(&desc(height)).expect("it compiles");
+            assert_eq!(with.triangles.positions, plain.triangles.positions);
+            assert_eq!(with.accel.as_ref().map(|tree| tree.bytes()), plain.accel.as_ref().map(|tree| tree.bytes()));
+        }
+        let first = compile_keeping(&desc(1.0), &kept).expect("it compiles");
+        let second = compile_keeping(&desc(1.0), &kept).expect("it compiles");
+        assert_eq!(tree(&first), tree(&second));
+        assert!(lock(&kept.meshes).is_empty());
+    }
+
+    #[test]
     fn a_file_that_is_gone_is_told_though_it_was_kept() {
         let folder = tempfile::tempdir().expect("a folder");
         let mesh = folder.path().join("t.off");

@@ -61,7 +61,7 @@ pub fn by_place(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
 pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
         let file = match &object.value {
-            Object::Mesh(mesh) => Some(&mesh.file),
+            Object::Mesh(mesh) => mesh.file(),
             _ => None,
         };
         let placements = match object.value.placements() {
@@ -193,8 +193,11 @@ mod tests {
         let text = "Scene(background: 1, objects: [Mesh(file: \"cat.obj\")])";
         let desc = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, &scenes, &[]).expect("right").scene;
         let Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
-        let mut faults =
-            vec![scene_format::Diagnostic::error(codes::FILE_NOT_FOUND, mesh.file.span, "there is no file cat.obj")];
+        let mut faults = vec![scene_format::Diagnostic::error(
+            codes::FILE_NOT_FOUND,
+            mesh.file().expect("a file").span,
+            "there is no file cat.obj",
+        )];
         suggest(&desc.base_dir, &desc.sources, &by_place(&desc), &mut faults);
         assert!(faults[0].hint.starts_with("did you mean `../assets/meshes/cat.obj`?"), "{}", faults[0].hint);
         let edit = faults[0].edit.clone().expect("an edit");

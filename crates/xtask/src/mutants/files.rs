@@ -7,6 +7,8 @@ const PLY: &str = "crates/mesh/src/ply/mod.rs";
 const PLY_SOURCE: &str = "crates/mesh/src/ply/source.rs";
 const STL: &str = "crates/mesh/src/stl.rs";
 const MESH: &str = "crates/mesh/src/data.rs";
+const GLTF: &str = "crates/mesh/src/gltf/walk.rs";
+const ACCESSOR: &str = "crates/mesh/src/gltf/accessor.rs";
 const NORMALS: &str = "crates/mesh/src/normals.rs";
 const POLYGON: &str = "crates/mesh/src/polygon.rs";
 const PLACEMENTS: &str = "crates/mesh/src/placements.rs";
@@ -57,6 +59,41 @@ pub const MUTANTS: &[Mutant] = &[
         find: "odd = !odd;",
         replace: "odd = false;",
         caught_by: mesh_suite("mesh_ply", &["strips_of_triangles_are_unwound"]),
+    },
+    Mutant {
+        name: "gltf-mirrored-nodes-inside-out",
+        file: GLTF,
+        find: "if mirrored { [a, c, b] } else { [a, b, c] }",
+        replace: "[a, b, c]",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-normals-by-the-matrix",
+        file: GLTF,
+        find: "let normal = placed.normals * DVec3::from(normals.get(k)?);",
+        replace: "let normal = placed.map.matrix3 * DVec3::from(normals.get(k)?);",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-strips-wound-one-way",
+        file: GLTF,
+        find: "[k, k + 1 + k % 2, k + 2 - k % 2]",
+        replace: "[k, k + 1, k + 2]",
+        caught_by: mesh_suite("mesh_gltf", &["strips_and_fans_are_unwound"]),
+    },
+    Mutant {
+        name: "gltf-textures-upside-down",
+        file: GLTF,
+        find: "[u, 1.0 - v]",
+        replace: "[u, v]",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-normalized-by-256",
+        file: ACCESSOR,
+        find: "Component::I8 => 127.0,",
+        replace: "Component::I8 => 128.0,",
+        caught_by: mesh_suite("mesh_gltf", &["accessors_may_be_interleaved_sparse_and_normalized"]),
     },
     Mutant {
         name: "stl-joins-nothing",
