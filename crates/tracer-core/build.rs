@@ -3,9 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+/// What makes a picture of a scene: the engine, its kernels, and what reads its meshes.
+const SOURCES: [&str; 3] = ["src", "../kernels/src", "../mesh/src"];
+
 fn main() -> io::Result<()> {
     let mut files = Vec::new();
-    collect(Path::new("src"), &mut files)?;
+    for folder in SOURCES {
+        collect(Path::new(folder), &mut files)?;
+        println!("cargo::rerun-if-changed={folder}");
+    }
     files.sort();
     // FNV-1a, 64 bits, over names and texts; however lines end.
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
@@ -15,7 +21,6 @@ fn main() -> io::Result<()> {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
-    println!("cargo::rerun-if-changed=src");
     println!("cargo::rustc-env=TRACER_SOURCES={hash:016x}");
     Ok(())
 }

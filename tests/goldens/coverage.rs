@@ -74,7 +74,7 @@ fn smooth(mesh: &scene_format::desc::Mesh) -> bool {
     match mesh.shading {
         Shading::Smooth => true,
         Shading::Flat => false,
-        Shading::Auto => mesh.file.value.file_stem().is_some_and(|name| name == "icosphere"),
+        Shading::Auto => mesh.file().and_then(|file| file.value.file_stem()).is_some_and(|name| name == "icosphere"),
     }
 }
 

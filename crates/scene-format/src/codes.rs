@@ -276,7 +276,8 @@ codes! {
     /// Scene(version: 2, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     NEWER_VERSION "E0208" "a newer version of the language";
-    /// The strength of a light is written in one of three ways, and here in several or in none.
+    /// Something is written in one of several ways, and here in more than one or in none: the strength of a light, or the triangles of a mesh
+    /// (`file`, or `points` with `faces`).
     ///
     /// ```ron
     /// Scene(
@@ -393,12 +394,15 @@ codes! {
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
     FILE_UNREADABLE "E0502" "a file cannot be read";
-    /// A mesh file breaks the rules of its format (OBJ, OFF, PLY or STL). The message says where in the file
-    /// and what was expected.
+    /// A mesh file breaks the rules of its format (OBJ, OFF, PLY, STL, glTF or GLB). The message says where in the
+    /// file and what was expected.
     BROKEN_MESH "E0510" "a mesh file is broken";
     /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
     /// exported with faces.
     EMPTY_MESH "E0511" "a mesh has no triangles";
+    /// A glTF file says that it cannot be understood without an extension of the format, and this one is not known here: most often
+    /// compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again without it.
+    GLTF_EXTENSION "E0513" "a glTF file requires an extension";
     /// A picture file cannot be decoded as PNG or JPEG.
     BROKEN_TEXTURE "E0520" "a texture cannot be read";
     /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about an axis by degrees) or
@@ -552,8 +556,11 @@ codes! {
     UNUSED_VAR "W0402" "a var is not used";
     /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";
-    /// A material file (MTL) says things that this renderer cannot do.
+    /// A material file (MTL) says things that this renderer cannot do, or a glTF file has materials of its own, which are not taken.
     MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
+    /// A glTF file has more than meshes that stand still: skins, morph targets, animations, extensions that it can be read without. The
+    /// mesh is taken without them, as its nodes place it.
+    GLTF_UNSUPPORTED "W0512" "a glTF file has more than meshes that stand still";
     /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same; pictures of other
     /// layouts (a cube's sides, a mirror ball) look wrong so.
     ENVIRONMENT_SHAPE "W0513" "an environment of another shape";

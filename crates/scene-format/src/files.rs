@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// What a file that a scene names holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
-    /// Triangles: OBJ, OFF, PLY or STL.
+    /// Triangles: OBJ, OFF, PLY, STL, glTF or GLB.
     Mesh,
     /// Placements of a mesh, one a line.
     Placements,

@@ -276,8 +276,8 @@ fn default(field: &FieldDef, def: &'static StructDef) -> String {
     }
     match field.default.map(|default| default()) {
         None => "must be written".to_owned(),
-        Some(Form::Absent) => "see right".to_owned(),
         _ if def.exactly_one.contains(&field.name) => "one of them".to_owned(),
+        Some(Form::Absent) => "see right".to_owned(),
         Some(Form::Struct { .. }) => "its defaults".to_owned(),
         Some(form) => {
             let (ron, toml) = (ron_value(&form), toml_value(&form));

@@ -127,7 +127,12 @@ const WRONG: [(Syntax, &str, &str, &str); 48] = [
 ];
 
 /// The shortest pieces of right scenes that give the most.
-const RIGHT: [(Syntax, &str, &str, &str); 29] = [
+const RIGHT: [(Syntax, &str, &str, &str); 34] = [
+    (Ron, "Scene(objects: [Mesh(faces: [[0,1,2]], points: [", "(0,0,0),", "])])"),
+    (Ron, "Scene(objects: [Mesh(points: [(0,0,0),(1,0,0),(0,1,0)], faces: [", "[0,1,2],", "])])"),
+    (Ron, "Scene(objects: [Mesh(points: [(0,0,0),(1,0,0),(0,1,0)], faces: [[0,1,", "2,", "]])])"),
+    (Toml, "objects=[{Mesh={faces=[[0,1,2]],points=[", "[0,0,0],", "]}}]"),
+    (Toml, "objects=[{Mesh={points=[[0,0,0],[1,0,0],[0,1,0]],faces=[", "[0,1,2],", "]}}]"),
     (Ron, "Scene(objects: [", "Sphere(center:(0,0,0),radius:1),", "])"),
     (Ron, "Scene(objects: [", "Sphere(center:(0,0,0),radius:1,material:Mirror()),", "])"),
     (Ron, "Scene(objects: [", "{\"Sphere\":{\"center\":[0,0,0],\"radius\":1}},", "])"),

@@ -109,6 +109,17 @@ fn transform(random: &mut Random) -> Transform {
     }
 }
 
+/// Points, and faces that name them.
+fn inline_mesh(random: &mut Random) -> MeshSource {
+    let points: Vec<_> = (0..3 + random.below(5)).map(|_| vector(random)).collect();
+    let mut faces = Faces::default();
+    for _ in 0..=random.below(3) {
+        let corners: Vec<u32> = (0..3 + random.below(3)).map(|_| random.below(points.len()) as u32).collect();
+        faces.push(&corners);
+    }
+    MeshSource::Inline(Arc::new(InlineMesh { points, faces }.into()))
+}
+
 fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {
     (0..random.below(4)).map(|_| transform(random).into()).collect()
 }
@@ -214,7 +225,11 @@ fn scene(random: &mut Random) -> SceneDesc {
                 placements,
             })),
             _ => Object::Mesh(Mesh {
-                file: PathBuf::from(text(random)).into(),
+                source: if random.below(2) == 0 {
+                    MeshSource::File(PathBuf::from(text(random)).into())
+                } else {
+                    inline_mesh(random)
+                },
                 material,
                 transform: transforms(random),
                 placements,

@@ -38,9 +38,7 @@
 mod compile;
 mod develop;
 mod engine;
-mod files;
 mod film;
-pub mod mesh;
 pub mod scene;
 pub mod texture;
 
@@ -54,3 +52,4 @@ pub use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::level::Level;
 pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};
 pub use tracer_kernels::{bvh, sampling, shapes};
+pub use tracer_mesh as mesh;

@@ -213,7 +213,7 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
     let mut materials: Vec<&Material> = desc.materials.iter().map(|named| &named.material).collect();
     for object in &desc.objects {
         if let Object::Mesh(mesh) = &object.value {
-            files.push(&mesh.file.value);
+            files.extend(mesh.file().map(|file| &*file.value));
         }
         if let Placements::File(file) = object.value.placements() {
             files.push(&file.value);

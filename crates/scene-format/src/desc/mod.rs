@@ -31,8 +31,8 @@ pub use object::Object;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Capsule, Cone, Cylinder, Disk, Instances, Mesh, PlacementList, PlacementPattern, Placements, RectBox, Rectangle,
-    Shading, Sphere,
+    Capsule, Cone, Cylinder, Disk, Faces, InlineMesh, Instances, Mesh, MeshSource, PlacementList, PlacementPattern,
+    Placements, RectBox, Rectangle, Shading, Sphere,
 };
 pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
 pub(crate) use textures::{MappingWords, Pattern};

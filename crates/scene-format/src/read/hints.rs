@@ -56,7 +56,7 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
 
 /// What other programs call a field of ours.
 pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 20] = [
+    const SYNONYMS: [(&str, &[&str]); 22] = [
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
         ("center", &["centre", "position", "pos", "origin"]),
@@ -73,6 +73,8 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("degrees", &["angle", "deg"]),
         ("exponent", &["shininess", "alpha", "glossiness"]),
         ("transform", &["transforms"]),
+        ("points", &["vertices", "positions", "verts"]),
+        ("faces", &["indices", "triangles", "polygons"]),
         ("inner_radius", &["innerradius", "inner", "hole"]),
         ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
         ("caps", &["cap", "closed", "capped"]),
@@ -86,7 +88,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     const SYNONYMS: [(&str, &[&str]); 11] = [
-        ("Mesh", &["obj", "off", "ply", "stl", "trianglemesh", "model", "shape"]),
+        ("Mesh", &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
         ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
@@ -126,7 +128,7 @@ const OBJECTS: Hints = &[
     (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
     (
         &["triangle", "torus", "polygon", "pyramid", "prism"],
-        "other shapes are meshes: name an OBJ, OFF, PLY or STL file in a `Mesh`",
+        "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
     ),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
@@ -145,7 +147,7 @@ const OBJECTS: Hints = &[
             "sweep",
             "text",
         ],
-        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY or STL, and name its file in a `Mesh`",
+        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a `Mesh`",
     ),
     (
         &["group", "union", "node", "collection", "merge"],
@@ -340,8 +342,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef) -> Option<&'s
         "emission" | "emissive" if def.name == "Scene" => {
             "what shines has the material Emissive(radiance: 5), or stands in `lights`"
         }
-        "vertices" | "faces" | "indices" | "triangles" | "points" | "positions" => {
-            "the triangles of a mesh stand in a file, OBJ, OFF, PLY or STL: Mesh(file: \"cat.obj\")"
+        "vertices" | "faces" | "indices" | "triangles" | "points" | "positions" if !has("points") => {
+            "the triangles of a mesh stand in a file, Mesh(file: \"cat.obj\"), or in the scene: Mesh(points: [..], faces: [[0, 1, 2]])"
         }
         "dof" | "depth_of_field" | "aperture" | "focus_distance" | "focus" | "f_stop" | "fstop" | "focal_distance"
         | "lens_radius" | "bokeh"

@@ -56,6 +56,10 @@ pub(crate) struct Reader<'r> {
     repeated: u64,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
+    /// How many points the mesh that is being read has, once they are read.
+    pub(crate) points: Option<usize>,
+    /// Whether an item of a list was passed over that somebody meant: its number of items is not what it will be.
+    pub(crate) passed_over: bool,
 }
 
 /// Fields of one struct, by their number in the schema.
@@ -113,6 +117,8 @@ impl<'r> Reader<'r> {
             renamed: NOWHERE,
             repeated: 0,
             file: None,
+            points: None,
+            passed_over: false,
         }
     }
 
@@ -435,11 +441,12 @@ impl<'r> Reader<'r> {
                 begin = child.release_before(begin);
             }
             if child.kind() == Kind::Broken {
+                self.passed_over = true;
                 continue;
             }
             self.path.push(Step::Index(index));
             match repeat_body(child) {
-                Some(body) => self.repeat(body, at, read),
+                Some(body) => self.passed_over |= self.repeat(body, at, read).is_none(),
                 None => read(self, child),
             }
             self.path.pop();

@@ -72,27 +72,28 @@ pub(crate) fn repeat_body<'t, 's>(item: Item<'t, 's>) -> Option<Item<'t, 's>> {
 }
 
 impl Reader<'_> {
-    /// Reads the items of a `Repeat` as often as it says.
+    /// Reads the items of a `Repeat` as often as it says; `None` where it could not.
     pub(super) fn repeat<'t, 's>(
         &mut self,
         body: Item<'t, 's>,
         at: &'static FieldDef,
         read: &mut dyn FnMut(&mut Self, Item<'t, 's>),
-    ) {
-        let Some(fields) = self.fields_unnamed(body, &REPEAT) else { return };
+    ) -> Option<()> {
+        let fields = self.fields_unnamed(body, &REPEAT)?;
         let count =
             fields.get(0).and_then(|count| self.at_field(0, |reader| u32::read(reader, count, &REPEAT.fields[0])));
         let index = match fields.get(1) {
             Some(name) => self.at_field(1, |reader| reader.index_name(name)),
             None => Some("i".to_owned()),
         };
-        let (Some(count), Some(index), Some(items)) = (count, index, fields.get(3)) else { return };
+        let (Some(count), Some(index), Some(items)) = (count, index, fields.get(3)) else { return None };
         // That it is too much was told.
         if self.repeated > MOST_ITEMS {
-            return;
+            return None;
         }
         if self.vars.depth() >= MOST_NESTED {
-            return self.too_much(body, &format!("repetitions stand more than {MOST_NESTED} deep"));
+            self.too_much(body, &format!("repetitions stand more than {MOST_NESTED} deep"));
+            return None;
         }
         for k in 0..count {
             let (errors, told) = (self.sink.errors, self.sink.diagnostics.len());
@@ -112,16 +113,18 @@ impl Reader<'_> {
             self.vars.leave();
             self.repeated += made.max(1);
             if self.sink.errors == errors && self.repeated > MOST_ITEMS {
-                return self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
+                self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
+                return None;
             }
             if self.sink.errors > errors {
                 // What is wrong the first time is wrong whatever the index.
                 for fault in self.sink.diagnostics.iter_mut().skip(told).filter(|_| k > 0) {
                     fault.message += &format!(" ({index} = {k})");
                 }
-                return;
+                return None;
             }
         }
+        Some(())
     }
 
     /// Reads with a field on the path.

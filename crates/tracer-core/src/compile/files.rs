@@ -1,7 +1,6 @@
 //! The files of a scene whose text is wrong: what is wrong with them is told in the same run.
 
 use super::nearby;
-use crate::mesh::{self, placements::load_placements};
 use crate::texture;
 use rayon::prelude::*;
 use scene_format::desc::Material;
@@ -9,6 +8,7 @@ use scene_format::diagnostic::{Source, Span};
 use scene_format::{Diagnostics, FileKind, NamedFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use tracer_mesh::{self as mesh, placements::load_placements};
 
 /// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it,
 /// and its faults come back in order of their places in the scene. Warnings are left out, as the scene is going to be

@@ -1,6 +1,5 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::mesh::{self, MeshData, MeshError};
 use crate::texture::{self, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
+use tracer_mesh::{self as mesh, MeshData, MeshError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
@@ -215,6 +215,28 @@ mod tests {
         let ball = load_str("s.ron", ball, Syntax::Ron, folder.path(), &[]).expect("right").scene;
         compile_keeping(&ball, &kept).expect("it compiles");
         assert!(lock(&kept.meshes).is_empty() && lock(&kept.trees).is_empty());
+    }
+
+    #[test]
+    fn meshes_of_the_scene_itself_are_not_mixed_up() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let kept = Kept::default();
+        let desc = |height: f64| {
+            let mesh =
+                |z: f64| format!("Mesh(points: [(0, 0, {z}), (1, 0, {z}), (0, {height}, {z})], faces: [[0, 1, 2]])");
+            let text = format!("Scene(background: 1, objects: [{}, {}])", mesh(0.0), mesh(-1.0));
+            load_str("s.ron", &text, Syntax::Ron, folder.path(), &[]).expect("the scene is right").scene
+        };
+        for height in [1.0, 2.0, 1.0] {
+            let with = compile_keeping(&desc(height), &kept).expect("it compiles");
+            let plain = compile(&desc(height)).expect("it compiles");
+            assert_eq!(with.triangles.positions, plain.triangles.positions);
+            assert_eq!(with.accel.as_ref().map(|tree| tree.bytes()), plain.accel.as_ref().map(|tree| tree.bytes()));
+        }
+        let first = compile_keeping(&desc(1.0), &kept).expect("it compiles");
+        let second = compile_keeping(&desc(1.0), &kept).expect("it compiles");
+        assert_eq!(tree(&first), tree(&second));
+        assert!(lock(&kept.meshes).is_empty());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Meshes: files loaded once each, placed as often as the scene says, brought into render space.
+//! Meshes: files loaded once each, and what the scene writes out, placed as often as the scene says, brought into render space.
 //!
 //! A mesh that is placed once is moved vertex by vertex, in f64, and so is each copy of one whose copies are few triangles together
 //! ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to a size of about one, and its instances
@@ -8,7 +8,6 @@ use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
 use super::placing::{check, copies, place as place_matrix};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
-use crate::mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -21,10 +20,11 @@ use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
+use tracer_mesh::{MeshData, NO_INDEX, mesh_of, normals::vertex_normals};
 
-/// The meshes of a scene: its files, and the shapes that are made of triangles.
+/// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
 pub struct Loaded {
-    /// Each file once, then each shape once.
+    /// Each file once, then each mesh of the scene itself, then each shape once.
     files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
@@ -47,7 +47,8 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
-    let mut geometry_of_object: Vec<Geometry<usize>> = Vec::new();
+    let mut inline: Vec<Result<MeshData, Box<Diagnostic>>> = Vec::new();
+    let mut geometry_of_object: Vec<Geometry<usize, usize>> = Vec::new();
     // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
     for object in polygonal(desc) {
@@ -61,6 +62,10 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
                 });
                 own_materials[index] |= *object.material == MaterialRef::Default;
                 Geometry::File(index)
+            }
+            Geometry::Inline(mesh) => {
+                inline.push(mesh_of(&mesh.value, mesh.span));
+                Geometry::Inline(inline.len() - 1)
             }
             Geometry::Unit(shape) => {
                 if !shapes.contains(&shape) {
@@ -87,10 +92,25 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
             }
         }
     }
+    let mut file_of_inline = Vec::new();
+    for result in inline {
+        match result {
+            Ok(data) => {
+                diagnostics.extend(data.warnings.iter().cloned());
+                file_of_inline.push(Some(files.len()));
+                files.push(Arc::new(data));
+            }
+            Err(fault) => {
+                diagnostics.push(*fault);
+                file_of_inline.push(None);
+            }
+        }
+    }
     let first_shape = files.len();
     files.extend(shapes.iter().map(|shape| Arc::new(shape.mesh())));
     let of_geometry = |geometry| match geometry {
         Geometry::File(path) => file_of_path[path],
+        Geometry::Inline(mesh) => file_of_inline[mesh],
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
     };
     Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }

@@ -1,6 +1,5 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
-use crate::mesh::MeshFormat;
 use scene_format::codes;
 use scene_format::desc::{Material, MaterialRef, Object, Placements};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
@@ -9,6 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tracer_mesh::MeshFormat;
 
 /// Names in folders that are looked at, all together: the search must be short wherever the scene lies.
 const MAX_NAMES: usize = 5000;
@@ -61,7 +61,7 @@ pub fn by_place(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
 pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
         let file = match &object.value {
-            Object::Mesh(mesh) => Some(&mesh.file),
+            Object::Mesh(mesh) => mesh.file(),
             _ => None,
         };
         let placements = match object.value.placements() {
@@ -193,8 +193,11 @@ mod tests {
         let text = "Scene(background: 1, objects: [Mesh(file: \"cat.obj\")])";
         let desc = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, &scenes, &[]).expect("right").scene;
         let Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
-        let mut faults =
-            vec![scene_format::Diagnostic::error(codes::FILE_NOT_FOUND, mesh.file.span, "there is no file cat.obj")];
+        let mut faults = vec![scene_format::Diagnostic::error(
+            codes::FILE_NOT_FOUND,
+            mesh.file().expect("a file").span,
+            "there is no file cat.obj",
+        )];
         suggest(&desc.base_dir, &desc.sources, &by_place(&desc), &mut faults);
         assert!(faults[0].hint.starts_with("did you mean `../assets/meshes/cat.obj`?"), "{}", faults[0].hint);
         let edit = faults[0].edit.clone().expect("an edit");

@@ -1,13 +1,13 @@
 //! Placements by a rule as matrices.
 
 use super::placing::sides;
-use crate::mesh::placements::rotation;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::PlacementPattern;
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics};
 use std::collections::BTreeMap;
+use tracer_mesh::placements::rotation;
 
 /// A copy that is to keep its distance gets so many tries.
 const TRIES: u64 = 32;

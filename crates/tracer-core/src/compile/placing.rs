@@ -1,11 +1,11 @@
 //! Transforms of the scene language as matrices.
 
 use super::patterns;
-use crate::mesh::placements::{load_placements, rotation};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Placements, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use tracer_mesh::placements::{load_placements, rotation};
 
 /// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along. `lowest` gives the
 /// smallest y of the shape under a map (asked only by `DropTo`).

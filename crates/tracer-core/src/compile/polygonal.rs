@@ -1,20 +1,24 @@
-//! Objects that become triangles: meshes from files, and the shapes with flat sides, each of which is one unit shape under an affine
+//! Objects that become triangles: meshes, and the shapes with flat sides, each of which is one unit shape under an affine
 //! map: exact, watertight, and one set of vertices for a million boxes.
 
 use super::placing::sides;
-use crate::mesh::MeshData;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::SceneDesc;
-use scene_format::desc::{Instances, MaterialRef, Object, Placements, RectBox, Rectangle, Shading, Transform};
+use scene_format::desc::{
+    InlineMesh, Instances, MaterialRef, MeshSource, Object, Placements, RectBox, Rectangle, Shading, Transform,
+};
 use scene_format::diagnostic::{Span, Spanned};
 use std::path::Path;
 use std::sync::Arc;
+use tracer_mesh::MeshData;
 
 /// Where triangles come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Geometry<F> {
+pub enum Geometry<F, I> {
     /// A file.
     File(F),
+    /// The scene.
+    Inline(I),
     /// A shape of a size of one about the origin.
     Unit(UnitShape),
 }
@@ -33,7 +37,7 @@ pub struct Polygonal<'a> {
     /// Its place among the objects of the scene.
     pub number: u32,
     /// Its triangles, in a frame of their own.
-    pub geometry: Geometry<&'a Spanned<Arc<Path>>>,
+    pub geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>>,
     /// From that frame to the one that the object is written in.
     pub local: DAffine3,
     /// Its material.
@@ -75,7 +79,10 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
             Object::Box(cuboid) => of_unit(UnitShape::Cube, of_box(cuboid), "box"),
             Object::Mesh(mesh) => Some(Polygonal {
                 number,
-                geometry: Geometry::File(&mesh.file),
+                geometry: match &mesh.source {
+                    MeshSource::File(file) => Geometry::File(file),
+                    MeshSource::Inline(inline) => Geometry::Inline(inline),
+                },
                 local: DAffine3::IDENTITY,
                 material: &mesh.material,
                 transform: &mesh.transform,

@@ -4,12 +4,12 @@
 use super::curved::Curved;
 use super::meshes::{Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
-use crate::mesh::MeshData;
 use glam::{DAffine3, DVec3};
 use scene_format::desc::{Albedo, Light, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
+use tracer_mesh::MeshData;
 
 /// More copies of an object than this are not looked at: millions of them must not take their time twice.
 const MOST_COPIES: usize = 10_000;
@@ -22,7 +22,12 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
     let materials: BTreeMap<&str, &Material> =
         desc.materials.iter().map(|named| (&*named.name.value, &named.material)).collect();
     for (k, object) in polygonal(desc).enumerate() {
-        let (Geometry::File(file), Some(data)) = (object.geometry, loaded.file(k)) else { continue };
+        let span = match object.geometry {
+            Geometry::File(file) => file.span,
+            Geometry::Inline(mesh) => mesh.span,
+            Geometry::Unit(_) => continue,
+        };
+        let Some(data) = loaded.file(k) else { continue };
         let material = material_of(&materials, object.material);
         let own = matches!(object.material, MaterialRef::Default);
         let pictured =
@@ -31,7 +36,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
             diagnostics.push(
                 Diagnostic::warning(
                     codes::NO_COORDINATES,
-                    file.span,
+                    span,
                     "the mesh has a texture and no texture coordinates",
                 )
                 .expected("texture coordinates in the mesh file (`vt` in OBJ)")
@@ -45,7 +50,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
             diagnostics.push(
                 Diagnostic::warning(
                     codes::INSIDE_OUT,
-                    file.span,
+                    span,
                     "this glass is inside out: its faces are wound the other way",
                 )
                 .expected("faces whose corners go round counterclockwise, seen from outside")

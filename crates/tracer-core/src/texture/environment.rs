@@ -1,12 +1,12 @@
 //! Pictures of all directions: HDR, EXR, PNG and JPEG files, decoded to linear light.
 
 use super::{SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
-use crate::mesh::read_regular_file;
 use image::{DynamicImage, ImageFormat};
 use scene_format::codes;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
 use std::path::Path;
+use tracer_mesh::read_regular_file;
 
 /// A picture of all directions. Row 0 is the top row, each row from left to right.
 #[derive(Clone, Debug, PartialEq)]

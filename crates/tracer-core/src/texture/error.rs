@@ -1,12 +1,12 @@
 //! What can be wrong with a picture file.
 
 use super::MAX_SIDE;
-use crate::mesh::FileError;
 use image::{ImageError, ImageFormat};
 use scene_format::Diagnostic;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
 use std::path::PathBuf;
+use tracer_mesh::FileError;
 
 /// Why a texture could not be loaded.
 #[derive(Debug, thiserror::Error)]

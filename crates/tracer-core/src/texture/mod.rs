@@ -24,7 +24,6 @@ pub use error::TextureError;
 pub use tracer_kernels::scene::Texels;
 pub use tracer_kernels::srgb::SRGB_TO_LINEAR;
 
-use crate::mesh::read_regular_file;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
@@ -33,6 +32,7 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
 use std::io::Cursor;
 use std::path::Path;
+use tracer_mesh::read_regular_file;
 
 /// Most pixels along a side.
 pub const MAX_SIDE: u32 = 1 << 15;

@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Caustics, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter, TextureWrap,
-    Transform,
+    Acceleration, Caustics, Instances, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter,
+    TextureWrap, Transform,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -153,6 +153,43 @@ fn formats_of_meshes() {
             assert!(obj == picture_of(&ball.off("ordered-ball"), &ring.off("ordered-ring"), shading), "OFF");
             // Of the ring STL would join the seam.
             assert!(obj == picture_of(&ball.stl("ordered-ball"), &ring.off("ordered-ring"), shading), "STL");
+        }
+    }
+    let (ball, ring) = (ball.in_single_precision(), ring.in_single_precision());
+    for shading in [Shading::Auto, Shading::Smooth, Shading::Flat] {
+        let obj = picture_of(&ball.obj("single-ball"), &ring.obj("single-ring"), shading);
+        assert!(obj == picture_of(&ball.glb("single-ball"), &ring.glb("single-ring"), shading), "GLB {shading:?}");
+    }
+}
+
+/// A mesh that the scene writes out is that of a file with the same points and faces, copies and all.
+#[test]
+fn meshes_written_out() {
+    let (ball, cube) = (icosphere(1), cube());
+    let picture_of = |written: bool, shading: Shading, instances: Instances| {
+        let steps = vec![rotate([1.0, 2.0, 3.0], 40.0), Transform::Translate([1.0, 0.5, 0.0])];
+        let mut objects = [
+            mesh(&ball.off("written-ball"), glass(1.5), shading, vec![scale(0.9)]),
+            mesh(&cube.off("written-cube"), mirror([0.9; 3]), shading, steps),
+        ];
+        for (object, shape) in objects.iter_mut().zip([&ball, &cube]) {
+            let Object::Mesh(mesh) = object else { panic!("a mesh") };
+            if written {
+                mesh.source = shape.written_out();
+            }
+            let copies = [[0.0; 3], [-1.0, 0.4, -1.0]].map(|to| vec![Transform::Translate(to).into()]);
+            mesh.placements = Placements::List(Box::new(copies.into_iter().collect()));
+            mesh.instances = instances;
+        }
+        let light = light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]);
+        let desc = scene(24, vec![light], objects.into()).camera([0.5, 3.0, 6.0], [0.0; 3], 45.0);
+        rendered(&compiled(&desc), &RenderOptions { samples: Some(4), ..options() })
+    };
+    for shading in [Shading::Auto, Shading::Smooth] {
+        for instances in [Instances::Always, Instances::Never] {
+            let file = picture_of(false, shading, instances);
+            assert!(file.iter().any(|p| p[0] != file[0][0]), "nothing to see");
+            assert!(file == picture_of(true, shading, instances), "{shading:?} {instances:?}");
         }
     }
 }

@@ -1,17 +1,19 @@
 //! Faults in what reads meshes, placements, materials and textures.
 
-use super::{Mutant, suite, units};
+use super::{Mutant, kernel_units, mesh_suite, mesh_units, suite};
 
-const PIECE: &str = "crates/tracer-core/src/mesh/obj/piece.rs";
-const PLY: &str = "crates/tracer-core/src/mesh/ply/mod.rs";
-const PLY_SOURCE: &str = "crates/tracer-core/src/mesh/ply/source.rs";
-const STL: &str = "crates/tracer-core/src/mesh/stl.rs";
-const MESH: &str = "crates/tracer-core/src/mesh/mod.rs";
-const NORMALS: &str = "crates/tracer-core/src/mesh/normals.rs";
-const POLYGON: &str = "crates/tracer-core/src/mesh/polygon.rs";
-const PLACEMENTS: &str = "crates/tracer-core/src/mesh/placements.rs";
-const MTL: &str = "crates/tracer-core/src/mesh/mtl/library.rs";
-const SRGB: &str = "crates/tracer-core/src/texture/srgb.rs";
+const PIECE: &str = "crates/mesh/src/obj/piece.rs";
+const PLY: &str = "crates/mesh/src/ply/mod.rs";
+const PLY_SOURCE: &str = "crates/mesh/src/ply/source.rs";
+const STL: &str = "crates/mesh/src/stl.rs";
+const MESH: &str = "crates/mesh/src/data.rs";
+const GLTF: &str = "crates/mesh/src/gltf/walk.rs";
+const ACCESSOR: &str = "crates/mesh/src/gltf/accessor.rs";
+const NORMALS: &str = "crates/mesh/src/normals.rs";
+const POLYGON: &str = "crates/mesh/src/polygon.rs";
+const PLACEMENTS: &str = "crates/mesh/src/placements.rs";
+const MTL: &str = "crates/mesh/src/mtl/library.rs";
+const SRGB: &str = "crates/kernels/src/srgb.rs";
 const TEXTURE: &str = "crates/tracer-core/src/texture/mod.rs";
 
 /// The faults.
@@ -21,105 +23,140 @@ pub const MUTANTS: &[Mutant] = &[
         file: PIECE,
         find: "(count as i64).saturating_add(number)",
         replace: "(count as i64).saturating_add(number - 1)",
-        caught_by: suite("mesh_obj", &["negative_indices_count_back_from_the_face"]),
+        caught_by: mesh_suite("mesh_obj", &["negative_indices_count_back_from_the_face"]),
     },
     Mutant {
         name: "obj-indices-from-zero",
         file: PIECE,
         find: "u32::try_from(number - 1).ok()",
         replace: "u32::try_from(number).ok()",
-        caught_by: suite("mesh_obj", &["faces_of_positions_alone"]),
+        caught_by: mesh_suite("mesh_obj", &["faces_of_positions_alone"]),
     },
     Mutant {
         name: "obj-normal-counted-among-texture-coordinates",
         file: PIECE,
         find: "normal = parse_index(cursor, self.normals.len(), start)?;",
         replace: "normal = parse_index(cursor, self.uvs.len(), start)?;",
-        caught_by: suite("mesh_obj", &[]),
+        caught_by: mesh_suite("mesh_obj", &[]),
     },
     Mutant {
         name: "ply-bytes-in-the-other-order",
         file: PLY_SOURCE,
         find: "if BIG {",
         replace: "if !BIG {",
-        caught_by: suite("mesh_ply", &["a_cube_is_the_same_in_every_encoding_and_type"]),
+        caught_by: mesh_suite("mesh_ply", &["a_cube_is_the_same_in_every_encoding_and_type"]),
     },
     Mutant {
         name: "ply-lists-skipped-by-their-length",
         file: PLY,
         find: "length.saturating_mul(item.bytes())",
         replace: "length.saturating_mul(item.bytes().min(1))",
-        caught_by: suite("mesh_ply", &["what_is_not_needed_is_stepped_over"]),
+        caught_by: mesh_suite("mesh_ply", &["what_is_not_needed_is_stepped_over"]),
     },
     Mutant {
         name: "ply-strips-wound-one-way",
         file: PLY,
         find: "odd = !odd;",
         replace: "odd = false;",
-        caught_by: suite("mesh_ply", &["strips_of_triangles_are_unwound"]),
+        caught_by: mesh_suite("mesh_ply", &["strips_of_triangles_are_unwound"]),
+    },
+    Mutant {
+        name: "gltf-mirrored-nodes-inside-out",
+        file: GLTF,
+        find: "if mirrored { [a, c, b] } else { [a, b, c] }",
+        replace: "[a, b, c]",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-normals-by-the-matrix",
+        file: GLTF,
+        find: "let normal = placed.normals * DVec3::from(normals.get(k)?);",
+        replace: "let normal = placed.map.matrix3 * DVec3::from(normals.get(k)?);",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-strips-wound-one-way",
+        file: GLTF,
+        find: "[k, k + 1 + k % 2, k + 2 - k % 2]",
+        replace: "[k, k + 1, k + 2]",
+        caught_by: mesh_suite("mesh_gltf", &["strips_and_fans_are_unwound"]),
+    },
+    Mutant {
+        name: "gltf-textures-upside-down",
+        file: GLTF,
+        find: "[u, 1.0 - v]",
+        replace: "[u, v]",
+        caught_by: mesh_suite("mesh_gltf", &["mirrored_nodes_keep_their_fronts_and_normals"]),
+    },
+    Mutant {
+        name: "gltf-normalized-by-256",
+        file: ACCESSOR,
+        find: "Component::I8 => 127.0,",
+        replace: "Component::I8 => 128.0,",
+        caught_by: mesh_suite("mesh_gltf", &["accessors_may_be_interleaved_sparse_and_normalized"]),
     },
     Mutant {
         name: "stl-joins-nothing",
         file: STL,
         find: "vertices[number] = vertices[first];",
         replace: "vertices[number] = first as u32;",
-        caught_by: suite("mesh_stl", &["corners_are_one_vertex_where_all_their_bits_are_the_same"]),
+        caught_by: mesh_suite("mesh_stl", &["corners_are_one_vertex_where_all_their_bits_are_the_same"]),
     },
     Mutant {
         name: "stl-text-for-binary",
         file: STL,
         find: " && !text.iter().take(LOOKED_AT).any(|&byte| byte == 0)",
         replace: "",
-        caught_by: suite("mesh_stl", &["binary_files_may_start_with_solid"]),
+        caught_by: mesh_suite("mesh_stl", &["binary_files_may_start_with_solid"]),
     },
     Mutant {
         name: "barycentre-by-the-triangles",
         file: MESH,
         find: "for position in &self.positions {",
         replace: "for position in self.triangles.as_flattened().iter().map(|&k| &self.positions[k as usize]) {",
-        caught_by: suite("mesh_obj", &["the_barycentre_is_the_mean_of_all_vertices"]),
+        caught_by: mesh_suite("mesh_obj", &["the_barycentre_is_the_mean_of_all_vertices"]),
     },
     Mutant {
         name: "vertex-normals-without-angles",
         file: NORMALS,
         find: "sum[axis] += angle * normal[axis];",
         replace: "sum[axis] += normal[axis] + 0.0 * angle;",
-        caught_by: units(&["mesh::normals"]),
+        caught_by: mesh_units(&["normals"]),
     },
     Mutant {
         name: "quadrilateral-along-the-worse-diagonal",
         file: POLYGON,
         find: "let halves = if first >= second",
         replace: "let halves = if first < second",
-        caught_by: units(&["mesh::polygon"]),
+        caught_by: mesh_units(&["polygon"]),
     },
     Mutant {
         name: "rotation-by-the-left-hand-rule",
         file: PLACEMENTS,
         find: "+ cross * sin + outer",
         replace: "- cross * sin + outer",
-        caught_by: units(&["mesh::placements", "compile::placing"]),
+        caught_by: mesh_units(&["placements"]),
     },
     Mutant {
         name: "placement-matrix-by-columns",
         file: PLACEMENTS,
         find: "DMat3::from_cols_array(&[a, d, g, b, e, h, c, f, i])",
         replace: "DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i])",
-        caught_by: units(&["mesh::placements"]),
+        caught_by: mesh_units(&["placements"]),
     },
     Mutant {
         name: "mtl-transparency-for-opacity",
         file: MTL,
         find: "self.opacity = Some(1.0 - parse_number(cursor)?)",
         replace: "self.opacity = Some(parse_number(cursor)?)",
-        caught_by: suite("mesh_load", &["materials_of_mtl_become_ours"]),
+        caught_by: mesh_suite("mesh_load", &["materials_of_mtl_become_ours"]),
     },
     Mutant {
         name: "srgb-left-out",
         file: SRGB,
         find: "if code <= 0.04045 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) }",
         replace: "code",
-        caught_by: units(&["texture::srgb"]),
+        caught_by: kernel_units(&["srgb"]),
     },
     Mutant {
         name: "texture-blue-for-red",
@@ -133,6 +170,6 @@ pub const MUTANTS: &[Mutant] = &[
         file: SRGB,
         find: "linear(f64::from(value) / 65535.0)",
         replace: "linear(f64::from(value) / 65536.0)",
-        caught_by: units(&["texture::srgb"]),
+        caught_by: kernel_units(&["srgb"]),
     },
 ];

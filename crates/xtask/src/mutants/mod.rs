@@ -29,18 +29,43 @@ pub struct Mutant {
     pub caught_by: Tests,
 }
 
+/// A test program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Program {
+    /// The folder of its crate below `crates`.
+    pub folder: &'static str,
+    /// The name of the package.
+    pub package: &'static str,
+    /// `None`: the crate's unit tests; else a program in its `tests`.
+    pub name: Option<&'static str>,
+}
+
+impl Program {
+    const fn of_core(name: Option<&'static str>) -> Program {
+        Program { folder: "tracer-core", package: "tracer-core", name }
+    }
+
+    const fn of_kernels(name: Option<&'static str>) -> Program {
+        Program { folder: "kernels", package: "tracer-kernels", name }
+    }
+
+    const fn of_mesh(name: Option<&'static str>) -> Program {
+        Program { folder: "mesh", package: "tracer-mesh", name }
+    }
+}
+
 /// Tests of one test program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Tests {
-    /// `None`: the unit tests of `tracer-core`; else the name of one of its test programs.
-    pub program: Option<&'static str>,
+    /// The program.
+    pub program: Program,
     /// What the names of the tests contain; all of the program's when empty.
     pub filters: &'static [&'static str],
 }
 
 /// Unit tests of `tracer-core`.
 const fn units(filters: &'static [&'static str]) -> Tests {
-    Tests { program: None, filters }
+    Tests { program: Program::of_core(None), filters }
 }
 
 /// Tests of `tests/proofs`.
@@ -48,9 +73,24 @@ const fn proofs(filters: &'static [&'static str]) -> Tests {
     suite("proofs", filters)
 }
 
-/// Tests of another program in `tests`.
+/// Tests of another program in `tests` of `tracer-core`.
 const fn suite(program: &'static str, filters: &'static [&'static str]) -> Tests {
-    Tests { program: Some(program), filters }
+    Tests { program: Program::of_core(Some(program)), filters }
+}
+
+/// Unit tests of `tracer-kernels`.
+const fn kernel_units(filters: &'static [&'static str]) -> Tests {
+    Tests { program: Program::of_kernels(None), filters }
+}
+
+/// Unit tests of `tracer-mesh`.
+const fn mesh_units(filters: &'static [&'static str]) -> Tests {
+    Tests { program: Program::of_mesh(None), filters }
+}
+
+/// Tests of a program in `tests` of `tracer-mesh`.
+const fn mesh_suite(program: &'static str, filters: &'static [&'static str]) -> Tests {
+    Tests { program: Program::of_mesh(Some(program)), filters }
 }
 
 /// All faults.
@@ -104,6 +144,6 @@ mod tests {
 
     #[test]
     fn goldens_are_not_among_the_tests() {
-        assert!(all().all(|m| m.caught_by.program != Some("goldens")));
+        assert!(all().all(|m| m.caught_by.program.name != Some("goldens")));
     }
 }

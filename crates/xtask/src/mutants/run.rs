@@ -1,6 +1,6 @@
 //! Seeds the faults one at a time in a copy of the tree and runs the tests that must notice.
 
-use super::{Mutant, Tests, all};
+use super::{Mutant, Program, Tests, all};
 use anyhow::{Context as _, bail, ensure};
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -29,7 +29,7 @@ pub fn run(root: &Path, options: &Options) -> anyhow::Result<()> {
     for (program, filters) in programs(&chosen) {
         let tests = copy.build(program)?.context("the tests do not compile without any fault")?;
         // Many tests at once: they may take their time.
-        match copy.test(&tests, &filters, 10 * limit)? {
+        match copy.test(program, &tests, &filters, 10 * limit)? {
             Outcome::Passed => {}
             outcome => bail!("the tests of {} fail without any fault: {outcome:?}", name_of(program)),
         }
@@ -66,8 +66,8 @@ fn choose(names: &[String]) -> anyhow::Result<Vec<&'static Mutant>> {
 }
 
 /// The test programs of these faults, each with all filters: `None` stands for all of its tests.
-fn programs(mutants: &[&Mutant]) -> BTreeMap<Option<&'static str>, Vec<&'static str>> {
-    let mut programs: BTreeMap<Option<&'static str>, Option<Vec<&'static str>>> = BTreeMap::new();
+fn programs(mutants: &[&Mutant]) -> BTreeMap<Program, Vec<&'static str>> {
+    let mut programs: BTreeMap<Program, Option<Vec<&'static str>>> = BTreeMap::new();
     for Tests { program, filters } in mutants.iter().map(|m| m.caught_by) {
         let entry = programs.entry(program).or_insert_with(|| Some(Vec::new()));
         match entry {
@@ -78,8 +78,8 @@ fn programs(mutants: &[&Mutant]) -> BTreeMap<Option<&'static str>, Vec<&'static 
     programs.into_iter().map(|(program, filters)| (program, filters.unwrap_or_default())).collect()
 }
 
-fn name_of(program: Option<&'static str>) -> &'static str {
-    program.unwrap_or("the unit tests")
+fn name_of(Program { package, name, .. }: Program) -> String {
+    format!("{package}, {}", name.unwrap_or("the unit tests"))
 }
 
 /// What came of tests.
@@ -150,13 +150,13 @@ impl Copy {
     }
 
     /// Builds a test program; `None` where it does not compile.
-    fn build(&self, program: Option<&str>) -> anyhow::Result<Option<PathBuf>> {
+    fn build(&self, program: Program) -> anyhow::Result<Option<PathBuf>> {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(&self.tree).env("CARGO_TARGET_DIR", &self.build).env("CARGO_INCREMENTAL", "1");
         // Debug information takes time, and nobody looks at it.
         cargo.args(["--config", "profile.dev.package.tracer-core.debug=0"]);
-        cargo.args(["test", "--quiet", "--locked", "--no-run", "--message-format=json", "-p", "tracer-core"]);
-        match program {
+        cargo.args(["test", "--quiet", "--locked", "--no-run", "--message-format=json", "-p", program.package]);
+        match program.name {
             Some(name) => cargo.args(["--test", name]),
             None => cargo.arg("--lib"),
         };
@@ -172,13 +172,13 @@ impl Copy {
     }
 
     /// Runs the tests whose names contain one of the filters.
-    fn test(&self, program: &Path, filters: &[&str], limit: Duration) -> anyhow::Result<Outcome> {
+    fn test(&self, of: Program, program: &Path, filters: &[&str], limit: Duration) -> anyhow::Result<Outcome> {
         // To a file: nobody reads a pipe before the end.
         let log = self.build.join("tests.log");
         let file = std::fs::File::create(&log).with_context(|| format!("cannot write {}", log.display()))?;
         let mut child = Command::new(program)
             .args(filters)
-            .current_dir(self.tree.join("crates/tracer-core"))
+            .current_dir(self.tree.join("crates").join(of.folder))
             .stdout(file)
             .stderr(Stdio::null())
             .spawn()
@@ -217,7 +217,7 @@ impl Copy {
         std::fs::write(&path, wrong)?;
         let built = self.build(mutant.caught_by.program);
         let outcome = match &built {
-            Ok(Some(program)) => self.test(program, mutant.caught_by.filters, limit),
+            Ok(Some(program)) => self.test(mutant.caught_by.program, program, mutant.caught_by.filters, limit),
             Ok(None) => Err(anyhow::anyhow!("does not compile")),
             Err(_) => Ok(Outcome::Passed),
         };

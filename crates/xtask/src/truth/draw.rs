@@ -182,11 +182,7 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
         2 => ("cube", Shape::block([-1.0; 3], [1.0; 3])),
         _ => ("ball", Shape { normals: Vec::new(), ..Shape::ball(1) }),
     };
-    let file = if once_in(random, 3) {
-        world.file(name, "off", shape.off().into_bytes())
-    } else {
-        world.file(name, "obj", shape.obj().into_bytes())
-    };
+    let form = random.below(4);
     let size = 0.7 * radius;
     let factor = if once_in(random, 4) { [size, 0.6 * size, -size] } else { [size; 3] };
     let steps = vec![
@@ -194,6 +190,13 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
         Transform::Rotate { axis: random.direction().to_array(), degrees: random.between(0.0, 360.0), about: None },
         Transform::Translate(center),
     ];
+    if form == 0 {
+        return world.written_out(&shape, material, steps);
+    }
+    let file = match form {
+        1 => world.file(name, "off", shape.off().into_bytes()),
+        _ => world.file(name, "obj", shape.obj().into_bytes()),
+    };
     world.placed(file, material, steps);
 }
 

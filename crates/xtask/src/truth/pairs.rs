@@ -171,7 +171,9 @@ fn mirrors(pairs: &mut Vec<Pair>) {
 
 fn is_mesh(object: &scene_format::desc::Object, name: &str) -> bool {
     match object {
-        scene_format::desc::Object::Mesh(mesh) => mesh.file.value.to_string_lossy().starts_with(name),
+        scene_format::desc::Object::Mesh(mesh) => {
+            mesh.file().is_some_and(|file| file.value.to_string_lossy().starts_with(name))
+        }
         _ => false,
     }
 }

@@ -96,7 +96,7 @@ fn mirrored_light(light: &Light) -> Light {
 fn unfolded(world: &World) -> World {
     let mut other = world.clone();
     let is_mirror = |object: &Object| match object {
-        Object::Mesh(mesh) => mesh.file.value.to_string_lossy().starts_with(PLANE_MIRROR),
+        Object::Mesh(mesh) => mesh.file().is_some_and(|file| file.value.to_string_lossy().starts_with(PLANE_MIRROR)),
         _ => false,
     };
     other.desc.objects.retain(|object| !is_mirror(&object.value));

@@ -3,13 +3,14 @@
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Emission, Image, Instances, Light, Material, MaterialRef, Mesh, Mirror, Object,
-    Placements, Shading, Sphere, SphereLight, Transform, Transparent,
+    Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, Material, MaterialRef,
+    Mesh, MeshSource, Mirror, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scene and the files that it names.
 #[derive(Clone, Debug)]
@@ -58,8 +59,20 @@ impl World {
 
     /// Adds a mesh from one of the files.
     pub fn placed(&mut self, file: PathBuf, material: Material, transform: Vec<Transform>) {
+        self.place(MeshSource::File(file.into()), material, transform);
+    }
+
+    /// Adds a mesh that the scene writes out, without normals and texture coordinates.
+    pub fn written_out(&mut self, shape: &Shape, material: Material, transform: Vec<Transform>) {
+        let mut faces = Faces::default();
+        shape.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
+        let mesh = InlineMesh { points: shape.positions.clone(), faces };
+        self.place(MeshSource::Inline(Arc::new(mesh.into())), material, transform);
+    }
+
+    fn place(&mut self, source: MeshSource, material: Material, transform: Vec<Transform>) {
         let mesh = Mesh {
-            file: file.into(),
+            source,
             material: inline(material),
             transform: transform.into_iter().map(Spanned::from).collect(),
             placements: Placements::One,

@@ -227,7 +227,7 @@ fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)
             found
         })
         .collect();
-    pairs.sort_unstable_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    pairs.sort_unstable_by_key(|a| (a.0, a.1));
     pairs
 }
 

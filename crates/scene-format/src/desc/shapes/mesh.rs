@@ -1,19 +1,66 @@
-//! Triangle meshes from files.
+//! Triangle meshes, from files or written out.
 
 use super::Placements;
+use super::inline_mesh::{InlineMesh, Points, Written, WrittenFaces};
+use crate::codes;
 use crate::desc::{MaterialRef, Transform};
-use crate::diagnostic::Spanned;
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
-use crate::schema::Rule;
-use crate::words::{scene_struct, scene_words};
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::Item;
+use crate::words::{Words, scene_struct, scene_words};
 use std::path::Path;
 use std::sync::Arc;
 
+/// A triangle mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Its triangles.
+    pub source: MeshSource,
+    /// Its material.
+    pub material: MaterialRef,
+    /// Transforms, applied first to last.
+    pub transform: Vec<Spanned<Transform>>,
+    /// Copies.
+    pub placements: Placements,
+    /// Whether copies share one tree of triangles.
+    pub instances: Instances,
+    /// Whether normals are interpolated.
+    pub shading: Shading,
+}
+
+/// Where the triangles of a mesh come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshSource {
+    /// A file, relative to the scene file.
+    File(Spanned<Arc<Path>>),
+    /// The scene itself; the place is that of its points.
+    Inline(Arc<Spanned<InlineMesh>>),
+}
+
+impl Mesh {
+    /// The file that it comes from, if it does.
+    pub fn file(&self) -> Option<&Spanned<Arc<Path>>> {
+        match &self.source {
+            MeshSource::File(file) => Some(file),
+            MeshSource::Inline(_) => None,
+        }
+    }
+}
+
 scene_struct! {
-    /// A triangle mesh.
-    pub struct Mesh as "Mesh", "a mesh" {
-        /// OBJ, OFF, PLY or STL file, relative to the scene file.
-        file: Spanned<Arc<Path>> => Rule::file(FileKind::Mesh);
+    /// A triangle mesh, from a file or written out as `points` and `faces`.
+    pub(crate) struct MeshWords as "Mesh", "a mesh", exactly one of [file, points] {
+        /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes
+        /// place them; its materials, vertex colours, lights, cameras, skins, morph targets and animations are not.
+        file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
+        /// Instead of a file: the points of the mesh, three or more.
+        points: Points = Points::default() => Rule::point();
+        /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than
+        /// three corners are cut into triangles, also where they are not convex.
+        faces: WrittenFaces = WrittenFaces::default();
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
@@ -25,6 +72,80 @@ scene_struct! {
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.
         shading: Shading = Shading::Auto;
+    }
+}
+
+/// What `file` holds; nothing where it is not written.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct WrittenFile(Option<Spanned<Arc<Path>>>);
+
+impl Words for WrittenFile {
+    const TYPE: Type = Type::File;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| WrittenFile(Some(file)))
+    }
+
+    fn form(&self, all: bool) -> Form {
+        self.0.as_ref().map_or(Form::Absent, |file| file.form(all))
+    }
+}
+
+impl Words for Mesh {
+    const TYPE: Type = MeshWords::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.points = None;
+        let MeshWords { file, points, faces, material, transform, placements, instances, shading } =
+            MeshWords::read(reader, item, at)?;
+        let source = match (file.0, points.0, faces.0) {
+            (Some(file), Written::Not, Written::Not) => MeshSource::File(file),
+            (Some(_), Written::Not, Written::As(faces)) => {
+                let message = "a mesh has both `file` and `faces`";
+                reader.report(
+                    Diagnostic::error(codes::EXACTLY_ONE, faces.span, message)
+                        .expected("either `file`, or `points` and `faces`"),
+                );
+                return None;
+            }
+            (None, Written::As(points), Written::As(faces)) => {
+                let span = points.span;
+                let value = InlineMesh { points: points.value, faces: faces.value };
+                MeshSource::Inline(Arc::new(Spanned { value, span }))
+            }
+            (None, Written::As(points), Written::Not) => {
+                reader.report(
+                    Diagnostic::error(codes::MISSING_FIELD, points.span, "a mesh of points needs the field `faces`")
+                        .expected("faces, each the numbers of three or more points: [[0, 1, 2]]"),
+                );
+                return None;
+            }
+            // None was written, two were, or one is wrong: reported.
+            _ => return None,
+        };
+        Some(Mesh { source, material, transform, placements, instances, shading })
+    }
+
+    fn form(&self, all: bool) -> Form {
+        let (file, points, faces) = match &self.source {
+            MeshSource::File(file) => (WrittenFile(Some(file.clone())), Points::default(), WrittenFaces::default()),
+            MeshSource::Inline(mesh) => (
+                WrittenFile::default(),
+                Points(Written::As(mesh.value.points.clone().into())),
+                WrittenFaces(Written::As(mesh.value.faces.clone().into())),
+            ),
+        };
+        let words = MeshWords {
+            file,
+            points,
+            faces,
+            material: self.material.clone(),
+            transform: self.transform.clone(),
+            placements: self.placements.clone(),
+            instances: self.instances,
+            shading: self.shading,
+        };
+        words.form(all)
     }
 }
 

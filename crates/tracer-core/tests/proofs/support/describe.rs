@@ -3,8 +3,8 @@
 use scene_format::SceneDesc;
 use scene_format::desc::{
     Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef,
-    Mesh, Mirror, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter,
-    TextureWrap, ThinLens, Transform, Transparent, Vec3,
+    Mesh, MeshSource, Mirror, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
+    TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
@@ -83,7 +83,7 @@ pub fn placed(
     placements: Placements,
 ) -> Object {
     Object::Mesh(Mesh {
-        file: file.to_owned().into(),
+        source: MeshSource::File(file.to_owned().into()),
         material: inline(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements,

@@ -1,8 +1,10 @@
 //! Meshes and pictures made on the spot, written to files as a person would have them.
 
+use scene_format::desc::{Faces, InlineMesh, MeshSource};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A triangle mesh, counter-clockwise from outside.
 #[derive(Clone, Debug, Default)]
@@ -100,6 +102,70 @@ impl Mesh {
         }
         text += "endsolid\n";
         write(&format!("{name}.stl"), text.as_bytes())
+    }
+
+    /// As a glTF container with what the mesh has. The format has single precision: see [`Mesh::in_single_precision`].
+    pub fn glb(&self, name: &str) -> PathBuf {
+        let floats =
+            |rows: &mut dyn Iterator<Item = f64>| rows.flat_map(|x| (x as f32).to_le_bytes()).collect::<Vec<u8>>();
+        let down = self.uvs.iter().flat_map(|&[u, v]| [u, 1.0 - v]);
+        let corners = self.triangles.as_flattened().iter();
+        let parts = [
+            ("\"POSITION\"", 5126, "VEC3", 12, floats(&mut self.positions.iter().flatten().copied())),
+            ("\"NORMAL\"", 5126, "VEC3", 12, floats(&mut self.normals.iter().flatten().copied())),
+            ("\"TEXCOORD_0\"", 5126, "VEC2", 8, floats(&mut down.into_iter())),
+            ("", 5125, "SCALAR", 4, corners.flat_map(|&corner| (corner as u32).to_le_bytes()).collect()),
+        ];
+        let (mut attributes, mut accessors, mut views, mut binary) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for (word, component, kind, size, bytes) in parts.into_iter().filter(|part| !part.4.is_empty()) {
+            let (number, count) = (views.len(), bytes.len() / size);
+            if !word.is_empty() {
+                attributes.push(format!("{word}:{number}"));
+            }
+            accessors.push(format!(
+                "{{\"bufferView\":{number},\"componentType\":{component},\"type\":\"{kind}\",\"count\":{count}}}"
+            ));
+            let (at, length) = (binary.len(), bytes.len());
+            views.push(format!("{{\"buffer\":0,\"byteOffset\":{at},\"byteLength\":{length}}}"));
+            binary.extend(bytes);
+        }
+        let mut json = format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0}}],\"meshes\":\
+             [{{\"primitives\":[{{\"attributes\":{{{}}},\"indices\":{}}}]}}],\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":\
+             [{{\"byteLength\":{}}}]}}",
+            attributes.join(","),
+            attributes.len(),
+            accessors.join(","),
+            views.join(","),
+            binary.len()
+        );
+        json.extend(std::iter::repeat_n(' ', json.len().next_multiple_of(4) - json.len()));
+        let length = 28 + json.len() + binary.len();
+        let mut bytes = [&b"glTF\x02\0\0\0"[..], &(length as u32).to_le_bytes()].concat();
+        for (kind, content) in [(b"JSON", json.as_bytes()), (b"BIN\0", &binary)] {
+            bytes.extend((content.len() as u32).to_le_bytes());
+            bytes.extend(kind);
+            bytes.extend(content);
+        }
+        write(&format!("{name}.glb"), &bytes)
+    }
+
+    /// With numbers that single precision holds, 1 - v among them.
+    pub fn in_single_precision(&self) -> Mesh {
+        let round = |p: &[f64; 3]| p.map(|x| f64::from(x as f32));
+        Mesh {
+            positions: self.positions.iter().map(round).collect(),
+            normals: self.normals.iter().map(round).collect(),
+            uvs: self.uvs.iter().map(|uv| uv.map(|t| (t * 4096.0).round() / 4096.0)).collect(),
+            triangles: self.triangles.clone(),
+        }
+    }
+
+    /// As a scene writes it out: places and triangles.
+    pub fn written_out(&self) -> MeshSource {
+        let mut faces = Faces::default();
+        self.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
+        MeshSource::Inline(Arc::new(InlineMesh { points: self.positions.clone(), faces }.into()))
     }
 
     /// With its vertices in the order in which the triangles name them, without those that none names.

@@ -1,0 +1,196 @@
+//! glTF 2.0 (Khronos, "glTF 2.0 Specification", 2021), as text (`.gltf`) and in its binary container (`.glb`): the triangles of the
+//! default scene, in the frame of the scene.
+//!
+//! - The default scene; without one the first, without scenes all nodes that are nobody's children, without nodes all meshes. Nodes with
+//!   `matrix` or translation, rotation and scale; a mirrored node's triangles are wound the other way, as the specification asks.
+//! - Triangles, strips and fans; `POSITION`, `NORMAL`, `TEXCOORD_0` (its v runs downwards, ours upwards), indices; accessors of all types,
+//!   interleaved, sparse, normalized. Buffers: of the container, `data:` URIs, files beside the mesh.
+//! - The required extension that is known is `KHR_mesh_quantization`; those of materials, textures and lights are passed over. Another is an
+//!   error `E0513`.
+//! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`, materials in `W0511`: the mesh has the
+//!   default.
+//!
+//! A few bytes of a file may say that a mesh stands in a million places, or a million zeros: what all of it takes is at most
+//! 256 MB more than nine times the file with its buffers.
+
+mod accessor;
+mod document;
+mod walk;
+
+use super::builder::Builder;
+use super::cursor::{Fault, shown};
+use super::data::MeshData;
+use super::error::MeshError;
+use super::oddities::Oddity;
+use accessor::Buffers;
+use document::{Document, EXPECTED};
+use scene_format::Diagnostic;
+use scene_format::codes;
+use scene_format::diagnostic::Span;
+use std::collections::BTreeSet;
+use std::path::Path;
+use walk::Walk;
+
+/// The required extension that is read.
+const KNOWN: &str = "KHR_mesh_quantization";
+
+/// How the names of extensions begin that say nothing of triangles.
+const OF_LOOKS: [&str; 5] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"];
+
+/// How many names a warning shows.
+const NAMES: usize = 8;
+
+/// Reads a glTF file; its content tells which of the two forms it has.
+pub(super) fn read(bytes: &[u8], path: &Path) -> Result<MeshData, MeshError> {
+    let is_container = bytes.starts_with(b"glTF");
+    let parts = if is_container {
+        Parts::of_container(bytes).map_err(|fault| MeshError::at_byte(path, *fault))?
+    } else {
+        Parts { json: bytes, json_at: 0, binary: None, trailing: 0 }
+    };
+    let told = |mut fault: Box<Fault>| {
+        if is_container {
+            fault.at += parts.json_at;
+            MeshError::at_byte(path, *fault)
+        } else {
+            MeshError::at_line(path, parts.json, *fault)
+        }
+    };
+    let text = std::str::from_utf8(parts.json)
+        .map_err(|error| told(Fault::new(error.valid_up_to(), "the text is not UTF-8", EXPECTED)))?;
+    let document = Document::parse(text).map_err(told)?;
+    if let Some(name) = document.required.iter().find(|name| **name != KNOWN && !is_of_looks(name)) {
+        return Err(MeshError::Extension { path: path.to_owned(), name: plain(name) });
+    }
+    let mut builder = Builder::default();
+    builder.oddities.add_many(Oddity::TrailingByte, parts.trailing);
+    let mut buffers = Buffers::new(&document, path, parts.binary, bytes.len() as u64);
+    let mut walk = Walk::new(&document, &mut builder, &mut buffers);
+    walk.all().map_err(told)?;
+    let walk::Found { meshes, morphs, materials, uvs } = walk.found;
+    let libraries = buffers.files();
+    builder.mesh.uv_triangles = uvs;
+    let found = format!("the scene of the file has {meshes} {}", if meshes == 1 { "mesh" } else { "meshes" });
+    let mut mesh = builder.finish(path, &found)?;
+    mesh.libraries = libraries;
+    mesh.warnings.extend(of_materials(&document, &materials, path));
+    mesh.warnings.extend(of_the_rest(&document, morphs, path));
+    Ok(mesh)
+}
+
+fn is_of_looks(name: &str) -> bool {
+    OF_LOOKS.iter().any(|start| name.starts_with(start))
+}
+
+/// A name of sensible length.
+fn plain(name: &str) -> String {
+    shown(name.as_bytes()).trim_matches('`').to_owned()
+}
+
+/// The parts of a container.
+struct Parts<'a> {
+    json: &'a [u8],
+    /// Where in the file it starts.
+    json_at: usize,
+    binary: Option<&'a [u8]>,
+    /// Bytes after its end.
+    trailing: u64,
+}
+
+/// Four bytes of a binary file as a number.
+fn number(bytes: &[u8], at: usize) -> Option<u32> {
+    bytes.get(at..)?.first_chunk().map(|four| u32::from_le_bytes(*four))
+}
+
+impl<'a> Parts<'a> {
+    /// Of a file that starts with `glTF`: version and length, then chunks, each with its length, its kind and its bytes.
+    fn of_container(bytes: &'a [u8]) -> Result<Parts<'a>, Box<Fault>> {
+        const HEADER: usize = 12;
+        const CHUNK: usize = 8;
+        const JSON: u32 = 0x4e4f_534a;
+        const BINARY: u32 = 0x004e_4942;
+        const WHOLE: &str = "a whole GLB file: a header of 12 bytes, a chunk of JSON, and one of binary data";
+        let (Some(version), Some(length)) = (number(bytes, 4), number(bytes, 8)) else {
+            return Err(Fault::new(bytes.len(), "the file ends within its header", WHOLE));
+        };
+        if version != 2 {
+            return Err(Fault::new(4, format!("version {version} of the container cannot be read"), EXPECTED));
+        }
+        let Some(file) = bytes.get(..length as usize) else {
+            let message = format!("the header promises {length} bytes, but the file has {}", bytes.len());
+            return Err(Fault::new(8, message, WHOLE));
+        };
+        let chunk = |at: usize| -> Result<(u32, &'a [u8]), Box<Fault>> {
+            let (Some(length), Some(kind)) = (number(file, at), number(file, at + 4)) else {
+                return Err(Fault::new(at, "a chunk is missing, or ends within its header", WHOLE));
+            };
+            match file.get(at + CHUNK..).and_then(|rest| rest.get(..length as usize)) {
+                Some(content) => Ok((kind, content)),
+                None => Err(Fault::new(at, format!("a chunk of {length} bytes goes beyond the end"), WHOLE)),
+            }
+        };
+        let (kind, json) = chunk(HEADER)?;
+        if kind != JSON {
+            return Err(Fault::new(HEADER + 4, "the first chunk is not JSON", WHOLE));
+        }
+        let mut at = HEADER + CHUNK + json.len();
+        let mut binary = None;
+        // Chunks of other kinds are stepped over, as the specification asks.
+        while binary.is_none() && at < file.len() {
+            let (kind, content) = chunk(at)?;
+            at += CHUNK + content.len();
+            binary = (kind == BINARY).then_some(content);
+        }
+        let trailing = (bytes.len() - file.len()) as u64;
+        Ok(Parts { json, json_at: HEADER + CHUNK, binary, trailing })
+    }
+}
+
+/// The first of some names, for a warning.
+fn some<'n>(names: impl ExactSizeIterator<Item = &'n str>) -> String {
+    let more = if names.len() > NAMES { ", .." } else { "" };
+    let names: Vec<String> = names.take(NAMES).map(|name| shown(name.as_bytes())).collect();
+    format!("{}{more}", names.join(", "))
+}
+
+/// `W0511`: the file's own materials are not taken.
+fn of_materials(document: &Document<'_>, used: &BTreeSet<u32>, path: &Path) -> Option<Diagnostic> {
+    let names: Vec<String> = used.iter().take(NAMES + 1).map(|&material| document.name_of_material(material)).collect();
+    (!names.is_empty()).then(|| {
+        let names = some(names.iter().map(String::as_str));
+        let message = format!("the mesh's own materials are not taken (the default is): {names}");
+        Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
+            .hint("give the object a `material`")
+            .at_line(path, 0)
+    })
+}
+
+/// `W0512`: what else is not taken.
+fn of_the_rest(document: &Document<'_>, morphs: u64, path: &Path) -> Option<Diagnostic> {
+    let counted = |count: u64, one: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        count => Some(format!("{count} {one}s")),
+    };
+    let mut parts: Vec<String> = [
+        counted(document.skins as u64, "skin"),
+        counted(morphs, "morphed primitive"),
+        counted(document.animations as u64, "animation"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let others: Vec<&str> =
+        document.used.iter().map(String::as_str).filter(|name| *name != KNOWN && !is_of_looks(name)).collect();
+    if !others.is_empty() {
+        let word = if others.len() == 1 { "extension" } else { "extensions" };
+        parts.push(format!("{word} {}", some(others.iter().copied())));
+    }
+    (!parts.is_empty()).then(|| {
+        let message = format!("the mesh is taken without some of its file: {}", parts.join(", "));
+        Diagnostic::warning(codes::GLTF_UNSUPPORTED, Span::NONE, message)
+            .expected("triangles that stand still: meshes on nodes")
+            .hint("in the program that made it, apply them before export")
+            .at_line(path, 0)
+    })
+}

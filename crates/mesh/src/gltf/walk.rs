@@ -1,0 +1,414 @@
+//! From the nodes of the default scene to triangles.
+
+use super::accessor::{Buffers, Values};
+use super::document::{Document, Element, List};
+use crate::builder::{Builder, MOST_VERTICES, coordinate};
+use crate::cursor::Fault;
+use crate::data::NO_INDEX;
+use crate::oddities::Oddity;
+use glam::{DAffine3, DMat3, DQuat, DVec3, DVec4};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::value::RawValue;
+use std::collections::{BTreeMap, BTreeSet};
+
+#[derive(Deserialize)]
+struct Scene {
+    #[serde(default)]
+    nodes: Vec<u32>,
+}
+
+#[derive(Deserialize)]
+struct Node {
+    mesh: Option<u32>,
+    #[serde(default)]
+    children: Vec<u32>,
+    matrix: Option<[f64; 16]>,
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+struct Children {
+    #[serde(default)]
+    children: Vec<u32>,
+}
+
+#[derive(Deserialize)]
+struct Mesh<'a> {
+    #[serde(borrow, default)]
+    primitives: Vec<&'a RawValue>,
+}
+
+#[derive(Deserialize)]
+struct Primitive {
+    attributes: Attributes,
+    indices: Option<u32>,
+    material: Option<u32>,
+    mode: Option<u32>,
+    #[serde(default)]
+    targets: Vec<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+struct Attributes {
+    #[serde(rename = "POSITION")]
+    position: Option<u32>,
+    #[serde(rename = "NORMAL")]
+    normal: Option<u32>,
+    #[serde(rename = "TEXCOORD_0")]
+    uv: Option<u32>,
+    #[serde(rename = "COLOR_0")]
+    color: Option<IgnoredAny>,
+}
+
+/// What was found besides triangles.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Meshes on the nodes of the scene.
+    pub(super) meshes: u64,
+    /// Primitives with morph targets.
+    pub(super) morphs: u64,
+    /// Materials of triangles.
+    pub(super) materials: BTreeSet<u32>,
+    /// Texture coordinates of triangles, where some have none.
+    pub(super) uvs: Option<Vec<[u32; 3]>>,
+}
+
+/// Triangles in a row that have texture coordinates, or have none.
+struct Stretch {
+    end: usize,
+    uv: bool,
+}
+
+/// Nodes of one parent that are still to be visited.
+struct Siblings {
+    nodes: std::vec::IntoIter<u32>,
+    /// From the parent to the scene.
+    parent: DAffine3,
+    /// Where the parent stands, which names them.
+    named_at: usize,
+}
+
+impl Siblings {
+    fn new(nodes: Vec<u32>, parent: DAffine3, named_at: usize) -> Siblings {
+        Siblings { nodes: nodes.into_iter(), parent, named_at }
+    }
+}
+
+/// Vertices of one primitive or of several that share them.
+#[derive(Clone, Copy)]
+struct Vertices {
+    first: u32,
+    count: u32,
+}
+
+/// A place in the tree of nodes.
+#[derive(Clone, Copy)]
+struct Placed {
+    map: DAffine3,
+    /// Of normals: the inverse transposed, times a positive number.
+    normals: DMat3,
+    mirrored: bool,
+}
+
+impl Placed {
+    fn new(map: DAffine3) -> Placed {
+        // Brought to a size of one: products of three columns must stay numbers.
+        let m = map.matrix3;
+        let largest = m.to_cols_array().iter().fold(0.0_f64, |largest, part| largest.max(part.abs()));
+        let m = if largest > 0.0 { m * (1.0 / largest) } else { m };
+        let mirrored = m.determinant() < 0.0;
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        let cofactors = [(m.y_axis, m.z_axis), (m.z_axis, m.x_axis), (m.x_axis, m.y_axis)];
+        let [x, y, z] = cofactors.map(|(a, b)| a.cross(b) * sign);
+        Placed { map, normals: DMat3::from_cols(x, y, z), mirrored }
+    }
+}
+
+/// The walk over the nodes.
+pub(super) struct Walk<'w, 'a> {
+    document: &'a Document<'a>,
+    builder: &'w mut Builder,
+    buffers: &'w mut Buffers<'a>,
+    stretches: Vec<Stretch>,
+    pub(super) found: Found,
+}
+
+impl<'w, 'a> Walk<'w, 'a> {
+    pub(super) fn new(document: &'a Document<'a>, builder: &'w mut Builder, buffers: &'w mut Buffers<'a>) -> Self {
+        Walk { document, builder, buffers, stretches: Vec::new(), found: Found::default() }
+    }
+
+    /// Brings all meshes of the default scene.
+    pub(super) fn all(&mut self) -> Result<(), Box<Fault>> {
+        let mut visited = vec![false; self.document.count(List::Nodes)];
+        let mut open: Vec<Siblings> = Vec::new();
+        match (self.document.scene(), self.document.count(List::Scenes)) {
+            (None, 0) if visited.is_empty() => {
+                for mesh in 0..self.document.count(List::Meshes) as u32 {
+                    self.mesh(mesh, 0, DAffine3::IDENTITY)?;
+                }
+            }
+            (None, 0) => open.push(Siblings::new(self.roots()?, DAffine3::IDENTITY, 0)),
+            (scene, _) => {
+                let Element { value, at } =
+                    self.document.element::<Scene>(List::Scenes, scene.unwrap_or_default(), 0)?;
+                open.push(Siblings::new(value.nodes, DAffine3::IDENTITY, at));
+            }
+        }
+        while let Some(Siblings { nodes, parent, named_at }) = open.last_mut() {
+            let (parent, named_at) = (*parent, *named_at);
+            let Some(node) = nodes.next() else {
+                open.pop();
+                continue;
+            };
+            let Element { value, at } = self.document.element::<Node>(List::Nodes, node, named_at)?;
+            match visited.get_mut(node as usize) {
+                Some(visited) if !*visited => *visited = true,
+                _ => {
+                    let message = format!("{} is met twice on the way down from the scene", List::Nodes.shown(node));
+                    return Err(Fault::new(named_at, message, "nodes with one parent each, and no circle"));
+                }
+            }
+            let map = parent * map_of(&value, node, at)?;
+            if !map.is_finite() {
+                let message = format!("the matrices down to {} leave the range of numbers", List::Nodes.shown(node));
+                return Err(Fault::new(at, message, "finite numbers"));
+            }
+            if let Some(mesh) = value.mesh {
+                self.mesh(mesh, at, map)?;
+            }
+            open.push(Siblings::new(value.children, map, at));
+        }
+        self.finish_uvs();
+        Ok(())
+    }
+
+    /// The nodes that are nobody's children.
+    fn roots(&self) -> Result<Vec<u32>, Box<Fault>> {
+        let count = self.document.count(List::Nodes) as u32;
+        let mut root = vec![true; count as usize];
+        for node in 0..count {
+            let Element { value: Children { children }, .. } = self.document.element(List::Nodes, node, 0)?;
+            for child in children {
+                if let Some(root) = root.get_mut(child as usize) {
+                    *root = false;
+                }
+            }
+        }
+        Ok((0..).zip(root).filter_map(|(node, root)| root.then_some(node)).collect())
+    }
+
+    fn mesh(&mut self, index: u32, named_at: usize, map: DAffine3) -> Result<(), Box<Fault>> {
+        let Element { value: Mesh { primitives }, at } = self.document.element(List::Meshes, index, named_at)?;
+        self.found.meshes += 1;
+        let placed = Placed::new(map);
+        // Primitives of a mesh often share their vertices.
+        let mut known: BTreeMap<[u32; 3], Vertices> = BTreeMap::new();
+        for (k, raw) in primitives.into_iter().enumerate() {
+            let label = || format!("{}.primitives[{k}]", List::Meshes.shown(index));
+            self.buffers.spend(raw.get().len() as u64, at)?;
+            let Element { value: primitive, at } = self.document.read::<Primitive>(raw, label)?;
+            self.primitive(&primitive, at, &label, &placed, &mut known)?;
+        }
+        Ok(())
+    }
+
+    fn primitive(
+        &mut self,
+        primitive: &Primitive,
+        at: usize,
+        label: &impl Fn() -> String,
+        placed: &Placed,
+        known: &mut BTreeMap<[u32; 3], Vertices>,
+    ) -> Result<(), Box<Fault>> {
+        let attributes = &primitive.attributes;
+        let mode = primitive.mode.unwrap_or(4);
+        if mode > 6 {
+            return Err(Fault::new(at, format!("{} has the mode {mode}", label()), "a mode from 0 to 6"));
+        }
+        if mode < 4 {
+            self.builder.oddities.add(Oddity::OtherPrimitive);
+            return Ok(());
+        }
+        let Some(position) = attributes.position else {
+            self.builder.oddities.add(Oddity::NoPositions);
+            return Ok(());
+        };
+        self.found.morphs += u64::from(!primitive.targets.is_empty());
+        let key = [position, attributes.normal.unwrap_or(NO_INDEX), attributes.uv.unwrap_or(NO_INDEX)];
+        let vertices = match known.get(&key) {
+            Some(&vertices) => vertices,
+            None => {
+                let vertices = self.vertices(position, attributes, at, placed)?;
+                known.insert(key, vertices);
+                vertices
+            }
+        };
+        let first = self.builder.mesh.triangles.len();
+        match primitive.indices {
+            Some(indices) => {
+                let values = self.buffers.values::<1>(indices, at, "indices")?;
+                self.triangles(mode, values.count, at, vertices, placed.mirrored, |k| {
+                    let index = values.index(k);
+                    if index < vertices.count { Ok(index) } else { Err(no_vertex(&values, k, index, vertices.count)) }
+                })?;
+            }
+            None => {
+                self.triangles(mode, vertices.count as usize, at, vertices, placed.mirrored, |k| Ok(k as u32))?;
+            }
+        }
+        let end = self.builder.mesh.triangles.len();
+        if end > first {
+            let count = (end - first) as u64;
+            self.stretches.push(Stretch { end, uv: attributes.uv.is_some() });
+            self.found.materials.extend(primitive.material);
+            if attributes.color.is_some() {
+                self.builder.oddities.add_many(Oddity::VertexColor, u64::from(vertices.count));
+            }
+            if attributes.normal.is_none() {
+                self.builder.without_normals(count);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the vertices of a primitive.
+    fn vertices(
+        &mut self,
+        position: u32,
+        attributes: &Attributes,
+        at: usize,
+        placed: &Placed,
+    ) -> Result<Vertices, Box<Fault>> {
+        // Position, normal, texture coordinates.
+        const BYTES: u64 = 24 + 12 + 8;
+        let positions = self.buffers.values::<3>(position, at, "POSITION")?;
+        let first = self.builder.mesh.positions.len();
+        self.buffers.spend(BYTES * positions.count as u64, at)?;
+        if (first + positions.count) as u64 > MOST_VERTICES {
+            return Err(Fault::new(at, "too many vertices", format!("at most {MOST_VERTICES}")));
+        }
+        self.builder.mesh.positions.reserve(positions.count);
+        for k in 0..positions.count {
+            let point = placed.map.transform_point3(DVec3::from(positions.get(k)?)).to_array();
+            for number in point {
+                coordinate(number, positions.at)?;
+            }
+            self.builder.mesh.positions.push(point);
+        }
+        let same = |count: usize, at: usize, label: &str| match count == positions.count {
+            true => Ok(()),
+            false => {
+                let message = format!("{label} has {count} elements, but {} has {}", positions.label, positions.count);
+                Err(Fault::new(at, message, "as many of each attribute as there are positions"))
+            }
+        };
+        if let Some(normal) = attributes.normal {
+            let normals = self.buffers.values::<3>(normal, at, "NORMAL")?;
+            same(normals.count, normals.at, &normals.label)?;
+            self.builder.lack_normals(first);
+            for k in 0..normals.count {
+                let normal = placed.normals * DVec3::from(normals.get(k)?);
+                self.builder.add_normal(normal.to_array());
+            }
+        }
+        if let Some(uv) = attributes.uv {
+            let uvs = self.buffers.values::<2>(uv, at, "TEXCOORD_0")?;
+            same(uvs.count, uvs.at, &uvs.label)?;
+            self.builder.mesh.uvs.resize(first, [0.0; 2]);
+            for k in 0..uvs.count {
+                let [u, v] = uvs.get(k)?;
+                self.builder.add_uv([u, 1.0 - v], uvs.at)?;
+            }
+        }
+        Ok(Vertices { first: first as u32, count: positions.count as u32 })
+    }
+
+    /// Adds the triangles of so many corners in a row.
+    fn triangles(
+        &mut self,
+        mode: u32,
+        corners: usize,
+        at: usize,
+        vertices: Vertices,
+        mirrored: bool,
+        corner: impl Fn(usize) -> Result<u32, Box<Fault>>,
+    ) -> Result<(), Box<Fault>> {
+        // A triangle and the indices of its normals and texture coordinates.
+        const BYTES: u64 = 3 * 12;
+        let count = if mode == 4 { corners / 3 } else { corners.saturating_sub(2) };
+        self.buffers.spend(BYTES * count as u64, at)?;
+        for k in 0..count {
+            // Section 3.7.2.1 of the specification has the order of strips and fans.
+            let [a, b, c] = match mode {
+                4 => [3 * k, 3 * k + 1, 3 * k + 2],
+                5 => [k, k + 1 + k % 2, k + 2 - k % 2],
+                _ => [k + 1, k + 2, 0],
+            };
+            let [a, b, c] = [corner(a)?, corner(b)?, corner(c)?].map(|index| vertices.first + index);
+            self.builder.add_triangle(if mirrored { [a, c, b] } else { [a, b, c] });
+        }
+        Ok(())
+    }
+
+    /// Where some triangles have texture coordinates and some have none: which each has.
+    fn finish_uvs(&mut self) {
+        if !self.stretches.iter().any(|stretch| stretch.uv) {
+            self.builder.mesh.uvs = Vec::new();
+            return;
+        }
+        let count = self.builder.mesh.positions.len();
+        self.builder.mesh.uvs.resize(count, [0.0; 2]);
+        if self.stretches.iter().all(|stretch| stretch.uv) {
+            return;
+        }
+        let mut uvs = Vec::with_capacity(self.builder.mesh.triangles.len());
+        for Stretch { end, uv } in &self.stretches {
+            let rest = self.builder.mesh.triangles.get(uvs.len()..*end).unwrap_or_default();
+            if *uv {
+                uvs.extend_from_slice(rest);
+            } else {
+                self.builder.oddities.add_many(Oddity::MissingUvs, rest.len() as u64);
+                uvs.resize(*end, [NO_INDEX; 3]);
+            }
+        }
+        self.found.uvs = Some(uvs);
+    }
+}
+
+#[cold]
+fn no_vertex(indices: &Values<'_, 1>, k: usize, index: u32, count: u32) -> Box<Fault> {
+    let message = format!("element {k} of {} names vertex {index}, but there are {count}", indices.label);
+    Fault::new(indices.at, message, "indices below the number of vertices")
+}
+
+/// The matrix of a node.
+fn map_of(node: &Node, index: u32, at: usize) -> Result<DAffine3, Box<Fault>> {
+    if let Some(m) = node.matrix {
+        let [x, y, z, w] = *m.as_chunks::<4>().0 else { return Ok(DAffine3::IDENTITY) };
+        if [x, y, z, w].map(|column| DVec4::from(column).w) != [0.0, 0.0, 0.0, 1.0] {
+            let message = format!("the matrix of {} is no affine one", List::Nodes.shown(index));
+            return Err(Fault::new(at, message, "0, 0, 0, 1 as its last row"));
+        }
+        let [x, y, z, w] = [x, y, z, w].map(|[x, y, z, _]| DVec3::new(x, y, z));
+        return Ok(DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: w });
+    }
+    let rotation = match node.rotation {
+        None => DQuat::IDENTITY,
+        Some(rotation) => {
+            let rotation = DVec4::from(rotation);
+            let largest = rotation.abs().max_element();
+            if largest == 0.0 {
+                let message = format!("the rotation of {} is zero", List::Nodes.shown(index));
+                return Err(Fault::new(at, message, "a quaternion of length one"));
+            }
+            DQuat::from_vec4((rotation / largest).normalize())
+        }
+    };
+    let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
+    let translation = DVec3::from(node.translation.unwrap_or_default());
+    Ok(DAffine3::from_scale_rotation_translation(scale, rotation, translation))
+}

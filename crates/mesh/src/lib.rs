@@ -1,0 +1,75 @@
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, and vertex normals.
+//!
+//! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
+//! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
+//!
+//! `tracer_core` hands this crate on as `tracer_core::mesh`.
+
+// What a file says must not end the program: exceptions stand where they are made, each with its reason.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable,
+        clippy::todo,
+        clippy::unimplemented,
+        clippy::indexing_slicing,
+        clippy::string_slice
+    )
+)]
+#![forbid(unsafe_code)]
+
+mod builder;
+mod cursor;
+mod data;
+mod files;
+mod format;
+mod gltf;
+mod inline;
+mod mtl;
+mod obj;
+mod oddities;
+mod off;
+mod ply;
+mod polygon;
+mod stl;
+
+mod error;
+pub mod normals;
+pub mod placements;
+
+pub use data::{MAX_COORDINATE, MeshData, NO_INDEX};
+pub use error::{MeshError, Place};
+pub use files::{FileError, read_regular_file};
+pub use format::MeshFormat;
+pub use inline::mesh_of;
+
+use std::path::Path;
+
+/// Reads the mesh in `path`, of the format that its extension says.
+///
+/// # Errors
+/// When there is no such file, it cannot be read or has another extension, when it is broken (with the line or the
+/// byte), and when no triangle is left.
+pub fn load(path: &Path) -> Result<MeshData, MeshError> {
+    let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
+    let text = read_regular_file(path)?;
+    parse(&text, format, path)
+}
+
+/// Reads a mesh from the bytes of its file. `path` is what messages show, and where MTL files are looked for beside.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, MeshError> {
+    let read = match format {
+        MeshFormat::Obj => obj::read,
+        MeshFormat::Off => off::read,
+        MeshFormat::Ply => ply::read,
+        MeshFormat::Stl => stl::read,
+        MeshFormat::Gltf | MeshFormat::Glb => gltf::read,
+    };
+    read(text, path)
+}

@@ -1,0 +1,265 @@
+//! MTL, the materials of OBJ files, turned into materials of the scene language.
+//!
+//! | MTL | material |
+//! | --- | --- |
+//! | `illum` 4, 6, 7 or 9, or `d` < 1 (or `Tr` > 0 without `d`) | transparent: `ior` = `Ni` (1.5 if absent), `transmittance` = `Tf` |
+//! | else `illum` 3 or 5, and `Ks` not black | mirror: `reflectance` = `Ks` (1 if absent) |
+//! | else `Ks` not black and `Ns` > 0, and `illum` not 0 or 1 | Blinn-Phong: `albedo` = `Kd` + `Ks`, `specular` = the share of `Ks` in it, `exponent` = `Ns`, 1 to 100000 |
+//! | else | diffuse: `albedo` = `Kd` (0.8 if absent) |
+//!
+//! Colours are taken as linear RGB. A picture of `map_Kd` replaces the albedo. `Ka` and `map_Ka` stand for indirect light,
+//! which is computed here, and are passed over. What goes beyond this (other statements and maps, partial opacity, a tint
+//! of the picture, values out of range, which are clipped) is told in one warning `W0511` per mesh, as are missing MTL
+//! files, materials and pictures: the mesh renders without them. A broken MTL file is an error. Only materials that faces
+//! use are turned.
+
+mod library;
+
+use super::error::MeshError;
+use super::files::read_regular_file;
+use library::{Library, MtlMaterial};
+use scene_format::Diagnostic;
+use scene_format::codes;
+use scene_format::desc::{
+    Albedo, BlinnPhong, Color, Diffuse, Mapping, Material, Mirror, NamedMaterial, Texture, TextureFilter, TextureWrap,
+    Transparent,
+};
+use scene_format::diagnostic::Span;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Index of refraction where MTL gives none.
+const DEFAULT_IOR: f64 = 1.5;
+
+/// The exponents of Blinn-Phong.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 1.0..=1e5;
+
+/// The materials of a mesh.
+#[derive(Default)]
+pub(super) struct MeshMaterials {
+    pub(super) materials: Vec<NamedMaterial>,
+    /// For each used name, which of `materials` it is; `None`: it is not defined.
+    pub(super) index_of_name: Vec<Option<u32>>,
+    pub(super) warning: Option<Diagnostic>,
+    /// The files that were read.
+    pub(super) libraries: Vec<PathBuf>,
+}
+
+/// Reads the MTL files that `mtllib` names in the OBJ file at `obj_path`, and turns the used materials.
+pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result<MeshMaterials, MeshError> {
+    let mut found = MeshMaterials::default();
+    if used.is_empty() {
+        return Ok(found);
+    }
+    let mut notes = Notes::default();
+    let mut defined: BTreeMap<String, MtlMaterial> = BTreeMap::new();
+    for path in library_paths(libraries, obj_path, &mut notes) {
+        let text = match read_regular_file(&path) {
+            Ok(text) => text,
+            Err(error) => {
+                notes.missing.insert(error.to_string());
+                continue;
+            }
+        };
+        found.libraries.push(path.clone());
+        for material in Library::parse(&text, &path)?.materials {
+            // Of two definitions the first counts.
+            defined.entry(material.name.clone()).or_insert(material);
+        }
+    }
+    for &name in used {
+        let Some(mtl) = defined.get(name) else {
+            notes.undefined.insert(name.to_owned());
+            found.index_of_name.push(None);
+            continue;
+        };
+        if used.len() > 1 {
+            notes.current = name.to_owned();
+        }
+        found.index_of_name.push(Some(found.materials.len() as u32));
+        found.materials.push(NamedMaterial { name: name.to_owned().into(), material: turn(mtl, &mut notes) });
+    }
+    found.warning = notes.into_warning(obj_path);
+    Ok(found)
+}
+
+/// The MTL files to read, each once: `mtllib` names one, with blanks in its name, or several.
+fn library_paths(libraries: &[&str], obj_path: &Path, notes: &mut Notes) -> Vec<PathBuf> {
+    let mut known = BTreeSet::new();
+    let mut paths = Vec::new();
+    for &names in libraries {
+        if !known.insert(names) {
+            continue;
+        }
+        let whole = find_beside(obj_path, names);
+        let found: Vec<Option<PathBuf>> = match whole {
+            Some(path) => vec![Some(path)],
+            None => names.split_whitespace().map(|name| find_beside(obj_path, name)).collect(),
+        };
+        if found.contains(&None) {
+            notes.missing.insert(format!("there is no file {names}"));
+        }
+        paths.extend(found.into_iter().flatten());
+    }
+    let mut unique = BTreeSet::new();
+    paths.retain(|path| unique.insert(path.clone()));
+    paths
+}
+
+/// A file named in another one: from that one's folder, with backslashes for slashes, or by its bare name beside it (MTL
+/// files often keep the paths of their author's machine).
+fn find_beside(path: &Path, name: &str) -> Option<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let slashed = name.replace('\\', "/");
+    let bare = slashed.rsplit('/').next().unwrap_or_default().to_owned();
+    [name, &slashed, &bare].into_iter().map(|name| folder.join(name)).find(|path| path.is_file())
+}
+
+/// What MTL says and a scene cannot have.
+#[derive(Default)]
+struct Notes {
+    missing: BTreeSet<String>,
+    undefined: BTreeSet<String>,
+    pictures: BTreeSet<String>,
+    /// What, and the materials that say it.
+    unsupported: BTreeMap<String, BTreeSet<String>>,
+    /// The material that is being turned; empty where the mesh has only one.
+    current: String,
+}
+
+impl Notes {
+    fn unsupported(&mut self, what: &str) {
+        let of = self.unsupported.entry(what.to_owned()).or_default();
+        if !self.current.is_empty() {
+            of.insert(self.current.clone());
+        }
+    }
+
+    fn into_warning(self, path: &Path) -> Option<Diagnostic> {
+        let mut parts: Vec<String> = Vec::new();
+        let unsupported: BTreeSet<String> =
+            self.unsupported.iter().map(|(what, materials)| of_materials(what, materials)).collect();
+        for (names, what) in [
+            (&self.missing, "MTL file not read"),
+            (&self.undefined, "no such material (the default is taken)"),
+            (&self.pictures, "no such picture (`Kd` is taken)"),
+            (&unsupported, "not supported"),
+        ] {
+            const SHOWN: usize = 8;
+            let mut list: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
+            let more = format!("{} more", names.len().saturating_sub(SHOWN));
+            if names.len() > SHOWN {
+                list.push(&more);
+            }
+            if !list.is_empty() {
+                parts.push(format!("{what}: {}", list.join(", ")));
+            }
+        }
+        (!parts.is_empty()).then(|| {
+            let message = format!("the mesh's own materials are taken only in part: {}", parts.join("; "));
+            Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
+                .hint(match self.unsupported.contains_key("`Ke`") {
+                    true => "what shines (`Ke`) is an object with `material: Emissive(radiance: ..)` in the scene",
+                    false => "a `material` in the scene replaces those of the file",
+                })
+                .at_line(path, 0)
+        })
+    }
+}
+
+/// `Ke (in lamp, window)`: the first few by name.
+fn of_materials(what: &str, materials: &BTreeSet<String>) -> String {
+    const SHOWN: usize = 3;
+    let shown: Vec<&str> = materials.iter().take(SHOWN).map(String::as_str).collect();
+    match materials.len() {
+        0 => what.to_owned(),
+        count if count > SHOWN => format!("{what} (in {} and {} more)", shown.join(", "), count - SHOWN),
+        _ => format!("{what} (in {})", shown.join(", ")),
+    }
+}
+
+/// The scene's material for one of MTL.
+fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
+    for statement in &mtl.unsupported {
+        notes.unsupported(statement);
+    }
+    let diffuse = mtl.diffuse.map(|color| clipped("Kd", color, notes));
+    let specular = mtl.specular.map(|color| clipped("Ks", color, notes));
+    let is_specular = specular.is_none_or(|color| color != [0.0; 3]);
+    let opacity = mtl.opacity.unwrap_or(1.0);
+    if matches!(mtl.illumination, Some(4 | 6 | 7 | 9)) || opacity < 1.0 {
+        if opacity > 0.0 && opacity < 1.0 {
+            notes.unsupported("`d` between 0 and 1 (taken as clear glass)");
+        }
+        if mtl.picture.is_some() {
+            notes.unsupported("`map_Kd` of a transparent material");
+        }
+        let ior = mtl.ior.unwrap_or(DEFAULT_IOR);
+        if ior < 1.0 {
+            notes.unsupported("`Ni` below 1 (1.5 is taken)");
+        }
+        let transmittance = mtl.transmission.map_or([1.0; 3], |color| clipped("Tf", color, notes));
+        let ior = if ior < 1.0 { DEFAULT_IOR } else { ior };
+        let glass = Transparent { ior: ior.into(), transmittance: transmittance.into() };
+        return Material::Transparent(Box::new(glass));
+    }
+    if matches!(mtl.illumination, Some(3 | 5)) && is_specular {
+        if mtl.picture.is_some() || diffuse.is_some_and(|color| color != [0.0; 3]) {
+            notes.unsupported("`Kd` and `map_Kd` of a mirror (`illum` 3 or 5)");
+        }
+        return Material::Mirror(Mirror { reflectance: specular.unwrap_or([1.0; 3]).into() });
+    }
+    let picture = picture_of(mtl, diffuse, notes);
+    let glossy = specular.filter(|_| is_specular && !matches!(mtl.illumination, Some(0 | 1)));
+    if let (Some(specular), Some(exponent)) = (glossy, mtl.exponent.filter(|&exponent| exponent > 0.0)) {
+        if exponent > *EXPONENTS.end() {
+            notes.unsupported("`Ns` above 100000 (clipped)");
+        }
+        // MTL adds the lobes, Kd + Ks; here one colour is shared out between them. A picture counts as white.
+        let diffuse = if picture.is_some() { [1.0; 3] } else { diffuse.unwrap_or(default_albedo()) };
+        let [[r, g, b], [r2, g2, b2]] = [diffuse, specular];
+        let sum: Color = [r + r2, g + g2, b + b2];
+        let largest = sum.iter().fold(1.0_f64, |largest, &part| largest.max(part));
+        if largest > 1.0 && picture.is_none() {
+            notes.unsupported("`Kd` + `Ks` above 1 (both scaled down)");
+        }
+        let share = specular.iter().sum::<f64>() / sum.iter().sum::<f64>();
+        return Material::BlinnPhong(Box::new(BlinnPhong {
+            albedo: picture.unwrap_or(Albedo::Color(sum.map(|part| part / largest).into())),
+            exponent: exponent.clamp(*EXPONENTS.start(), *EXPONENTS.end()).into(),
+            specular: share.into(),
+            energy_conserving: false,
+        }));
+    }
+    let color = diffuse.unwrap_or(default_albedo());
+    Material::Diffuse(Diffuse { albedo: picture.unwrap_or(Albedo::Color(color.into())) })
+}
+
+fn default_albedo() -> Color {
+    match Albedo::default() {
+        Albedo::Color(color) => color.value,
+        Albedo::Texture(_) | Albedo::Checkerboard(_) => [0.8; 3],
+    }
+}
+
+/// The picture of `map_Kd`, when it is there.
+fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, notes: &mut Notes) -> Option<Albedo> {
+    let picture = mtl.picture.as_ref()?;
+    let Some(file) = find_beside(&mtl.file, &picture.name) else {
+        notes.pictures.insert(picture.name.clone());
+        return None;
+    };
+    if diffuse.is_some_and(|color| color != [1.0; 3]) {
+        notes.unsupported("`Kd` other than 1 beside `map_Kd`");
+    }
+    let wrap = if picture.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat };
+    let (filter, mapping) = (TextureFilter::default(), Mapping::default());
+    Some(Albedo::Texture(Texture { file: file.into(), filter, wrap, mapping }))
+}
+
+fn clipped(statement: &str, color: Color, notes: &mut Notes) -> Color {
+    if color.iter().any(|part| !(0.0..=1.0).contains(part)) {
+        notes.unsupported(&format!("`{statement}` outside 0 to 1 (clipped)"));
+    }
+    color.map(|part| part.clamp(0.0, 1.0))
+}
