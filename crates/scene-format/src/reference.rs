@@ -186,7 +186,7 @@ fn section(out: &mut String, def: &'static StructDef, done: &mut Vec<&'static st
 
 /// The sections of what a field's type is made of.
 fn parts(out: &mut String, kind: Type, done: &mut Vec<&'static str>) {
-    match kind {
+    match kind.resolved() {
         Type::Struct(def) => section(out, def, done),
         Type::Enum(def) => choice(out, def, done),
         Type::List(inner) | Type::Map(inner) | Type::Optional(inner) => parts(out, *inner, done),
@@ -253,10 +253,14 @@ fn table(out: &mut String, def: &'static StructDef) {
 }
 
 fn value(field: &FieldDef) -> String {
+    if let Type::List(inner) = field.kind
+        && let Type::Enum(def) = inner.resolved()
+    {
+        return format!("list of {}", link(title(def.name)));
+    }
     match field.kind {
         Type::Struct(def) => link(def.name),
         Type::Enum(def) => link(title(def.name)),
-        Type::List(Type::Enum(def)) => format!("list of {}", link(title(def.name))),
         Type::Map(Type::Enum(def)) => format!("{{ \"name\": {} }}", link(def.name)),
         Type::OneOf([Type::Text, Type::Enum(def)]) => format!("a name from `materials`, or a {}", link(def.name)),
         Type::OneOf([Type::List(_), Type::File]) => {

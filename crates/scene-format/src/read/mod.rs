@@ -6,7 +6,9 @@
 mod check;
 mod elsewhere;
 mod hints;
+mod include;
 mod materials;
+mod pick;
 mod repeat;
 mod value;
 mod variant;
@@ -14,14 +16,17 @@ mod vars;
 mod vector;
 
 pub(crate) use check::scene;
+pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use pick::{PICK, pick_body};
+use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
 pub(crate) use value::{expected, hex_color, linear_from_srgb};
-pub(crate) use variant::choices;
+pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::Scene;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::desc::{ITEMS, Scene};
+use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::schema::{FieldDef, StructDef};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -34,7 +39,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Words that later versions of the language will give a meaning.
-const RESERVED: [&str; 5] = ["include", "repeat", "keyframes", "for", "let"];
+const RESERVED: [&str; 4] = ["repeat", "keyframes", "for", "let"];
 
 /// Where a value stands: a step of a field path.
 #[derive(Clone, Debug)]
@@ -54,6 +59,12 @@ pub(crate) struct Reader<'r> {
     renamed: u32,
     /// Items that repetitions have made.
     repeated: u64,
+    /// Included files that are being read, one within the other.
+    open: Vec<include::Open>,
+    /// The number of the first source that is an included file.
+    first_included: u32,
+    /// Groups that are being read, one within the other.
+    pub(crate) groups: usize,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
 }
@@ -85,7 +96,11 @@ impl<'t, 's> Fields<'t, 's> {
 /// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
 const LOOK_AT: usize = 64;
 /// No struct of the language has more fields: counted in the schema when this is compiled.
-const MAX_FIELDS: usize = Scene::DEF.most_fields();
+const MAX_FIELDS: usize = {
+    // Objects are told later there, since groups hold them.
+    let (scene, items) = (Scene::DEF.most_fields(), ITEMS.most_fields());
+    if scene > items { scene } else { items }
+};
 /// Lists of fewer items get room for all of them at once.
 const SHORT_LIST: usize = 64;
 
@@ -112,6 +127,9 @@ impl<'r> Reader<'r> {
             vars: vars::Table::default(),
             renamed: NOWHERE,
             repeated: 0,
+            open: Vec::new(),
+            first_included: u32::MAX,
+            groups: 0,
             file: None,
         }
     }
@@ -132,7 +150,22 @@ impl<'r> Reader<'r> {
 
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         let path = self.path();
-        self.sink.push(diagnostic.at_path(path));
+        let mut diagnostic = diagnostic.at_path(path);
+        if !self.open.is_empty() {
+            // What is included twice is wrong twice, and told once.
+            let known = |other: &Diagnostic| other.span == diagnostic.span && other.message == diagnostic.message;
+            if self.sink.diagnostics.iter().any(known) {
+                self.sink.errors += usize::from(diagnostic.severity == Severity::Error);
+                return;
+            }
+            diagnostic = self.open.iter().rev().fold(diagnostic, |fault, open| open.labelled(fault));
+        }
+        self.sink.push(diagnostic);
+    }
+
+    /// Whether a place is in an included file.
+    fn is_included(&self, span: Span) -> bool {
+        span != Span::NONE && span.source >= self.first_included
     }
 
     /// Finds the fields of a struct; reports unknown, double and missing ones.
@@ -379,7 +412,7 @@ impl<'r> Reader<'r> {
             Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),
             Some(item) => {
                 self.path.push(Step::Field(at.name));
-                let value = T::read(self, item, at);
+                let value = self.picked(item).and_then(|item| T::read(self, item, at));
                 self.path.pop();
                 // What is wrong has been said: go on with the default, to see the rest.
                 value.or_else(|| default.map(|default| default()))
@@ -430,17 +463,19 @@ impl<'r> Reader<'r> {
                 // The first one stays: whoever asks later whether the list is empty asks for it.
                 (piece, begin) = (children.begin, child.index() + 1);
             }
-            // What is repeated is read again.
-            if self.vars.depth() == 0 {
+            // What is repeated or included is read again.
+            if self.vars.depth() == 0 && self.open.is_empty() {
                 begin = child.release_before(begin);
             }
             if child.kind() == Kind::Broken {
                 continue;
             }
             self.path.push(Step::Index(index));
-            match repeat_body(child) {
-                Some(body) => self.repeat(body, at, read),
-                None => read(self, child),
+            if let Some(child) = self.picked(child) {
+                match repeat_body(child) {
+                    Some(body) => self.repeat(body, at, read),
+                    None => read(self, child),
+                }
             }
             self.path.pop();
         }

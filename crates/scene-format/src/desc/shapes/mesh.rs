@@ -1,7 +1,7 @@
 //! Triangle meshes from files.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Transform};
+use crate::desc::{MaterialRef, Name, Transform};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -25,6 +25,8 @@ scene_struct! {
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.
         shading: Shading = Shading::Auto;
+        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
     }
 }
 

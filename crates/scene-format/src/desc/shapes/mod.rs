@@ -18,6 +18,6 @@ pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use mesh::{Instances, Mesh, Shading};
 pub use pattern::PlacementPattern;
-pub use placements::{PlacementList, Placements};
+pub use placements::{Groups, Moved, PlacementList, Placements, Within};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
