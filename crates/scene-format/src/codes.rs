@@ -285,10 +285,10 @@ codes! {
     /// )
     /// ```
     EXACTLY_ONE "E0209" "exactly one of several fields";
-    /// `include`, `repeat` and `keyframes` are kept for later versions of the language.
+    /// `repeat`, `keyframes`, `for` and `let` are kept for later versions of the language.
     ///
     /// ```ron
-    /// Scene(include: "room.ron", objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
     /// `DropTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How low these reach is known when all meshes in
@@ -485,7 +485,8 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// ```
     EXPRESSION_INDEX "E0605" "an item that a list does not have";
 
-    /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other; or `vars` have more than
+    /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each other; groups stand more
+    /// than sixteen deep, or a scene has more than a hundred million objects, copies counted; more than 256 files are included; or `vars` have more than
     /// sixteen lists within each other, or more than two hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
     /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.

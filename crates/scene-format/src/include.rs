@@ -130,7 +130,11 @@ impl Library {
 
     /// The text of a file, or why there is none.
     fn read(&mut self, path: &Path) -> Result<String, String> {
-        let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
+        let why = |error: std::io::Error| match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => error.to_string(),
+        };
+        let about = std::fs::metadata(path).map_err(why)?;
         if !about.is_file() {
             return Err("it is no file".to_owned());
         }
@@ -138,7 +142,7 @@ impl Library {
         if self.bytes > MAX_FILE_BYTES {
             return Err(format!("all included files have more than {} GiB", MAX_FILE_BYTES >> 30));
         }
-        let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+        let bytes = std::fs::read(path).map_err(why)?;
         String::from_utf8(bytes)
             .map_err(|error| format!("it is not UTF-8 at byte {}", error.utf8_error().valid_up_to()))
     }

@@ -15,6 +15,8 @@ const SHOWN: usize = 8;
 struct Named<'t, 's> {
     name: String,
     item: Item<'t, 's>,
+    /// An object or, in a group, a light.
+    def: &'static EnumDef,
     /// `objects[2]`, or `objects[2].objects[0]` in a group.
     place: String,
     /// Whether it stands in a `Repeat`, which makes many of it.
@@ -38,7 +40,13 @@ fn kind_and_fields<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)>
 }
 
 /// All items with names in a list and in the groups and repetitions within it.
-fn collect<'t, 's>(list: Item<'t, 's>, def: &EnumDef, place: &str, repeated: bool, found: &mut Vec<Named<'t, 's>>) {
+fn collect<'t, 's>(
+    list: Item<'t, 's>,
+    def: &'static EnumDef,
+    place: &str,
+    repeated: bool,
+    found: &mut Vec<Named<'t, 's>>,
+) {
     if list.kind() != Kind::List {
         return;
     }
@@ -56,7 +64,7 @@ fn collect<'t, 's>(list: Item<'t, 's>, def: &EnumDef, place: &str, repeated: boo
             let key = key.text();
             if key == "name" && value.without_some().kind() == Kind::Text {
                 let (name, place) = (value.without_some().text().into_owned(), place.clone());
-                found.push(Named { name, item, place, repeated });
+                found.push(Named { name, item, def, place, repeated });
             }
             let within = words.field(&key).map(|field| field.kind);
             if let Some(Type::List(inner)) = within
@@ -85,7 +93,7 @@ impl Setter {
         let (these, others): (Vec<_>, Vec<_>) = named.into_iter().partition(|one| one.name == name);
         match these.as_slice() {
             [only] if !only.repeated => {
-                self.find(only.item, Type::Enum(def), rest, &format!("the {} \"{name}\"", def.noun))
+                self.find(only.item, Type::Enum(only.def), rest, &format!("the {} \"{name}\"", only.def.noun))
             }
             [] => {
                 let message = format!("no {} has the name \"{}\"", def.noun, shortened(name));

@@ -56,7 +56,8 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
 
 /// What other programs call a field of ours.
 pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 20] = [
+    const SYNONYMS: [(&str, &[&str]); 21] = [
+        ("objects", &["children", "items", "members", "contents", "shapes"]),
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
         ("center", &["centre", "position", "pos", "origin"]),
