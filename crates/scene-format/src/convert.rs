@@ -36,7 +36,7 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     match load_str(name, text, from, folder, &[]) {
         // What is wrong with included files is theirs: this text says what to write.
-        Err(LoadError::Invalid { diagnostics, .. }) if diagnostics.iter().all(|fault| is_of_others(fault)) => {}
+        Err(LoadError::Invalid { diagnostics, .. }) if diagnostics.iter().all(is_of_others) => {}
         loaded => {
             loaded?;
         }
