@@ -131,6 +131,7 @@ fn is_kind(path: &Path, kind: FileKind) -> bool {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     match kind {
         FileKind::Mesh => tracer_core::mesh::MeshFormat::of(path).is_some(),
+        FileKind::Scene => matches!(extension.as_str(), "ron" | "toml" | "json"),
         FileKind::Placements => matches!(extension.as_str(), "txt" | "csv" | "dat"),
         FileKind::Texture => matches!(extension.as_str(), "png" | "jpg" | "jpeg"),
         FileKind::Environment => matches!(extension.as_str(), "hdr" | "exr" | "png" | "jpg" | "jpeg"),

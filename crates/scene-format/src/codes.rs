@@ -286,12 +286,19 @@ codes! {
     /// )
     /// ```
     EXACTLY_ONE "E0209" "exactly one of several fields";
-    /// `include`, `repeat` and `keyframes` are kept for later versions of the language.
+    /// `repeat`, `keyframes`, `for` and `let` are kept for later versions of the language.
     ///
     /// ```ron
-    /// Scene(include: "room.ron", objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
+    /// `DropTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How low these reach is known when all meshes in
+    /// them have been read; drop the objects in it, or move it by `Translate`.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])])
+    /// ```
+    GROUP_DROP "E0211" "a group that is dropped";
 
     /// A length or size must be more than zero.
     ///
@@ -376,7 +383,12 @@ codes! {
     BAD_SET_SYNTAX "E0404" "--set is not of the form path=value";
     /// The number in brackets in a `--set` path is beyond the end of the list: lists count from 0.
     BAD_SET_INDEX "E0405" "--set counts beyond the end of a list";
-
+    /// `vars` of an `Include` give a value to a name that the included scene has no var of. Write one that it has.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Include(file: "chair.ron", vars: { "hight": 0.5 })])
+    /// ```
+    UNKNOWN_VAR "E0406" "an unknown var of an included scene";
     /// Values of `vars` need each other to be reckoned.
     ///
     /// ```ron
@@ -388,7 +400,7 @@ codes! {
     /// ```ron
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-    BAD_VAR_NAME "E0408" "a name that no expression can use";
+BAD_VAR_NAME "E0408" "a name that no expression can use";
 
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
@@ -437,6 +449,13 @@ codes! {
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
     BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
+    /// A file that `include` or an `Include` names cannot be read, or `include` names one with objects: of a library `vars` and `materials`
+    /// are taken. The objects of another scene come by `Include(file: ..)` among the objects.
+    ///
+    /// ```ron
+    /// Scene(include: ["no such library.ron"], background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    INCLUDE "E0560" "a file that cannot be included";
 
     /// An expression, a text that begins with `=`, is not written as expressions are: numbers, names from `vars`, `+ - * / % ^`,
     /// comparisons, functions, brackets.
@@ -470,7 +489,8 @@ codes! {
     /// ```
     EXPRESSION_INDEX "E0605" "an item that a list does not have";
 
-    /// Repetitions make more than a scene can hold: ten million items, or more than eight within each other; or `vars` have more than
+    /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each other; groups stand more
+    /// than sixteen deep, or a scene has more than a hundred million objects, copies counted; more than 256 files are included; or `vars` have more than
     /// sixteen lists within each other, or more than two hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
     /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.

@@ -1,11 +1,13 @@
 //! From one syntax to the other, or tidied up in the same one, on the tree: so comments, the order of fields and the form of values
 //! stay as the person wrote them.
 
+use crate::codes;
 use crate::desc::Scene;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::form::{BLANK_LINE, Entry, Form};
 use crate::load::{LoadError, load_str, parse};
 use crate::print;
-use crate::read::{REPEAT, is_expression, repeat_body};
+use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
 use crate::schema::{Content, EnumDef, StructDef, Type, fits};
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
@@ -15,7 +17,8 @@ use std::path::Path;
 /// Writes a scene in another syntax. `name` is shown in diagnostics.
 ///
 /// # Errors
-/// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write.
+/// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write. Faults of files that it
+/// includes do not count.
 pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, LoadError> {
     write(name, text, from, to, false)
 }
@@ -30,7 +33,14 @@ pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadErro
 }
 
 fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -> Result<String, LoadError> {
-    load_str(name, text, from, Path::new(""), &[])?;
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    match load_str(name, text, from, folder, &[]) {
+        // What is wrong with included files is theirs: this text says what to write.
+        Err(LoadError::Invalid { diagnostics, .. }) if diagnostics.iter().all(is_of_others) => {}
+        loaded => {
+            loaded?;
+        }
+    }
     let mut sink = Sink::default();
     let tree = parse(text, from, &mut sink);
     let Some(root) = tree.root() else { return Ok(String::new()) };
@@ -47,6 +57,11 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
         Syntax::Ron => print::ron(&form, &before, &after),
         Syntax::Toml => print::toml(&form, &before, &after),
     })
+}
+
+/// Whether a fault is one of an included file, or that there is none.
+fn is_of_others(fault: &Diagnostic) -> bool {
+    fault.severity == Severity::Warning || fault.code == codes::INCLUDE || fault.span.source != 0
 }
 
 struct Converter<'t, 's> {
@@ -153,7 +168,10 @@ impl Converter<'_, '_> {
         if is_expression(item) && !matches!(kind, Type::Text | Type::File) {
             return Form::Text(item.text().into_owned());
         }
-        match kind {
+        if let Some(body) = pick_body(item) {
+            return self.pick(body, kind);
+        }
+        match kind.resolved() {
             Type::Value => self.value(item),
             Type::Bool => Form::Bool(item.lexeme() == "true"),
             Type::Number | Type::Integer => Form::Lexeme(self.number(item)),
@@ -186,6 +204,8 @@ impl Converter<'_, '_> {
                     None => Form::Absent,
                 }
             }
+            // Resolved above.
+            Type::Later(_) => Form::Absent,
         }
     }
 
@@ -211,6 +231,23 @@ impl Converter<'_, '_> {
         });
         let fields = Form::Struct { name: REPEAT.name, fields: fields.collect() };
         Form::Variant { name: REPEAT.name, content: Some(Box::new(fields)) }
+    }
+
+    fn pick(&mut self, body: Item<'_, '_>, kind: Type) -> Form {
+        let fields = body.fields().map(|(key, value)| {
+            let (name, start) = (key.text().into_owned(), key.span().start);
+            self.entry_of(name, start, value, |converter| match value.kind() {
+                Kind::List => {
+                    let items = value.children();
+                    Form::List(
+                        items.map(|item| converter.entry(String::new(), item.span().start, item, kind)).collect(),
+                    )
+                }
+                _ => converter.form(value, Type::Integer),
+            })
+        });
+        let fields = Form::Struct { name: PICK.name, fields: fields.collect() };
+        Form::Variant { name: PICK.name, content: Some(Box::new(fields)) }
     }
 
     fn vector(&self, item: Item<'_, '_>) -> Form {

@@ -1,10 +1,10 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Metal, Object, PixelFilter, Reuse,
+    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Metal, PixelFilter, Reuse,
     Shading, TextureFilter, TextureWrap, ToneMap,
 };
-use crate::desc::{BackgroundWords, DepthOfField, MappingWords, Pattern, PlacementPattern, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, ITEMS, MappingWords, Pattern, PlacementPattern, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -39,6 +39,9 @@ const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_b
 /// A sky of 16 x 8 pixels with a sun, as HDR.
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
+/// A chair, to be included.
+const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
+
 /// The choices of the language, each kind of which has an example.
 pub(crate) const CHOICES: [&EnumDef; 22] = [
     &PixelFilter::DEF,
@@ -58,7 +61,7 @@ pub(crate) const CHOICES: [&EnumDef; 22] = [
     &TextureFilter::DEF,
     &TextureWrap::DEF,
     &MappingWords::DEF,
-    &Object::DEF,
+    &ITEMS,
     &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
@@ -67,7 +70,7 @@ pub(crate) const CHOICES: [&EnumDef; 22] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
 /// materials' own words.
-const SNIPPETS: [(&str, &str, &str); 72] = [
+const SNIPPETS: [(&str, &str, &str); 74] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -142,6 +145,18 @@ const SNIPPETS: [(&str, &str, &str); 72] = [
         "Mesh",
         "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])",
     ),
+    (
+        "Object",
+        "Group",
+        "Group(objects: [Box(size: (1, 0.1, 1)), Cylinder(from: (0, -0.8, 0), to: (0, 0, 0), radius: 0.1)], \
+         material: Diffuse(albedo: 0.6), placements: Ring(count: 3, radius: 1.2))",
+    ),
+    (
+        "Object",
+        "Include",
+        "Include(file: \"chair.ron\", vars: { \"height\": 0.6 }, materials: { \"seat\": Diffuse(albedo: \"#803020\") }, \
+         placements: Ring(count: 4, radius: 1.2))",
+    ),
     ("Instances", "Auto", "instances: Auto"),
     ("Instances", "Always", "instances: Always"),
     ("Instances", "Never", "instances: Never"),
@@ -203,7 +218,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
         }
         "Object" => {
             object = words.to_owned();
-            files = &[TETRAHEDRON];
+            files = if kind == "Include" { &[CHAIR] } else { &[TETRAHEDRON] };
         }
         "Instances" => {
             object = mesh(&format!("placements: [[], [Translate((1, 0, 0))]], {words}"));
@@ -239,6 +254,7 @@ mod tests {
     #[test]
     fn every_kind_has_an_example_that_loads_without_a_warning() {
         let examples = examples();
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
         for choice in CHOICES {
             for variant in choice.variants {
                 let title = format!("{}::{}", choice.name.trim_end_matches("Words"), variant.name);
@@ -248,7 +264,7 @@ mod tests {
             }
         }
         for example in &examples {
-            let loaded = load_str(&example.title, &example.ron, Syntax::Ron, Path::new(""), &[]);
+            let loaded = load_str(&example.title, &example.ron, Syntax::Ron, folder, &[]);
             let loaded = loaded.unwrap_or_else(|error| panic!("{}: {error:?}\n{}", example.title, example.ron));
             assert_eq!(loaded.warnings, Vec::new(), "{}", example.title);
         }

@@ -17,6 +17,8 @@ pub enum FileKind {
     Texture,
     /// A picture of all directions.
     Environment,
+    /// A scene, or a library of materials and values.
+    Scene,
 }
 
 /// A file that a scene names, and where it first does.

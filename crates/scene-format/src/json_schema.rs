@@ -5,7 +5,7 @@
 
 use crate::desc::Scene;
 use crate::form::Form;
-use crate::read::REPEAT;
+use crate::read::{PICK, REPEAT};
 use crate::schema::{Content, EnumDef, FieldDef, Rule, StructDef, Type, VariantDef, prose};
 use serde_json::{Map, Value, json};
 
@@ -56,6 +56,19 @@ fn struct_schema(def: &'static StructDef, definitions: &mut Map<String, Value>) 
 
 fn field_schema(field: &FieldDef, definitions: &mut Map<String, Value>) -> Map<String, Value> {
     let mut out = type_schema(field.kind, &field.rule, definitions);
+    match field.kind {
+        Type::List(_) | Type::Map(_) | Type::Struct(_) | Type::Value => {}
+        _ => {
+            let pick = alone(&PICK, definitions);
+            match out.get_mut("anyOf") {
+                Some(Value::Array(choices)) => choices.push(pick),
+                _ => {
+                    let value = std::mem::take(&mut out);
+                    out.insert("anyOf".to_owned(), json!([value, pick]));
+                }
+            }
+        }
+    }
     if out.contains_key("$ref") {
         let reference = std::mem::take(&mut out);
         out.insert("allOf".to_owned(), json!([reference]));
@@ -89,14 +102,8 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
         Type::Value => json!({}),
         Type::List(inner) => {
             let item = Value::Object(type_schema(*inner, rule, definitions));
-            let repeat = reference(REPEAT.name, definitions, |definitions| struct_schema(&REPEAT, definitions));
-            let repeat = json!({
-                "type": "object",
-                "properties": { (REPEAT.name): repeat },
-                "required": [REPEAT.name],
-                "additionalProperties": false,
-            });
-            json!({ "type": "array", "items": { "anyOf": [item, repeat] } })
+            let (repeat, pick) = (alone(&REPEAT, definitions), alone(&PICK, definitions));
+            json!({ "type": "array", "items": { "anyOf": [item, repeat, pick] } })
         }
         Type::Map(inner) => {
             json!({ "type": "object", "additionalProperties": type_schema(*inner, rule, definitions) })
@@ -109,11 +116,23 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
         }
         Type::Struct(def) => reference(def.name, definitions, |definitions| struct_schema(def, definitions)),
         Type::Enum(def) => reference(def.name, definitions, |definitions| enum_schema(def, definitions)),
+        Type::Later(kind) => return type_schema(kind(), rule, definitions),
     };
     match value {
         Value::Object(map) => map,
         _ => Map::new(),
     }
+}
+
+/// `{ "Repeat": { .. } }`
+fn alone(def: &'static StructDef, definitions: &mut Map<String, Value>) -> Value {
+    let fields = reference(def.name, definitions, |definitions| struct_schema(def, definitions));
+    json!({
+        "type": "object",
+        "properties": { (def.name): fields },
+        "required": [def.name],
+        "additionalProperties": false,
+    })
 }
 
 fn reference(

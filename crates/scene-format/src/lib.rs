@@ -19,6 +19,7 @@ mod expression;
 mod files;
 mod follow_ups;
 mod form;
+mod include;
 mod json_schema;
 mod load;
 mod overrides;

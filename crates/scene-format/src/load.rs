@@ -3,14 +3,16 @@
 use crate::codes;
 use crate::desc::{Scene, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
-use crate::files::{self, NamedFile};
+use crate::files::{self, FileKind, NamedFile};
 use crate::follow_ups;
+use crate::include::Library;
 use crate::overrides::{self, Override};
 use crate::read;
 use crate::syntax::{Sink, Syntax, foreign, ron, toml};
 use crate::tree::{Builder, Text, Tree};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Scene files may have this many bytes (1 GiB).
 pub const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -119,10 +121,17 @@ fn load_string(
         return Err(too_large(name.to_owned()));
     }
     let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
+    let library = Library::of(&text, syntax, base_dir, overrides);
     let mut sink = Sink::default();
-    let scene = analyse(&text, syntax, overrides, &mut sink);
+    let scene = analyse(&text, syntax, overrides, &library, &mut sink);
+    for file in &library.files {
+        sink.files.add(FileKind::Scene, &file.path, file.from);
+    }
     let mut sources = vec![Source { name: name.to_owned(), text }];
     sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
+    let first_included = sources.len();
+    sources.extend(library.files.iter().map(|file| file.source.clone()));
+    sink.diagnostics.iter_mut().for_each(|fault| library.say_where(fault, first_included));
     if sink.errors > 0
         && let Some(fault) = foreign::whole(&sources[0].text, syntax)
     {
@@ -135,7 +144,7 @@ fn load_string(
     if sink.errors > 1 {
         follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
             let mut sink = Sink::default();
-            analyse(text, syntax, overrides, &mut sink);
+            analyse(text, syntax, overrides, &library, &mut sink);
             sink.diagnostics.retain(|fault| fault.severity == Severity::Error);
             sink.diagnostics
         });
@@ -153,9 +162,10 @@ fn load_string(
                 background: scene.background,
                 lights: scene.lights,
                 materials: scene.materials,
-                objects: scene.objects,
+                objects: scene.objects.0,
                 base_dir: base_dir.to_owned(),
                 sources,
+                includes: library.files.iter().map(|file| Arc::clone(&file.path)).collect(),
             };
             Ok(Loaded { scene, warnings: diagnostics })
         }
@@ -167,9 +177,10 @@ fn load_string(
 }
 
 /// The scene of a text, or what could be read of it; what is wrong goes to `sink`.
-fn analyse(text: &str, syntax: Syntax, overrides: &[Override], sink: &mut Sink) -> Option<Scene> {
+fn analyse(text: &str, syntax: Syntax, overrides: &[Override], library: &Library, sink: &mut Sink) -> Option<Scene> {
     let mut tree = parse(text, syntax, sink);
     overrides::apply(&mut tree, overrides, sink);
+    library.append_to(&mut tree, sink);
     read::scene(&tree, sink)
 }
 
@@ -181,7 +192,8 @@ pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<
         Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
         Syntax::Toml => toml::parse(text, &mut builder, sink),
     };
-    Tree { texts: vec![Text { text, syntax }], nodes: builder.nodes, added, comments, damaged: sink.errors > errors }
+    let texts = vec![Text { text, syntax, folder: Path::new("") }];
+    Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, included: Vec::new() }
 }
 
 fn too_large(name: String) -> LoadError {

@@ -2,15 +2,19 @@
 //! argument.
 #![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
 
+mod named;
+
 use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
+use crate::include::MOST_FILES;
 use crate::read::shortened;
 use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax, ron, span};
 use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
 use crate::words::Words;
+use std::path::Path;
 
 /// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value is written
 /// in RON, whatever the scene file is written in.
@@ -62,7 +66,7 @@ enum What<'a> {
 }
 
 /// More overrides than this are not taken.
-const MAX_OVERRIDES: usize = u16::MAX as usize - 1;
+pub(crate) const MAX_OVERRIDES: usize = u16::MAX as usize - 1 - MOST_FILES;
 
 /// Edits the tree, one override after the other.
 pub(crate) fn apply<'s>(tree: &mut Tree<'s>, overrides: &'s [Override], sink: &mut Sink) {
@@ -71,7 +75,7 @@ pub(crate) fn apply<'s>(tree: &mut Tree<'s>, overrides: &'s [Override], sink: &m
     }
     for (index, set) in overrides.iter().take(MAX_OVERRIDES).enumerate() {
         let source = index as u16 + 1;
-        tree.texts.push(Text { text: &set.argument, syntax: Syntax::Ron });
+        tree.texts.push(Text { text: &set.argument, syntax: Syntax::Ron, folder: Path::new("") });
         if let Err(fault) = apply_one(tree, &set.argument, source, sink) {
             sink.push(fault);
         }
@@ -234,7 +238,7 @@ impl Setter {
         if item.kind() == Kind::Broken {
             return Ok(None);
         }
-        match (kind, &step.what) {
+        match (kind.resolved(), &step.what) {
             (Type::Struct(def), What::Name(name)) => self.find_field(item, def, name, step, rest),
             (Type::Enum(def), What::Name(name)) => self.find_variant(item, def, name, step, steps, rest),
             (Type::OneOf(kinds), _) => {
@@ -300,6 +304,10 @@ impl Setter {
                             .expected(expected))
                     }
                 }
+            }
+            (Type::List(inner), What::Name(name)) if named::have_names(*inner).is_some() => {
+                let Some(def) = named::have_names(*inner) else { return Ok(None) };
+                self.find_named(item, def, name, noun, step, rest)
             }
             (Type::List(_), What::Name(_)) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{noun} is a list; its items have numbers"))
@@ -370,7 +378,7 @@ impl Setter {
         names: &mut Vec<(usize, usize)>,
     ) -> Result<(), Diagnostic> {
         let Some((step, rest)) = steps.split_first() else { return Ok(()) };
-        match (kind, &step.what) {
+        match (kind.resolved(), &step.what) {
             (Type::Struct(def), What::Name(name)) => {
                 let Some(field) = def.field(name) else {
                     let words: Vec<&str> = def.fields.iter().map(|field| field.name).collect();

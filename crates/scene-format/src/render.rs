@@ -228,6 +228,13 @@ fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>], others: &'g str
             };
         }
     }
+    for label in diagnostic.labels.iter().filter(|label| label.span.source != diagnostic.span.source) {
+        if let Some(source) = lines.get(label.span.source as usize) {
+            let position = source.index.position(&source.source.text, source.range(label.span).start);
+            let place = format!("{}:{}:{}: {}", source.source.name, position.line, position.column, label.text);
+            group = group.element(Level::NOTE.with_name(Some("from")).message(place));
+        }
+    }
     if let Some(file) = &diagnostic.elsewhere {
         let path = file.path.display().to_string();
         let place = if file.line == 0 { path } else { format!("{path}:{}", file.line) };

@@ -32,6 +32,18 @@ pub(crate) enum Type {
     Optional(&'static Type),
     /// One of several, told apart by how they are written.
     OneOf(&'static [Type]),
+    /// What holds the type that it is within: objects of a group.
+    Later(fn() -> Type),
+}
+
+impl Type {
+    /// The type itself, where it is one that is told later.
+    pub fn resolved(self) -> Type {
+        match self {
+            Type::Later(kind) => kind(),
+            kind => kind,
+        }
+    }
 }
 
 /// A group of named fields.
@@ -50,7 +62,7 @@ pub(crate) struct StructDef {
 }
 
 /// A named field.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct FieldDef {
     pub name: &'static str,
     /// `the radius of a sphere`
@@ -73,7 +85,7 @@ pub(crate) struct EnumDef {
 }
 
 /// One of several kinds.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct VariantDef {
     pub name: &'static str,
     pub doc: &'static [&'static str],
@@ -91,7 +103,7 @@ impl VariantDef {
 }
 
 /// What stands in the brackets after a variant's name.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
     /// Nothing, and no brackets.
     Unit,
@@ -124,19 +136,7 @@ impl Type {
         match self {
             Type::List(inner) | Type::Map(inner) | Type::Optional(inner) => inner.most_fields(),
             Type::Struct(def) => def.most_fields(),
-            Type::Enum(def) => {
-                let (mut most, mut k) = (0, 0);
-                while k < def.variants.len() {
-                    let of_variant = match &def.variants[k].content {
-                        Content::Unit => 0,
-                        Content::Value(field) => field.kind.most_fields(),
-                        Content::Struct(def) => def.most_fields(),
-                    };
-                    most = if of_variant > most { of_variant } else { most };
-                    k += 1;
-                }
-                most
-            }
+            Type::Enum(def) => def.most_fields(),
             Type::OneOf(kinds) => {
                 let (mut most, mut k) = (0, 0);
                 while k < kinds.len() {
@@ -165,6 +165,21 @@ impl StructDef {
 }
 
 impl EnumDef {
+    /// The most fields that one of its kinds, or a struct within it, has.
+    pub const fn most_fields(&self) -> usize {
+        let (mut most, mut k) = (0, 0);
+        while k < self.variants.len() {
+            let of_variant = match &self.variants[k].content {
+                Content::Unit => 0,
+                Content::Value(field) => field.kind.most_fields(),
+                Content::Struct(def) => def.most_fields(),
+            };
+            most = if of_variant > most { of_variant } else { most };
+            k += 1;
+        }
+        most
+    }
+
     pub fn variant(&self, name: &str) -> Option<&'static VariantDef> {
         self.variants.iter().find(|variant| variant.name == name)
     }
@@ -301,7 +316,7 @@ impl Range {
 /// Whether a value is written as this kind is.
 pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
     let compound = matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some();
-    match kind {
+    match &kind.resolved() {
         Type::Text | Type::File => item.kind() == Kind::Text,
         Type::Enum(_) | Type::Struct(_) => compound,
         Type::List(_) => item.kind() == Kind::List,

@@ -2,7 +2,7 @@
 //!
 //! The tree is a tape of 16-byte nodes in the order of writing (a node is followed by its children), so that reading a scene of
 //! 10^5 objects allocates nothing per node. Nodes hold positions only; names, numbers and texts are read from the source text
-//! when somebody asks. This is the stage where `include`, `vars` and `repeat` will expand.
+//! when somebody asks.
 //!
 //! TOML may go on with a table after others were written. What comes later stands in an `Added` node where it was written: it
 //! belongs not to the node around it but to the table that `added` names, after what that table has already.
@@ -12,6 +12,8 @@ use crate::syntax::{Syntax, decode};
 use crate::tape::Tape;
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,10 +75,27 @@ pub(crate) struct Node {
 pub(crate) struct Text<'s> {
     pub text: &'s str,
     pub syntax: Syntax,
+    /// Where paths in it start, relative to the scene's folder.
+    pub folder: &'s Path,
+}
+
+/// An included file among the nodes.
+#[derive(Clone, Debug)]
+pub(crate) struct Root {
+    /// Relative to the scene's folder.
+    pub path: Arc<Path>,
+    /// As messages name it.
+    pub name: String,
+    /// Its first node; `NOWHERE` where it has none.
+    pub root: u32,
+    /// How many it has.
+    pub nodes: u32,
+    /// Why it could not be read.
+    pub fault: Option<String>,
 }
 
 /// A whole file (and the arguments of `--set` grafted into it) as a tree.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Tree<'s> {
     pub texts: Vec<Text<'s>>,
     pub nodes: Tape<Node>,
@@ -86,9 +105,16 @@ pub(crate) struct Tree<'s> {
     pub comments: Tape<Span>,
     /// Whether a `Broken` node stands anywhere.
     pub damaged: bool,
+    /// Included files, whose nodes stand after the scene's.
+    pub included: Vec<Root>,
 }
 
 impl<'s> Tree<'s> {
+    /// A node by its place on the tape.
+    pub fn item(&self, index: usize) -> Option<Item<'_, 's>> {
+        self.nodes.get(index).map(|node| Item { tree: self, index, node })
+    }
+
     /// The root, when anything was read.
     pub fn root(&self) -> Option<Item<'_, 's>> {
         self.nodes.get(0).map(|node| Item { tree: self, index: 0, node })
@@ -192,6 +218,16 @@ impl<'t, 's> Item<'t, 's> {
 
     pub fn syntax(&self) -> Syntax {
         self.tree.texts[usize::from(self.node.source)].syntax
+    }
+
+    /// Where paths in its file start, relative to the scene's folder.
+    pub fn folder(&self) -> &'s Path {
+        self.tree.texts[usize::from(self.node.source)].folder
+    }
+
+    /// An included file by its path from the scene's folder.
+    pub fn included(&self, path: &Path) -> Option<&'t Root> {
+        self.tree.included.iter().find(|file| *file.path == *path)
     }
 
     /// The node as it was written.

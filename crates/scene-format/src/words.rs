@@ -184,14 +184,7 @@ macro_rules! scene_enum {
                 _at: &'static $crate::schema::FieldDef,
             ) -> Option<Self> {
                 let chosen = reader.variant(item, &Self::DEF)?;
-                $(
-                    if chosen.variant.name == stringify!($Variant) {
-                        return $crate::words::read_content!(
-                            reader, chosen, $Name $Variant $(($inner))? $({ $( $field : $ty $(= $default)? ; )* })?
-                        );
-                    }
-                )+
-                None
+                Self::of_chosen(reader, &chosen)
             }
 
             fn form(&self, all: bool) -> $crate::form::Form {
@@ -203,6 +196,23 @@ macro_rules! scene_enum {
                         )
                     }
                 )+}
+            }
+        }
+
+        impl $Name {
+            /// Reads what stands in the brackets of a kind that was found.
+            pub(crate) fn of_chosen(
+                reader: &mut $crate::read::Reader<'_>,
+                chosen: &$crate::read::Chosen<'_, '_>,
+            ) -> Option<Self> {
+                $(
+                    if chosen.variant.name == stringify!($Variant) {
+                        return $crate::words::read_content!(
+                            reader, chosen, $Name $Variant $(($inner))? $({ $( $field : $ty $(= $default)? ; )* })?
+                        );
+                    }
+                )+
+                None
             }
         }
     };
@@ -310,15 +320,15 @@ macro_rules! bare {
 
 macro_rules! read_content {
     ($reader:ident, $chosen:ident, $Name:ident $Variant:ident) => {{
-        $reader.unit(&$chosen)?;
+        $reader.unit($chosen)?;
         Some($Name::$Variant)
     }};
     ($reader:ident, $chosen:ident, $Name:ident $Variant:ident ($inner:ty)) => {
-        $reader.content::<$inner>(&$chosen).map($Name::$Variant)
+        $reader.content::<$inner>($chosen).map($Name::$Variant)
     };
     ($reader:ident, $chosen:ident, $Name:ident $Variant:ident
         { $( $field:ident : $ty:ty $(= $default:expr)? ; )* }) => {{
-        let mut fields = $reader.variant_fields(&$chosen)?;
+        let mut fields = $reader.variant_fields($chosen)?;
         $( let $field: Option<$ty> = $reader.field(&mut fields, $crate::words::default_value!($ty $(, $default)?)); )*
         Some($Name::$Variant { $($field: $field?,)* })
     }};

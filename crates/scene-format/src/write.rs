@@ -1,6 +1,6 @@
 //! From a [`SceneDesc`] back to text, and to a hash that says whether two scenes say the same.
 
-use crate::desc::{Scene, SceneDesc};
+use crate::desc::{Objects, Scene, SceneDesc};
 use crate::form::{Entry, Form};
 use crate::print;
 use crate::syntax::Syntax;
@@ -36,6 +36,7 @@ pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String 
 
 fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
     let words = Scene {
+        include: crate::read::Includes,
         vars: crate::read::Vars,
         version: scene.version,
         camera: scene.camera.clone(),
@@ -46,7 +47,7 @@ fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
         background: scene.background.clone(),
         lights: scene.lights.clone(),
         materials: scene.materials.clone(),
-        objects: scene.objects.clone(),
+        objects: Objects(scene.objects.clone()),
     };
     let mut form = words.form(defaults == Defaults::Shown);
     if let Form::Struct { fields, .. } = &mut form {

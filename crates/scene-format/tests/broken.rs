@@ -16,7 +16,7 @@ fn files(extension: &str, folder: &Path) -> BTreeSet<PathBuf> {
 fn output(path: &Path, syntax: Syntax) -> String {
     let name = path.file_name().and_then(|name| name.to_str()).expect("a plain name");
     let bytes = std::fs::read(path).expect("a scene file");
-    match load_bytes(name, bytes, Some(syntax), Path::new(""), &[]) {
+    match load_bytes(name, bytes, Some(syntax), Path::new("tests/broken"), &[]) {
         Ok(loaded) => {
             assert!(!loaded.warnings.is_empty(), "nothing is wrong with {name}");
             render::text(&loaded.warnings, &loaded.scene.sources, render::Style::default())

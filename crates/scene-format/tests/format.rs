@@ -113,7 +113,8 @@ fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
             texts.push((text, syntax));
         }
     }
-    let hash = |text: &str, syntax| hash_hex(&load_str("s", text, syntax, Path::new(""), &[]).expect("right").scene);
+    let hash =
+        |text: &str, syntax| hash_hex(&load_str("s", text, syntax, common::base_dir(), &[]).expect("right").scene);
     for (text, syntax) in texts {
         let tidy = format("scene", &text, syntax).expect("right");
         assert_eq!(hash(&tidy, syntax), hash(&text, syntax), "{tidy}");

@@ -364,10 +364,21 @@ fn may_go(fault: &Diagnostic, broken: &str, syntax: Syntax) -> bool {
         })
 }
 
+/// Expressions of all kinds, without `vars`.
+const EXPRESSIONS: &str = r#"Scene(
+    background: "=2*(1, 2, 3)/7",
+    objects: [
+        Sphere(center: (0, "=2*0.4", 0), radius: "=1/3 + 0.2", material: Diffuse(albedo: "=hsv(120, 0.5, 0.8)")),
+        Group(objects: [Box(size: "=3*(1, 0.5, 1)")], transform: [Translate((0, "=sqrt(2)", 0)), Scale("=2^0.5")]),
+        Repeat(count: "=2*3", items: [Box(center: "=i*(1, 0, 0)", size: 0.4, material: Pick(from: [Mirror(), Diffuse()], index: "=i"))]),
+    ],
+)
+"#;
+
 fn scenes() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut folders = vec![root.join("scenes"), root.join("golden"), root.join("crates/tracer/templates")];
-    let mut found = Vec::new();
+    let mut found = vec![("expressions".to_owned(), EXPRESSIONS.to_owned())];
     while let Some(folder) = folders.pop() {
         let mut entries: Vec<_> = std::fs::read_dir(folder)
             .expect("a folder of scenes")
@@ -380,7 +391,8 @@ fn scenes() -> Vec<(String, String)> {
             } else if path.extension().is_some_and(|extension| extension == "ron") {
                 let text = std::fs::read_to_string(&path).expect("a scene");
                 // Names that a scene gives itself are free: a mistake in one is told where it is used (`one_fault.rs`, `broken`).
-                if text.contains("vars:") {
+                // The files that one includes do not lie beside it here.
+                if text.contains("vars:") || text.contains("nclude") {
                     continue;
                 }
                 found.push((path.file_name().expect("a name").to_string_lossy().into_owned(), text));
@@ -402,6 +414,10 @@ fn one_mistake_is_one_error_at_its_line() {
     for (name, ron) in &scenes {
         let toml = convert(name, ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
         for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml)] {
+            // Without a quote TOML's own `=` and `,` are told from those of an expression by nobody.
+            if syntax == Syntax::Toml && text.contains("\"=") {
+                continue;
+            }
             assert!(errors(text, syntax).is_empty(), "{name} in {} is right", syntax.name());
             let tokens = tokens(text, syntax);
             for (mistake, count) in MISTAKES.iter().zip(&mut counts) {

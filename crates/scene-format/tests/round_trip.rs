@@ -4,7 +4,7 @@ mod common;
 
 use common::{FULL_RON, FULL_TOML, Random, load};
 use scene_format::desc::*;
-use scene_format::diagnostic::Span;
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Defaults, SceneDesc, Syntax, convert, examples, hash, hash_hex, to_text};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -147,6 +147,40 @@ fn pattern(random: &mut Random) -> PlacementPattern {
     }
 }
 
+fn name(random: &mut Random) -> Name {
+    (random.below(3) == 0).then(|| text(random)).into()
+}
+
+/// Puts some of the objects into groups, and groups into groups.
+fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
+    let moves = |random: &mut Random| {
+        let mut steps = transforms(random);
+        steps.retain(|step| !matches!(step.value, Transform::DropTo { .. }));
+        steps.insert(0, Transform::Translate(vector(random)).into());
+        steps
+    };
+    let group = |random: &mut Random| {
+        let placements = match random.below(3) {
+            0 => Placements::One,
+            1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
+            _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| moves(random)).collect())),
+        };
+        Arc::new(Moved { transform: moves(random), placements })
+    };
+    let mut groups = Arc::new(Groups { inner: None, group: group(random) });
+    for object in objects {
+        match random.below(5) {
+            0 => groups = Arc::new(Groups { inner: None, group: group(random) }),
+            1 => groups = Arc::new(Groups { inner: Some(groups), group: group(random) }),
+            2 => continue,
+            _ => {}
+        }
+        let placements = object.value.placements_mut();
+        let own = std::mem::take(placements);
+        *placements = Placements::Within(Box::new(Within { own, groups: Arc::clone(&groups) }));
+    }
+}
+
 /// A valid scene that uses much of the language.
 fn scene(random: &mut Random) -> SceneDesc {
     let names: Vec<Arc<str>> = (0..random.below(4)).map(|index| format!("{index}{}", text(random)).into()).collect();
@@ -171,6 +205,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             5 => Object::Disk(Box::new(Disk {
                 center: vector(random).into(),
@@ -180,6 +215,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             6 => Object::Cylinder(Box::new(Cylinder {
                 from: vector(random).into(),
@@ -189,6 +225,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             7 => Object::Cone(Box::new(Cone {
                 from: vector(random).into(),
@@ -199,6 +236,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             8 => Object::Capsule(Box::new(Capsule {
                 from: vector(random).into(),
@@ -207,6 +245,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             2 => Object::Rectangle(Box::new(Rectangle {
                 center: vector(random).into(),
@@ -215,6 +254,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             3 => Object::Box(Box::new(RectBox {
                 center: vector(random).into(),
@@ -223,6 +263,7 @@ fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                name: name(random),
             })),
             _ => Object::Mesh(Mesh {
                 source: if random.below(2) == 0 {
@@ -235,10 +276,12 @@ fn scene(random: &mut Random) -> SceneDesc {
                 placements,
                 instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
                 shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
+                name: name(random),
             }),
         };
         objects.push(object.into());
     }
+    grouped(random, &mut objects);
     let light = |random: &mut Random| {
         let color = share(random).map(|channel| channel * 100.0);
         let emission = match random.below(3) {
@@ -250,6 +293,7 @@ fn scene(random: &mut Random) -> SceneDesc {
             center: vector(random).into(),
             radius: length(random).into(),
             emission: emission.into(),
+            name: name(random),
         })
     };
     let defaults = SceneDesc::default();

@@ -118,7 +118,7 @@ fn escaped(text: &str) -> String {
 
 /// Calls for every choice that a type leaves.
 fn kinds(kind: Type, each: &mut dyn FnMut(&'static EnumDef)) {
-    match kind {
+    match kind.resolved() {
         Type::Enum(def) => each(def),
         Type::Optional(inner) | Type::List(inner) => kinds(*inner, each),
         Type::OneOf(all) => all.iter().for_each(|kind| kinds(*kind, each)),
@@ -142,6 +142,7 @@ fn value(
         out.files = Some((file, text[way.word.clone()].to_owned()));
         return;
     }
+    let kind = kind.resolved();
     let in_list = matches!(way.steps.last(), Some(super::place::Step::Item));
     match kind {
         Type::Optional(inner) => {

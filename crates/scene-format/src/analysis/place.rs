@@ -75,6 +75,11 @@ pub(super) fn expected(way: &Way, syntax: Syntax) -> Option<Expected> {
     for step in &way.steps {
         inside = into(inside, step)?;
     }
+    let inside = match inside {
+        Inside::Items(kind) => Inside::Items(kind.resolved()),
+        Inside::Value(kind, field) => Inside::Value(kind.resolved(), field),
+        inside => inside,
+    };
     Some(match (inside, way.at_value) {
         (Inside::Struct(def), false) => Expected::Field(def),
         (Inside::Repeat(_), false) => Expected::Field(&REPEAT),
@@ -119,7 +124,7 @@ fn into(inside: Inside, step: &Step) -> Option<Inside> {
 }
 
 fn into_value(kind: Type, step: &Step) -> Option<Inside> {
-    match (kind, step) {
+    match (kind.resolved(), step) {
         (Type::Optional(inner), step) => into_value(*inner, step),
         (Type::OneOf(kinds), step) => kinds.iter().find_map(|kind| into_value(*kind, step)),
         (Type::List(inner), Step::Item) => Some(Inside::Value(*inner, None)),

@@ -1,7 +1,7 @@
 //! A walk over a scene's tree with the schema beside it.
 
 use crate::desc::Scene;
-use crate::read::{REPEAT, is_expression, repeat_body};
+use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
 use crate::schema::{Content, FieldDef, StructDef, Type, VariantDef, fits};
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
@@ -50,7 +50,10 @@ struct At<'t, 's> {
 fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
     let mut variant = None;
     let At { kind, field, name, section, depth } = at;
-    let kind = match kind {
+    if let Some(body) = pick_body(item) {
+        return pick(body, at, meet);
+    }
+    let kind = match kind.resolved() {
         Type::Optional(inner) => *inner,
         Type::OneOf(kinds) => match kinds.iter().find(|kind| fits(item.without_some(), kind)) {
             Some(kind) => *kind,
@@ -132,6 +135,17 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
             }
         }
         _ => {}
+    }
+}
+
+/// The values of a `Pick`, each of which may stand in its place.
+fn pick<'t, 's>(body: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
+    for (key, value) in body.fields() {
+        match PICK.field(&key.text()) {
+            Some(field) if field.name == "from" => value.children().for_each(|child| walk(child, at, meet)),
+            Some(field) => walk(value, At { kind: field.kind, field: Some((field, key)), ..at }, meet),
+            None => {}
+        }
     }
 }
 

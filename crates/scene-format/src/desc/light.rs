@@ -1,6 +1,6 @@
 //! Lights.
 
-use super::{Color, Vec3};
+use super::{Color, Name, Vec3};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -25,6 +25,8 @@ pub struct SphereLight {
     pub radius: Spanned<f64>,
     /// How much light.
     pub emission: Spanned<Emission>,
+    /// What it is called.
+    pub name: Name,
 }
 
 /// How much light a luminous sphere gives, per channel.
@@ -52,6 +54,8 @@ scene_struct! {
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
         /// Power: L = P / (4 pi^2 r^2).
         power: Option<Spanned<Color>> = None => Rule::light("in W");
+        /// What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
     }
 }
 
@@ -67,7 +71,7 @@ impl Words for SphereLight {
             // None was written, or what was written could not be read: reported.
             _ => return None,
         };
-        Some(SphereLight { center: words.center, radius: words.radius, emission })
+        Some(SphereLight { center: words.center, radius: words.radius, emission, name: words.name })
     }
 
     fn form(&self, _all: bool) -> Form {
@@ -77,6 +81,7 @@ impl Words for SphereLight {
             intensity: None,
             radiance: None,
             power: None,
+            name: self.name.clone(),
         };
         match self.emission.value {
             Emission::Intensity(color) => words.intensity = Some(color.into()),

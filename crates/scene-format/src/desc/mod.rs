@@ -8,8 +8,11 @@
 
 mod background;
 mod effects;
+pub(crate) mod group;
+mod include;
 mod light;
 mod materials;
+mod name;
 mod object;
 mod output;
 mod per_axis;
@@ -22,17 +25,20 @@ pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
+pub(crate) use group::{ITEMS, Objects};
+pub(crate) use include::IncludeWords;
 pub use light::{Emission, Light, SphereLight};
 pub use materials::{
     Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
     Transparent,
 };
+pub use name::Name;
 pub use object::Object;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Capsule, Cone, Cylinder, Disk, Faces, InlineMesh, Instances, Mesh, MeshSource, PlacementList, PlacementPattern,
-    Placements, RectBox, Rectangle, Shading, Sphere,
+    Capsule, Cone, Cylinder, Disk, Faces, Groups, InlineMesh, Instances, Mesh, MeshSource, Moved, PlacementList,
+    PlacementPattern, Placements, RectBox, Rectangle, Shading, Sphere, Within,
 };
 pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
 pub(crate) use textures::{MappingWords, Pattern};
@@ -41,10 +47,12 @@ pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
-use crate::read::Vars;
+use crate::files::FileKind;
+use crate::read::{Includes, Vars};
 use crate::schema::Rule;
 use crate::words::scene_struct;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A point or direction (x, y, z) in the scene's unit.
 pub type Vec3 = [f64; 3];
@@ -82,6 +90,8 @@ pub struct SceneDesc {
     pub base_dir: PathBuf,
     /// The texts that spans point into.
     pub sources: Vec<Source>,
+    /// The scene files that it includes, relative to `base_dir`.
+    pub includes: Vec<Arc<Path>>,
 }
 
 scene_struct! {
@@ -89,6 +99,9 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
+        /// Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of two files those
+        /// of the later. Paths in a file start from its folder.
+        include: Includes = Includes => Rule::file(FileKind::Scene);
         /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
         vars: Vars = Vars;
         /// The camera.
@@ -108,7 +121,7 @@ scene_struct! {
         /// Materials by name, for objects to use.
         materials: Vec<NamedMaterial> = Vec::new();
         /// What is to be seen; at least one.
-        objects: Vec<Spanned<Object>> = Vec::new();
+        objects: Objects = Objects(Vec::new());
     }
 }
 
@@ -127,6 +140,7 @@ impl Default for SceneDesc {
             objects: Vec::new(),
             base_dir: PathBuf::new(),
             sources: Vec::new(),
+            includes: Vec::new(),
         }
     }
 }
@@ -139,7 +153,7 @@ mod tests {
     /// A scene may have millions of these; `tests/memory.rs` says why they must be small.
     #[test]
     fn what_scenes_have_many_of_is_small() {
-        assert_eq!(size_of::<Spanned<Object>>(), 128);
+        assert_eq!(size_of::<Spanned<Object>>(), 136);
         assert_eq!(size_of::<NamedMaterial>(), 80);
         assert_eq!(size_of::<Spanned<Transform>>(), 64);
     }

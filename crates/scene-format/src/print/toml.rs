@@ -56,7 +56,8 @@ pub(crate) fn toml_value(form: &Form) -> String {
 fn is_table(form: &Form) -> bool {
     match form {
         Form::Struct { .. } | Form::Map(_) => true,
-        Form::List(items) => !items.is_empty(),
+        // A list of names is no list of tables.
+        Form::List(items) => !items.is_empty() && items.iter().all(|item| !matches!(item.value, Form::Text(_))),
         _ => false,
     }
 }

@@ -10,7 +10,7 @@ use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
 
-static ROOT: FieldDef =
+pub(super) static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
 
 /// Reads a whole scene. What is wrong goes to `sink`; the result counts only when that holds no error.
@@ -27,6 +27,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         return None;
     }
     let mut reader = Reader::new(sink);
+    reader.first_included = (tree.texts.len() - tree.included.len()) as u32;
     // Names of materials may be missing where `materials` itself is mistyped or could not be read.
     let unread = |key: Item<'_, '_>, value: Item<'_, '_>| {
         let name = key.text();
@@ -36,6 +37,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     reader.materials.damaged =
         root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value)) || root.is_damaged();
     let scene = Scene::read(&mut reader, root, &ROOT);
+    reader.pending_vars(root);
     let objects = root.fields().find(|(key, _)| key.text() == "objects").map(|(_, value)| value);
     let no_root = scene.is_none();
     let missing = match objects {
@@ -71,7 +73,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
             MaterialRef::Inline(material) => material.value.shines().is_some(),
             MaterialRef::Named { .. } | MaterialRef::Default => false,
         };
-        if dark && black && !reader.materials.any_shines() && !scene.objects.iter().any(shines) {
+        if dark && black && !reader.materials.any_shines() && !scene.objects.0.iter().any(shines) {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(
@@ -90,6 +92,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
             reader.path.pop();
         }
     }
+    reader.all_copies(&scene.objects.0);
     scene.materials = reader.materials.take();
     Some(scene)
 }
@@ -105,7 +108,7 @@ fn no_objects(span: Span, message: &str, syntax: Syntax) -> Diagnostic {
 }
 
 /// A scene of a later version: that is all that is said of it.
-fn newer_version(root: Item<'_, '_>, sink: &mut Sink) -> bool {
+pub(super) fn newer_version(root: Item<'_, '_>, sink: &mut Sink) -> bool {
     let Some((_, version)) = root.fields().find(|(key, _)| key.text() == "version") else { return false };
     let newer = version.kind() == Kind::Integer && version.number().is_some_and(|number| number > f64::from(VERSION));
     if newer {
@@ -126,7 +129,23 @@ fn newer_version(root: Item<'_, '_>, sink: &mut Sink) -> bool {
     newer
 }
 
+/// Objects that a scene may have, their copies counted.
+const MOST_OBJECTS: u64 = 100_000_000;
+
 impl Reader<'_> {
+    /// There may not be too many objects: copies of groups within each other soon are.
+    fn all_copies(&mut self, objects: &[Spanned<Object>]) {
+        let mut all = 0u64;
+        for object in objects {
+            all = all.saturating_add(object.value.placements().known_copies());
+            if all > MOST_OBJECTS {
+                let message = format!("the scene has more than {MOST_OBJECTS} objects, copies counted");
+                self.report(Diagnostic::error(codes::TOO_MUCH, object.span, message).expected("fewer copies"));
+                return;
+            }
+        }
+    }
+
     /// The view must have a direction, and `up` must not lie along it.
     fn camera(&mut self, camera: &Camera, syntax: Syntax) {
         if self.sink.diagnostics.iter().any(|fault| fault.path.starts_with("camera")) {

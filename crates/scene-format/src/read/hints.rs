@@ -56,7 +56,8 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
 
 /// What other programs call a field of ours.
 pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 22] = [
+    const SYNONYMS: [(&str, &[&str]); 23] = [
+        ("objects", &["children", "items", "members", "contents", "shapes"]),
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
         ("center", &["centre", "position", "pos", "origin"]),
@@ -87,7 +88,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 11] = [
+    const SYNONYMS: [(&str, &[&str]); 12] = [
         ("Mesh", &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
@@ -97,6 +98,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Cylinder", &["rod", "pipe", "pole"]),
         ("Cone", &["frustum", "truncatedcone"]),
         ("Capsule", &["pill", "spherocylinder"]),
+        ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
@@ -150,10 +152,6 @@ const OBJECTS: Hints = &[
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a `Mesh`",
     ),
     (
-        &["group", "union", "node", "collection", "merge"],
-        "there are no groups: write the objects beside each other; `vars` hold what they share, as in center: (0, \"=table\", 0)",
-    ),
-    (
         &["instance", "objectinstance", "copy", "array", "clone", "for", "loop"],
         "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: .., items: [..])` makes \
          objects by a rule",
@@ -163,8 +161,8 @@ const OBJECTS: Hints = &[
         "solids cannot be cut from each other: build it of parts, or name a mesh file in a `Mesh`",
     ),
     (
-        &["include", "import", "link"],
-        "a scene is one file; geometry from other files comes by `Mesh(file: ..)` and `placements`",
+        &["import", "link", "reference", "scene"],
+        "another scene comes by `Include(file: ..)`, geometry of other files by `Mesh(file: ..)`",
     ),
     (
         &["arealight", "area", "quadlight", "rectlight", "rectanglelight", "meshlight", "lamp"],
@@ -382,7 +380,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef) -> Option<&'s
         "output" | "filename" | "file" if def.name == "Scene" => {
             "the picture's name stands on the command line: tracer render scene.ron -o picture.png"
         }
-        "name" | "id" | "label" | "tag" => "only materials have names; write the name as a comment",
+        "id" | "label" | "tag" if def.field("name").is_some() => "what is called something has a `name`",
+        "name" | "id" | "label" | "tag" => "objects, lights and materials have names; write others as a comment",
         "visible" | "hidden" | "enabled" | "hide" | "visibility" | "cast_shadow" | "cast_shadows" | "double_sided" => {
             "all that is written is seen: leave the object out, or make it a comment"
         }

@@ -9,6 +9,7 @@ use crate::suggest;
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind, NOWHERE};
 use crate::words::Words;
+use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
 
@@ -22,8 +23,12 @@ pub(super) struct Materials {
     read: Vec<NamedMaterial>,
     /// The names of the others, each of which has been reported.
     unread: Vec<Spanned<Arc<str>>>,
-    /// Whether an object uses them: first those that could be read, then the others.
-    used: Vec<bool>,
+    /// Whether an object uses them: those that could be read, and the others. Shorter where the last ones are not used.
+    used: [Vec<bool>; 2],
+    /// How many materials of included scenes have a name that begins so.
+    adopted: HashMap<String, usize>,
+    /// The names of these.
+    foreign: HashSet<Arc<str>>,
     /// Open addressing over four bytes a name: the number of a name that could be read, or of another, counted down from `NOWHERE`.
     slots: Vec<u32>,
     hash: RandomState,
@@ -117,14 +122,48 @@ impl Materials {
     }
 
     fn mark(&mut self, number: u32) {
-        let at = match (number as usize) < self.read.len() {
-            true => number as usize,
-            false => self.read.len() + (FREE - 1 - number) as usize,
+        let (used, at, all) = match (number as usize) < self.read.len() {
+            true => (&mut self.used[0], number as usize, self.read.len()),
+            false => (&mut self.used[1], (FREE - 1 - number) as usize, self.unread.len()),
         };
-        if self.used.is_empty() {
-            self.used = vec![false; self.read.len() + self.unread.len()];
+        if used.len() < all {
+            used.resize(all, false);
         }
-        self.used[at] = true;
+        used[at] = true;
+    }
+
+    /// Whether there is one of this name.
+    pub fn knows(&self, name: &str) -> bool {
+        self.damaged || self.find(name).is_some()
+    }
+
+    /// All names.
+    pub fn known(&self) -> Vec<Arc<str>> {
+        self.names().map(|name| Arc::clone(&name.value)).filter(|name| !self.foreign.contains(name)).collect()
+    }
+
+    /// Takes a material of an included file, under a name that says so; the same one only once. Gives the name.
+    pub fn adopt(&mut self, file: &str, named: NamedMaterial) -> Arc<str> {
+        let base = format!("{file}: {}", named.name.value);
+        let called = |k: usize| if k == 1 { base.clone() } else { format!("{base} ({k})") };
+        let mut k = self.adopted.get(&base).copied().unwrap_or(0);
+        if let Some(number) = self.find(&called(k.max(1)))
+            && let Some(last) = self.read.get(number as usize)
+            && last.material == named.material
+        {
+            return Arc::clone(&last.name.value);
+        }
+        loop {
+            k += 1;
+            if self.find(&called(k)).is_none() {
+                break;
+            }
+        }
+        let name: Arc<str> = called(k).into();
+        self.adopted.insert(base, k);
+        self.foreign.insert(Arc::clone(&name));
+        self.insert(Spanned { value: Arc::clone(&name), span: named.name.span }, Some(named.material));
+        name
     }
 }
 
@@ -151,7 +190,9 @@ impl Reader<'_> {
             if fields.piece() != piece {
                 (piece, begin) = (fields.piece(), value.index());
             }
-            begin = key.release_before(begin);
+            if self.open.is_empty() {
+                begin = key.release_before(begin);
+            }
             let name = key.text();
             self.path.push(Step::Key((*name).to_owned()));
             if name.trim().is_empty() {
@@ -160,8 +201,11 @@ impl Reader<'_> {
                         .expected("a name between quotes"),
                 );
             }
-            let first = self.materials.find(&name).map(|first| self.materials.name(first).span);
-            if let Some(first) = first {
+            let known = self.materials.find(&name);
+            let first = known.map(|first| self.materials.name(first).span);
+            // What a file includes gives way to its own names.
+            let replaces = first.is_some_and(|first| self.is_included(first) && first.source != key.span().source);
+            if let Some(first) = first.filter(|_| !replaces) {
                 self.report(
                     Diagnostic::error(
                         codes::DUPLICATE_NAME,
@@ -172,8 +216,14 @@ impl Reader<'_> {
                     .label(first, "the first one is here"),
                 );
             }
-            let elsewhere = self.material_elsewhere(value);
-            let material = if elsewhere { None } else { Material::read(self, value, at) };
+            let value = self.picked(value);
+            let elsewhere = value.is_some_and(|value| self.material_elsewhere(value));
+            let material = value.filter(|_| !elsewhere).and_then(|value| Material::read(self, value, at));
+            if let (true, Some(number), Some(material)) = (replaces, known, &material)
+                && let Some(old) = self.materials.read.get_mut(number as usize)
+            {
+                (old.name.span, old.material) = (key.span(), material.clone());
+            }
             if first.is_none() {
                 make_room(&mut self.materials.read, item, key);
                 self.materials.insert(Spanned { value: (*name).into(), span: key.span() }, material);
@@ -205,7 +255,9 @@ impl Reader<'_> {
         let count = self.materials.read.len() + self.materials.unread.len();
         // Many names times many mistakes would take long: the first mistakes are the ones that are read.
         let few = count * (self.materials.unknown + 1) <= MAX_COMPARISONS;
-        let mut known: Vec<_> = self.materials.names().filter(|_| few).collect();
+        let count = count - self.materials.foreign.len();
+        let own = |name: &&Spanned<Arc<str>>| few && !self.materials.foreign.contains(&name.value);
+        let mut known: Vec<_> = self.materials.names().filter(own).collect();
         known.sort_by_key(|name| name.span);
         let known: Vec<&str> = known.into_iter().map(|name| &*name.value).collect();
         let kind = Material::DEF.variant(name);
@@ -239,8 +291,13 @@ impl Reader<'_> {
 
     pub(super) fn unused_materials(&mut self) {
         let materials = std::mem::take(&mut self.materials);
-        let used = materials.used.iter().copied().chain(std::iter::repeat(false));
-        for (name, _) in materials.names().zip(used).filter(|(_, used)| !*used) {
+        let [read, unread] = &materials.used;
+        let padded = |used: &Vec<bool>, count: usize| {
+            used.iter().copied().chain(std::iter::repeat(false)).take(count).collect::<Vec<bool>>()
+        };
+        let used = [padded(read, materials.read.len()), padded(unread, materials.unread.len())].concat();
+        let unused = materials.names().zip(used).filter(|(name, used)| !*used && !self.is_included(name.span));
+        for (name, _) in unused.collect::<Vec<_>>() {
             if self.sink.is_full() {
                 break;
             }

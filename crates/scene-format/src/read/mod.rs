@@ -6,22 +6,30 @@
 mod check;
 mod elsewhere;
 mod hints;
+mod include;
 mod materials;
+mod pick;
 mod repeat;
+mod told;
 mod value;
 mod variant;
 mod vars;
 mod vector;
 
 pub(crate) use check::scene;
+pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use pick::{PICK, pick_body};
+use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
+use told::SHOWN;
+pub(crate) use told::{describe, plain, shortened};
 pub(crate) use value::{expected, hex_color, linear_from_srgb};
-pub(crate) use variant::choices;
+pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::Scene;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::desc::{ITEMS, Scene};
+use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::schema::{FieldDef, StructDef};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -34,7 +42,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Words that later versions of the language will give a meaning.
-const RESERVED: [&str; 5] = ["include", "repeat", "keyframes", "for", "let"];
+const RESERVED: [&str; 4] = ["repeat", "keyframes", "for", "let"];
 
 /// Where a value stands: a step of a field path.
 #[derive(Clone, Debug)]
@@ -54,6 +62,12 @@ pub(crate) struct Reader<'r> {
     renamed: u32,
     /// Items that repetitions have made.
     repeated: u64,
+    /// Included files that are being read, one within the other.
+    open: Vec<include::Open>,
+    /// The number of the first source that is an included file.
+    first_included: u32,
+    /// Groups that are being read, one within the other.
+    pub(crate) groups: usize,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
     /// How many points the mesh that is being read has, once they are read.
@@ -89,7 +103,11 @@ impl<'t, 's> Fields<'t, 's> {
 /// So many written fields are looked at for a suggestion: more are no scene, and must not take quadratic time.
 const LOOK_AT: usize = 64;
 /// No struct of the language has more fields: counted in the schema when this is compiled.
-const MAX_FIELDS: usize = Scene::DEF.most_fields();
+const MAX_FIELDS: usize = {
+    // Objects are told later there, since groups hold them.
+    let (scene, items) = (Scene::DEF.most_fields(), ITEMS.most_fields());
+    if scene > items { scene } else { items }
+};
 /// Lists of fewer items get room for all of them at once.
 const SHORT_LIST: usize = 64;
 
@@ -116,6 +134,9 @@ impl<'r> Reader<'r> {
             vars: vars::Table::default(),
             renamed: NOWHERE,
             repeated: 0,
+            open: Vec::new(),
+            first_included: u32::MAX,
+            groups: 0,
             file: None,
             points: None,
             passed_over: false,
@@ -138,7 +159,22 @@ impl<'r> Reader<'r> {
 
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         let path = self.path();
-        self.sink.push(diagnostic.at_path(path));
+        let mut diagnostic = diagnostic.at_path(path);
+        if !self.open.is_empty() {
+            // What is included twice is wrong twice, and told once.
+            let known = |other: &Diagnostic| other.span == diagnostic.span && other.message == diagnostic.message;
+            if self.sink.diagnostics.iter().any(known) {
+                self.sink.errors += usize::from(diagnostic.severity == Severity::Error);
+                return;
+            }
+            diagnostic = self.open.iter().rev().fold(diagnostic, |fault, open| open.labelled(fault));
+        }
+        self.sink.push(diagnostic);
+    }
+
+    /// Whether a place is in an included file.
+    fn is_included(&self, span: Span) -> bool {
+        span != Span::NONE && span.source >= self.first_included
     }
 
     /// Finds the fields of a struct; reports unknown, double and missing ones.
@@ -385,7 +421,7 @@ impl<'r> Reader<'r> {
             Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),
             Some(item) => {
                 self.path.push(Step::Field(at.name));
-                let value = T::read(self, item, at);
+                let value = self.picked(item).and_then(|item| T::read(self, item, at));
                 self.path.pop();
                 // What is wrong has been said: go on with the default, to see the rest.
                 value.or_else(|| default.map(|default| default()))
@@ -436,8 +472,8 @@ impl<'r> Reader<'r> {
                 // The first one stays: whoever asks later whether the list is empty asks for it.
                 (piece, begin) = (children.begin, child.index() + 1);
             }
-            // What is repeated is read again.
-            if self.vars.depth() == 0 {
+            // What is repeated or included is read again.
+            if self.vars.depth() == 0 && self.open.is_empty() {
                 begin = child.release_before(begin);
             }
             if child.kind() == Kind::Broken {
@@ -445,9 +481,12 @@ impl<'r> Reader<'r> {
                 continue;
             }
             self.path.push(Step::Index(index));
-            match repeat_body(child) {
-                Some(body) => self.passed_over |= self.repeat(body, at, read).is_none(),
-                None => read(self, child),
+            match self.picked(child) {
+                Some(child) => match repeat_body(child) {
+                    Some(body) => self.passed_over |= self.repeat(body, at, read).is_none(),
+                    None => read(self, child),
+                },
+                None => self.passed_over = true,
             }
             self.path.pop();
         }
@@ -500,56 +539,6 @@ impl<'r> Reader<'r> {
         self.report(fault);
         None
     }
-}
-
-/// A value in words, for "cannot be ..".
-pub(crate) fn describe(item: Item<'_, '_>) -> String {
-    match item.kind() {
-        Kind::Bool => format!("`{}`", item.lexeme()),
-        Kind::Integer | Kind::Float => format!("the number {}", shortened(item.lexeme())),
-        Kind::Text => format!("the text {}", shortened(item.lexeme())),
-        Kind::Char => "a single character".to_owned(),
-        Kind::Date => "a date or time".to_owned(),
-        Kind::Word => format!("the word `{}`", shortened(item.lexeme())),
-        Kind::Key => "a name".to_owned(),
-        Kind::List => match item.children().count() {
-            0 => "an empty list".to_owned(),
-            1 => "a list of one item".to_owned(),
-            count => format!("a list of {count} items"),
-        },
-        Kind::Tuple | Kind::Struct if item.name().is_some() => {
-            format!("`{}(..)`", shortened(item.name().unwrap_or_default()))
-        }
-        Kind::Tuple => match item.children().count() {
-            0 => "an empty pair of brackets".to_owned(),
-            1 => "one value in brackets".to_owned(),
-            count => format!("{count} values in brackets"),
-        },
-        Kind::Struct => "a group of fields".to_owned(),
-        Kind::Map => "a table of fields".to_owned(),
-        // The rest is syntax that readers do not see.
-        _ => "this".to_owned(),
-    }
-}
-
-/// So many characters of something long are shown.
-const SHOWN: usize = 40;
-
-/// The first characters of something that may be long.
-pub(crate) fn shortened(text: &str) -> String {
-    let line = text.lines().next().unwrap_or("");
-    if line.len() == text.len() && line.chars().count() <= SHOWN {
-        return line.to_owned();
-    }
-    let head: String = line.chars().take(SHOWN - 2).collect();
-    format!("{head}..")
-}
-
-/// ``the `focus_distance` of a thin lens``: names that are no words are set off.
-pub(crate) fn plain(noun: &str) -> String {
-    let words: Vec<String> =
-        noun.split(' ').map(|word| if word.contains('_') { format!("`{word}`") } else { word.to_owned() }).collect();
-    words.join(" ")
 }
 
 /// `this sphere` from `a sphere`; `the camera` stays.

@@ -13,7 +13,7 @@ const MOST_TIMES: f64 = 1e6;
 /// `Repeat`s within each other, at most.
 const MOST_NESTED: usize = 8;
 /// Items that all repetitions and patterns of a scene make, at most.
-const MOST_ITEMS: u64 = 10_000_000;
+pub(super) const MOST_ITEMS: u64 = 10_000_000;
 
 /// Its fields.
 pub(crate) static REPEAT: StructDef = StructDef {

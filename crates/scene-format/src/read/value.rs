@@ -5,6 +5,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::expression::Value;
 use crate::form::Form;
+use crate::include::joined;
 use crate::schema::{FieldDef, Type};
 use crate::suggest;
 use crate::syntax::{Syntax, decode};
@@ -32,7 +33,7 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
 pub(crate) fn expected(at: &FieldDef) -> String {
     let rule = &at.rule;
     let words = rule.range.words();
-    let out = match (at.kind, rule.what) {
+    let out = match (at.kind.resolved(), rule.what) {
         (Type::Bool, _) => "true or false".to_owned(),
         (Type::Number | Type::Integer, "") => "a number".to_owned(),
         (Type::Number | Type::Integer, what) => what.to_owned(),
@@ -65,7 +66,9 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
         (Type::OneOf(_), _) => "a value".to_owned(),
+        (Type::Optional(Type::Text), _) => "a name between quotes".to_owned(),
         (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
+        (Type::Later(_), _) => "a value".to_owned(),
     };
     let out = if words.is_empty() { out } else { format!("{out} {words}") };
     with_unit(out, at)
@@ -231,7 +234,7 @@ impl Words for bool {
 
 impl Reader<'_> {
     /// A text that is not empty.
-    pub(super) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
+    pub(crate) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {
             let word =
                 matches!(item.kind(), Kind::Word | Kind::Char).then(|| format!("\"{}\"", item.text().escape_default()));
@@ -254,8 +257,14 @@ impl Words for Arc<Path> {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let text = reader.text(item, at)?;
-        let known = reader.file.as_ref().filter(|file| file.to_str() == Some(&*text));
-        let file = known.map_or_else(|| Arc::from(Path::new(&*text)), Arc::clone);
+        let folder = item.folder();
+        // Paths in an included file start from that file.
+        let path = match folder.as_os_str().is_empty() {
+            true => std::borrow::Cow::Borrowed(Path::new(&*text)),
+            false => std::borrow::Cow::Owned(joined(folder, &text)),
+        };
+        let known = reader.file.as_ref().filter(|file| file.as_os_str() == path.as_os_str());
+        let file = known.map_or_else(|| Arc::from(&*path), Arc::clone);
         reader.file = Some(Arc::clone(&file));
         if let Some(kind) = at.rule.file {
             reader.sink.files.add(kind, &file, item.span());

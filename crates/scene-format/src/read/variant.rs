@@ -225,12 +225,14 @@ impl Reader<'_> {
         }
         match chosen.body {
             Body::None => self.needs_brackets(chosen),
-            Body::Value(value) => T::read(self, value, at),
+            Body::Value(value) => self.picked(value).and_then(|value| T::read(self, value, at)),
             Body::Brackets(item) => {
                 let mut children = item.solid_children();
                 match (children.next(), children.next()) {
                     (None, None) if item.is_damaged() => None,
-                    (Some(only), None) if item.kind() == Kind::Tuple => T::read(self, only, at),
+                    (Some(only), None) if item.kind() == Kind::Tuple => {
+                        self.picked(only).and_then(|only| T::read(self, only, at))
+                    }
                     (Some(_), Some(_)) if item.kind() == Kind::Tuple => {
                         // Translate(1, 2, 3): the vector's own brackets are missing.
                         let lexeme = item.lexeme();

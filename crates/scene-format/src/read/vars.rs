@@ -53,10 +53,28 @@ pub(super) struct Table {
     /// That they were too many was told.
     waits_too_long: bool,
     /// Some could not be read: names may be missing.
-    damaged: bool,
+    pub damaged: bool,
+    /// Values that are given for names of an included scene, and whether it has these.
+    given: BTreeMap<Arc<str>, (Value, bool)>,
 }
 
 impl Table {
+    /// That of an included scene, some of whose values are given.
+    pub fn with(given: Vec<(Arc<str>, Value)>) -> Table {
+        let given = given.into_iter().map(|(name, value)| (name, (value, false))).collect();
+        Table { given, ..Table::default() }
+    }
+
+    /// Whether a value was given that there is no var for.
+    pub fn is_left(&self, name: &str) -> bool {
+        !self.damaged && self.given.get(name).is_some_and(|(_, taken)| !taken)
+    }
+
+    /// The names of the scene's vars.
+    pub fn names(&self) -> Vec<Arc<str>> {
+        self.by_name.keys().cloned().collect()
+    }
+
     /// Repetitions that are being read.
     pub fn depth(&self) -> usize {
         self.frames.len()
@@ -145,8 +163,10 @@ impl Reader<'_> {
                 self.path.pop();
                 continue;
             }
-            if let Some(first) = self.vars.find(&name).filter(|&first| first >= start) {
-                let first = self.vars.list[first].span;
+            // What a file includes gives way to its own names.
+            let gives_way = |first: Span| self.is_included(first) && first.source != key.span().source;
+            let first = self.vars.find(&name).filter(|&first| first >= start).map(|first| self.vars.list[first].span);
+            if let Some(first) = first.filter(|&first| !gives_way(first)) {
                 self.path.push(Step::Key(name.clone().into_owned()));
                 let mut fault =
                     Diagnostic::error(codes::DUPLICATE_NAME, key.span(), format!("two vars have the name \"{name}\""))
@@ -163,12 +183,36 @@ impl Reader<'_> {
                 self.vars.by_name.insert(Arc::clone(&name), self.vars.list.len());
             }
             let slot = value.index() as u32;
-            self.vars.list.push(Var { name, span: key.span(), slot, state: State::NotYet, used: false });
+            let given = self.vars.given.get_mut(&*name).filter(|_| self.vars.frames.is_empty());
+            let state = given.map_or(State::NotYet, |given| {
+                given.1 = true;
+                State::Done(given.0.clone())
+            });
+            self.vars.list.push(Var { name, span: key.span(), slot, state, used: false });
         }
+        // Those of a scene are reckoned when all files that it includes have told theirs.
+        if !self.vars.frames.is_empty() || self.open.is_empty() && !self.is_included(item.span()) {
+            self.reckon(start, item);
+        }
+    }
+
+    /// Reckons what is left, when a scene has been read.
+    pub(super) fn pending_vars(&mut self, root: Item<'_, '_>) {
+        self.path.push(Step::Field("vars"));
+        self.reckon(0, root);
+        self.path.pop();
+    }
+
+    /// Reckons the vars from number `start` on. `near`: any item of the tree.
+    fn reckon(&mut self, start: usize, near: Item<'_, '_>) {
         for k in start..self.vars.list.len() {
-            self.path.push(Step::Key((*self.vars.list[k].name).to_owned()));
-            self.var(k, item);
-            self.path.pop();
+            let Var { name, state: State::NotYet, .. } = &self.vars.list[k] else { continue };
+            let replaced = self.vars.frames.is_empty() && self.vars.by_name.get(name) != Some(&k);
+            if !replaced {
+                self.path.push(Step::Key((**name).to_owned()));
+                self.var(k, near);
+                self.path.pop();
+            }
         }
     }
 
@@ -198,7 +242,8 @@ impl Reader<'_> {
     }
 
     /// A value of `vars`.
-    fn value(&mut self, item: Item<'_, '_>) -> Option<Value> {
+    pub(super) fn value(&mut self, item: Item<'_, '_>) -> Option<Value> {
+        let item = self.picked(item)?;
         match item.kind() {
             Kind::Broken => None,
             Kind::Integer | Kind::Float => {
@@ -323,8 +368,9 @@ impl Reader<'_> {
 
     /// Warns of names that nothing uses.
     pub(super) fn unused_vars(&mut self) {
+        let own = |var: &&Var| !var.used && !self.is_included(var.span);
         let unused: Vec<(String, Span)> =
-            self.vars.list.iter().filter(|var| !var.used).map(|var| ((*var.name).to_owned(), var.span)).collect();
+            self.vars.list.iter().filter(own).map(|var| ((*var.name).to_owned(), var.span)).collect();
         for (name, span) in unused {
             self.path = vec![Step::Field("vars"), Step::Key(name.clone())];
             let message = format!("nothing uses the var \"{}\"", shortened(&name));

@@ -51,6 +51,52 @@ fn is_expression(body: &str) -> bool {
     !matches!(value, Err(Some(fault)) if fault.code == codes::EXPRESSION_SYNTAX)
 }
 
+/// The length of the expression that `rest`, what follows on a `=`, begins with, up to a quote, a comma or a bracket that closes, on the
+/// same line; `None` where there is none.
+pub(super) fn expression_ahead(rest: &str) -> Option<usize> {
+    let line = super::line_ahead(rest, 0);
+    let (mut depth, mut end) = (0usize, line.len());
+    for (at, byte) in line.bytes().enumerate() {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' if depth > 0 => depth -= 1,
+            b',' if depth > 0 => {}
+            b'"' | b',' | b')' | b']' | b'}' | b'\r' => {
+                end = at;
+                break;
+            }
+            b'/' if line[at..].starts_with("//") => {
+                end = at;
+                break;
+            }
+            _ => {}
+        }
+    }
+    let body = line[..end].trim_end();
+    is_expression(body).then_some(body.len())
+}
+
+/// Whether a text that was closed by the quote of the next one is rather an expression without its last quote. `inner`: what stands between
+/// the quotes; `after`: what follows on the second.
+pub(super) fn lost_its_quote(inner: &str, after: &str) -> bool {
+    let Some(body) = inner.strip_prefix('=') else { return false };
+    let after = super::line_ahead(after, 0).trim_start();
+    !after.is_empty()
+        && !after.starts_with([',', ')', ']', '}', ':'])
+        && !after.starts_with("//")
+        && expression_ahead(body).is_some_and(|length| length < body.trim_end().len())
+}
+
+/// What is said of an expression whose quotes are missing: `=2*r`, of which `body` follows on the sign.
+pub(super) fn without_quotes(body: &str, span: Span) -> Diagnostic {
+    let mended = format!("\"={body}\"");
+    let mut fault = Diagnostic::error(codes::BARE_EXPRESSION, span, "an expression stands between quotes")
+        .expected("a text that begins with `=`")
+        .hint(format!("write {mended}"));
+    fault.edit = Some(Edit { span, replacement: mended });
+    fault
+}
+
 /// What is said of arithmetic without quotes. An edit is offered where all its names are known.
 pub(super) fn fault(text: &str, body: &str, span: Span) -> Diagnostic {
     let mended = format!("\"={body}\"");

@@ -228,7 +228,7 @@ impl<'p> Parser<'p> {
 
     fn unexpected(&mut self) {
         let start = self.at;
-        if self.angle_brackets(start) {
+        if self.angle_brackets(start) || self.bare_expression(start) {
             return;
         }
         let character = self.rest().chars().next().unwrap_or(' ');

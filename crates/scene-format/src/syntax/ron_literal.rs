@@ -111,6 +111,33 @@ impl Parser<'_> {
         true
     }
 
+    /// An expression without quotes, or without its first one, which is reported.
+    pub(super) fn bare_expression(&mut self, start: usize) -> bool {
+        let text = self.text;
+        let Some(rest) = text[start..].strip_prefix('=') else { return false };
+        let Some(length) = arithmetic::expression_ahead(rest).filter(|&length| number_kind(&rest[..length]).is_none())
+        else {
+            return false;
+        };
+        let end = start + 1 + length;
+        self.at = end;
+        let fault = match rest[length..].starts_with('"') {
+            true => {
+                self.at += 1;
+                let mut fault =
+                    Diagnostic::error(codes::UNCLOSED_TEXT, self.span(start, self.at), "this text has no first quote")
+                        .expected("a text between double quotes")
+                        .hint(format!("write \"{}\"", &self.text[start..end]));
+                fault.edit = Some(Edit { span: self.span(start, start), replacement: "\"".to_owned() });
+                fault
+            }
+            false => arithmetic::without_quotes(&rest[..length], self.span(start, end)),
+        };
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
+        true
+    }
+
     pub(super) fn is_raw_text(&self) -> bool {
         let rest = self.rest();
         rest.strip_prefix('r').is_some_and(|raw| {
@@ -161,6 +188,9 @@ impl Parser<'_> {
                 Some(_) => at += 1,
             }
         }
+        if arithmetic::lost_its_quote(&self.text[start + 1..at], &self.text[at + 1..]) {
+            return self.unclosed_text();
+        }
         self.at = at + 1;
         if escapes {
             let inner = &self.text[start + 1..at];
@@ -190,13 +220,20 @@ impl Parser<'_> {
     fn unclosed_text(&mut self) {
         let start = self.at;
         let line = self.rest().split('\n').next().unwrap_or("").trim_end();
-        let length = line[1..].find([',', ')', ']', '}']).map_or(line.len(), |end| end + 1);
+        let expression = line[1..].strip_prefix('=').and_then(arithmetic::expression_ahead);
+        let length = match expression {
+            Some(length) => 2 + length,
+            None => line[1..].find([',', ')', ']', '}']).map_or(line.len(), |end| end + 1),
+        };
         let found = self.span(start, start + 1);
-        self.sink.push(
-            Diagnostic::error(codes::UNCLOSED_TEXT, found, "this text is never closed")
-                .expected("\" at its end, on the same line")
-                .hint("write `\"` where the text ends"),
-        );
+        let mut fault = Diagnostic::error(codes::UNCLOSED_TEXT, found, "this text is never closed")
+            .expected("\" at its end, on the same line")
+            .hint("write `\"` where the text ends");
+        if expression.is_some() {
+            let end = self.span(start + length, start + length);
+            fault.edit = Some(Edit { span: end, replacement: "\"".to_owned() });
+        }
+        self.sink.push(fault);
         self.at = start + length;
         self.builder.leaf(Kind::Broken, start, self.at);
     }

@@ -243,7 +243,8 @@ impl Parser<'_> {
     pub(super) fn field_ahead(&mut self) -> Option<usize> {
         let start = self.at;
         let mut length = self.word_length();
-        if length == 0 && self.peek() == Some(b'"') {
+        // No name begins with `=`: such a text is an expression.
+        if length == 0 && self.peek() == Some(b'"') && !self.rest().starts_with("\"=") {
             // `("name": value)`: the name of a field in quotes, taken as the field.
             let close = self.rest()[1..].find(['"', '\n'])?;
             length = close + 2;

@@ -9,9 +9,14 @@ pub const FULL_RON: &str = include_str!("full.ron");
 /// The same scene in TOML.
 pub const FULL_TOML: &str = include_str!("full.toml");
 
+/// Where the files lie that examples include.
+pub fn base_dir() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))
+}
+
 /// Loads a text; the diagnostics are errors and warnings, or warnings alone.
 pub fn load(text: &str, syntax: Syntax) -> Result<Loaded, LoadError> {
-    load_str("scene", text, syntax, Path::new(""), &[])
+    load_str("scene", text, syntax, base_dir(), &[])
 }
 
 /// All diagnostics of a text.

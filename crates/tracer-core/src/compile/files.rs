@@ -31,6 +31,8 @@ fn faults_of(file: &NamedFile, path: &Path) -> Diagnostics {
             .map(|error| error.to_environment_diagnostic(file.span))
             .into_iter()
             .collect(),
+        // The loader has read it, and told what is wrong with it.
+        FileKind::Scene => Vec::new(),
         FileKind::Placements => {
             load_placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
         }

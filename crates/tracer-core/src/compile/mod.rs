@@ -205,10 +205,11 @@ fn acceleration(word: Acceleration) -> bvh::Acceleration {
     }
 }
 
-/// The files that the scene names, each once, as [`compile`] opens them: meshes, placements, pictures. What these name in turn is known
-/// when they have been read ([`Scene::files`]).
+/// The files that the scene names, each once: the scenes that it includes, and what [`compile`] opens: meshes, placements, pictures. What
+/// these name in turn is known when they have been read ([`Scene::files`]).
 pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
-    let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).collect();
+    let included = desc.includes.iter().map(|file| &**file);
+    let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).chain(included).collect();
     named.into_iter().map(|path| desc.base_dir.join(path)).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
 use scene_format::codes;
-use scene_format::desc::{Material, MaterialRef, Object, Placements};
+use scene_format::desc::{Material, MaterialRef, Object};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
 use scene_format::{Diagnostics, SceneDesc, nearest};
 use std::collections::{BTreeMap, VecDeque};
@@ -64,15 +64,11 @@ pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
             Object::Mesh(mesh) => mesh.file(),
             _ => None,
         };
-        let placements = match object.value.placements() {
-            Placements::File(file) => Some(&**file),
-            _ => None,
-        };
         let texture = match object.value.material() {
             MaterialRef::Inline(material) => texture_file(&material.value),
             MaterialRef::Default | MaterialRef::Named { .. } => None,
         };
-        [file, placements, texture].into_iter().flatten()
+        file.into_iter().chain(object.value.placements().files()).chain(texture)
     });
     let of_background = desc.background.environment().map(|environment| &environment.file);
     of_background

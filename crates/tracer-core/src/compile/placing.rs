@@ -35,7 +35,10 @@ fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
     DAffine3 { matrix3: matrix, translation: point - matrix * point }
 }
 
-/// The maps of the copies, in the world.
+/// Copies of one object, at most, those of the groups around it counted.
+const MOST_COPIES: u64 = 100_000_000;
+
+/// The maps of the copies, in the world. A fault of a group is told once, whatever stands in it.
 pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
@@ -48,6 +51,29 @@ pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagn
             }
         },
         Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
+        Placements::Within(within) => {
+            let mut maps = copies(desc, &within.own, diagnostics);
+            let mut found = Diagnostics::new();
+            for group in within.groups.outwards() {
+                let step = place(&group.transform, DVec3::ZERO, &|_| 0.0);
+                let around = copies(desc, &group.placements, &mut found);
+                if maps.len() as u64 * around.len() as u64 > MOST_COPIES {
+                    let at = group.placements.files().first().map_or(Span::NONE, |file| file.span);
+                    let message = format!("groups make more than {MOST_COPIES} copies of an object");
+                    found.push(Diagnostic::error(codes::TOO_MUCH, at, message).expected("fewer copies"));
+                    maps.clear();
+                    break;
+                }
+                let outer = around.iter().map(|outer| *outer * step);
+                maps = outer.flat_map(|outer| maps.iter().map(move |inner| outer * *inner)).collect();
+            }
+            for fault in found {
+                if !diagnostics.contains(&fault) {
+                    diagnostics.push(fault);
+                }
+            }
+            maps
+        }
     }
 }
 
@@ -100,6 +126,28 @@ mod tests {
         let map = place(&steps, DVec3::new(1.0, 0.0, 0.0), &|_| 0.0);
         near(map.transform_point3(DVec3::new(1.0, 0.0, 0.0)), [11.0, 0.0, 0.0]);
         near(map.transform_point3(DVec3::new(2.0, 0.0, 0.0)), [11.0, 2.0, 0.0]);
+    }
+
+    #[test]
+    fn copies_in_groups_are_the_product_from_the_inside_outwards() {
+        let text = r#"Scene(background: 1, objects: [
+            Group(transform: [Translate((0, 0, 1))], placements: [[], [Translate((100, 0, 0))]], objects: [
+                Group(placements: [[Scale(2)], [Rotate(axis: (0, 1, 0), degrees: 90)]], objects: [
+                    Sphere(center: (0, 0, 0), radius: 1, placements: [[Translate((1, 0, 0))], [Translate((0, 3, 0))]]),
+                ]),
+                Sphere(center: (0, 0, 0), radius: 1),
+            ]),
+        ])"#;
+        let loaded = scene_format::load_str("s", text, scene_format::Syntax::Ron, std::path::Path::new(""), &[]);
+        let desc = loaded.expect("a scene").scene;
+        let of = |object: usize| copies(&desc, desc.objects[object].value.placements(), &mut Diagnostics::new());
+        let centres: Vec<DVec3> = of(0).iter().map(|map| map.transform_point3(DVec3::ZERO)).collect();
+        let inner = [[2.0, 0.0, 1.0], [0.0, 6.0, 1.0], [0.0, 0.0, 0.0], [0.0, 3.0, 1.0]];
+        assert_eq!(centres.len(), 8);
+        for (k, centre) in centres.iter().enumerate() {
+            near(*centre, [inner[k % 4][0] + 100.0 * (k / 4) as f64, inner[k % 4][1], inner[k % 4][2]]);
+        }
+        assert_eq!(of(1).len(), 2);
     }
 
     #[test]

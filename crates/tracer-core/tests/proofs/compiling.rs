@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Instances, Object, Placements, Shading, SphereLight, Transform};
+use scene_format::desc::{Emission, Instances, Name, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -58,6 +58,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 center: [0.0, distance, 0.0].into(),
                 radius: radius.into(),
                 emission: emission.clone().into(),
+                name: Name::default(),
             };
             let floor = mesh(&square(1.0).obj("square-1"), diffuse([albedo; 3]), Shading::Flat, vec![]);
             let desc = scene(8, vec![lamp], vec![floor]).camera([-0.3, 0.4, 0.0], [0.0, 0.0, 0.0], 0.01).bounces(0);

@@ -7,8 +7,8 @@ use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Amount, Emissive, Material, MaterialRef, Object, PerAxis, PixelFilter, Placements, RectBox, Rectangle, Shading,
-    Transform,
+    Amount, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, RectBox, Rectangle,
+    Shading, Transform,
 };
 use scene_format::diagnostic::Spanned;
 
@@ -53,6 +53,7 @@ fn rectangle(size: f64, material: Material, transform: Vec<Transform>) -> Object
         center: [0.0; 3].into(),
         normal: [0.0, 1.0, 0.0].into(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -190,6 +191,7 @@ fn glass_on_a_table_shows_the_table() {
             material: of(glass(1.0)),
             transform: Vec::new(),
             placements: Placements::One,
+            name: Name::default(),
         }));
         let objects = if first { vec![cube, table] } else { vec![table, cube] };
         let desc =

@@ -4,7 +4,7 @@
 use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;
 use scene_format::desc::{
-    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, PerAxis, PlacementList, Placements,
+    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PlacementList, Placements,
     Rectangle, Transform, Transparent, Vec3,
 };
 use scene_format::{SceneDesc, desc::Amount};
@@ -29,6 +29,7 @@ fn disk(center: Vec3, normal: Vec3, [radius, inner]: [f64; 2], material: Materia
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -41,6 +42,7 @@ fn cylinder(from: Vec3, to: Vec3, radius: f64, caps: bool, material: Material) -
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -54,6 +56,7 @@ fn cone(from: Vec3, to: Vec3, [radius, tip]: [f64; 2], caps: bool, material: Mat
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -65,6 +68,7 @@ fn capsule(from: Vec3, to: Vec3, radius: f64, material: Material) -> Object {
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -76,6 +80,7 @@ fn floor() -> Object {
         material: inline(diffuse([0.7, 0.6, 0.5])),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 

@@ -5,7 +5,7 @@ use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Integrator, Material, MaterialRef, Object, PerAxis, PixelFilter, Placements, Rectangle,
+    Acceleration, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, Rectangle,
 };
 use tracer_core::{Crop, Film, Layer, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
 use tracer_reference::{FirstHit, first_hits};
@@ -133,6 +133,7 @@ fn a_wall_seen_straight_has_one_depth() {
             material: MaterialRef::Default,
             transform: Vec::new(),
             placements: Placements::One,
+            name: Name::default(),
         };
         let desc = scene(17, vec![], vec![Object::Rectangle(Box::new(wall))])
             .camera(at(2.0), at(0.0), 60.0)

@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Amount, Emissive, Light, Material, MaterialRef, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
+    Amount, Emissive, Light, Material, MaterialRef, Name, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
     SphereLight, Transform, Vec3,
 };
 
@@ -33,6 +33,7 @@ fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material) -> 
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -43,6 +44,7 @@ fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform
         material: inline(material),
         transform: transform.into_iter().map(Into::into).collect(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 

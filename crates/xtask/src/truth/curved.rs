@@ -3,7 +3,7 @@
 use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
-use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Material, Object, Placements, Transform};
+use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Material, Name, Object, Placements, Transform};
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
@@ -38,6 +38,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            name: Name::default(),
         })),
         0 | 1 => Object::Cylinder(Box::new(Cylinder {
             from: from.into(),
@@ -47,6 +48,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            name: Name::default(),
         })),
         2 => Object::Cone(Box::new(Cone {
             from: from.into(),
@@ -57,6 +59,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            name: Name::default(),
         })),
         _ => Object::Capsule(Box::new(Capsule {
             from: from.into(),
@@ -65,6 +68,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            name: Name::default(),
         })),
     };
     world.desc.objects.push(object.into());

@@ -4,7 +4,7 @@ use super::draw::{magnitude, once_in};
 use super::meshes::{Point, Shape};
 use super::world::{World, inline};
 use scene_format::desc::{
-    Amount, Emission, Emissive, Light, Material, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+    Amount, Emission, Emissive, Light, Material, Name, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -31,6 +31,7 @@ pub fn rectangle(world: &mut World, center: Point, radius: f64, material: Materi
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
         placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        name: Name::default(),
     };
     world.desc.objects.push(Object::Rectangle(Box::new(rectangle)).into());
 }
@@ -46,6 +47,7 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
         placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        name: Name::default(),
     };
     world.desc.objects.push(Object::Box(Box::new(cuboid)).into());
 }

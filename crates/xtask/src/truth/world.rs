@@ -4,7 +4,7 @@ use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
     Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
+    Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
@@ -47,6 +47,7 @@ impl World {
             material,
             transform: Vec::new(),
             placements: Placements::One,
+            name: Name::default(),
         };
         self.desc.objects.push(Object::Sphere(Box::new(sphere)).into());
     }
@@ -78,6 +79,7 @@ impl World {
             placements: Placements::One,
             instances: Instances::Auto,
             shading: Shading::Auto,
+            name: Name::default(),
         };
         self.desc.objects.push(Object::Mesh(mesh).into());
     }
@@ -85,9 +87,8 @@ impl World {
     /// Adds a lamp of this radiance.
     pub fn lamp(&mut self, center: Point, radius: f64, radiance: Color) {
         let emission = Emission::Radiance(radiance).into();
-        self.desc
-            .lights
-            .push(Light::SphereLight(SphereLight { center: center.into(), radius: radius.into(), emission }).into());
+        let light = SphereLight { center: center.into(), radius: radius.into(), emission, name: Name::default() };
+        self.desc.lights.push(Light::SphereLight(light).into());
     }
 
     /// Where the camera stands.

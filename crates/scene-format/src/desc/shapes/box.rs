@@ -1,7 +1,7 @@
 //! Boxes.
 
 use super::Placements;
-use crate::desc::{MaterialRef, PerAxis, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, PerAxis, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -22,5 +22,7 @@ scene_struct! {
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
         /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
     }
 }

@@ -1,7 +1,7 @@
 //! Capsules.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -25,5 +25,7 @@ scene_struct! {
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
     }
 }

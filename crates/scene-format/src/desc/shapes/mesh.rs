@@ -3,7 +3,7 @@
 use super::Placements;
 use super::inline_mesh::{InlineMesh, Points, Written, WrittenFaces};
 use crate::codes;
-use crate::desc::{MaterialRef, Transform};
+use crate::desc::{MaterialRef, Name, Transform};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
@@ -29,6 +29,8 @@ pub struct Mesh {
     pub instances: Instances,
     /// Whether normals are interpolated.
     pub shading: Shading,
+    /// What it is called.
+    pub name: Name,
 }
 
 /// Where the triangles of a mesh come from.
@@ -72,6 +74,8 @@ scene_struct! {
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.
         shading: Shading = Shading::Auto;
+        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
     }
 }
 
@@ -96,7 +100,7 @@ impl Words for Mesh {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         reader.points = None;
-        let MeshWords { file, points, faces, material, transform, placements, instances, shading } =
+        let MeshWords { file, points, faces, material, transform, placements, instances, shading, name } =
             MeshWords::read(reader, item, at)?;
         let source = match (file.0, points.0, faces.0) {
             (Some(file), Written::Not, Written::Not) => MeshSource::File(file),
@@ -123,7 +127,7 @@ impl Words for Mesh {
             // None was written, two were, or one is wrong: reported.
             _ => return None,
         };
-        Some(Mesh { source, material, transform, placements, instances, shading })
+        Some(Mesh { source, material, transform, placements, instances, shading, name })
     }
 
     fn form(&self, all: bool) -> Form {
@@ -144,6 +148,7 @@ impl Words for Mesh {
             placements: self.placements.clone(),
             instances: self.instances,
             shading: self.shading,
+            name: self.name.clone(),
         };
         words.form(all)
     }

@@ -20,6 +20,6 @@ pub use disk::Disk;
 pub use inline_mesh::{Faces, InlineMesh};
 pub use mesh::{Instances, Mesh, MeshSource, Shading};
 pub use pattern::PlacementPattern;
-pub use placements::{PlacementList, Placements};
+pub use placements::{Groups, Moved, PlacementList, Placements, Within};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;

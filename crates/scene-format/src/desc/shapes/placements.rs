@@ -23,6 +23,72 @@ pub enum Placements {
     File(Box<Spanned<Arc<Path>>>),
     /// Copies by a rule.
     Pattern(Box<Spanned<PlacementPattern>>),
+    /// Those of an object in a group: its own, and the group's of them.
+    Within(Box<Within>),
+}
+
+/// Copies of an object that stands in groups: for each copy of a group one of each copy within.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Within {
+    /// The object's own.
+    pub own: Placements,
+    /// The groups that it stands in.
+    pub groups: Arc<Groups>,
+}
+
+/// The groups that an object stands in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Groups {
+    /// Those within `group`.
+    pub inner: Option<Arc<Groups>>,
+    /// The outermost.
+    pub group: Arc<Moved>,
+}
+
+/// Where a group puts what is in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// Transforms, applied first to last, about the origin unless they say `about`.
+    pub transform: Vec<Spanned<Transform>>,
+    /// Copies, after `transform`.
+    pub placements: Placements,
+}
+
+impl Groups {
+    /// The groups from the innermost to the outermost.
+    pub fn outwards(&self) -> Vec<&Moved> {
+        let mut groups = self.inner.as_ref().map_or_else(Vec::new, |inner| inner.outwards());
+        groups.push(&self.group);
+        groups
+    }
+}
+
+impl Placements {
+    /// How many copies they make, as far as the scene says it: a file counts as one.
+    pub fn known_copies(&self) -> u64 {
+        match self {
+            Placements::One | Placements::File(_) => 1,
+            Placements::List(list) => list.iter().len() as u64,
+            Placements::Pattern(pattern) => pattern.value.count(),
+            Placements::Within(within) => {
+                let groups = within.groups.outwards();
+                let copies = groups.iter().map(|group| group.placements.known_copies());
+                copies.fold(within.own.known_copies(), u64::saturating_mul)
+            }
+        }
+    }
+
+    /// The placements files that they name.
+    pub fn files(&self) -> Vec<&Spanned<Arc<Path>>> {
+        match self {
+            Placements::File(file) => vec![file],
+            Placements::Within(within) => {
+                let groups = within.groups.outwards();
+                within.own.files().into_iter().chain(groups.iter().flat_map(|group| group.placements.files())).collect()
+            }
+            Placements::One | Placements::List(_) | Placements::Pattern(_) => Vec::new(),
+        }
+    }
 }
 
 /// Placements that a scene writes out. The steps of all of them stand in one list: a scene may have millions.
@@ -137,6 +203,8 @@ impl Words for Placements {
             }
             Placements::File(file) => file.form(all),
             Placements::Pattern(pattern) => pattern.form(all),
+            // The groups are written around the object.
+            Placements::Within(within) => within.own.form(all),
         }
     }
 }

@@ -3,7 +3,7 @@
 use scene_format::SceneDesc;
 use scene_format::desc::{
     Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
+    Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
     TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
@@ -55,7 +55,12 @@ impl Describe for SceneDesc {
 
 /// A light of this radiance.
 pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
-    SphereLight { center: center.into(), radius: radius.into(), emission: Emission::Radiance(radiance).into() }
+    SphereLight {
+        center: center.into(),
+        radius: radius.into(),
+        emission: Emission::Radiance(radiance).into(),
+        name: Name::default(),
+    }
 }
 
 /// A sphere.
@@ -66,6 +71,7 @@ pub fn sphere(center: Vec3, radius: f64, material: Material) -> Object {
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        name: Name::default(),
     }))
 }
 
@@ -89,6 +95,7 @@ pub fn placed(
         placements,
         instances: Instances::Always,
         shading,
+        name: Name::default(),
     })
 }
 

@@ -1,0 +1,224 @@
+//! Groups: objects and lights that are moved and copied as one.
+//!
+//! A description knows no groups: what stands in one is read as plain objects that remember where their groups put them
+//! ([`Placements::Within`]), so that nobody after the reader has to walk a tree, and a mesh in a group of a thousand copies is a mesh
+//! with a thousand copies. Lights of a group are spheres that shine to both sides, which is the same.
+
+use super::{
+    Amount, Emission, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements,
+    Sphere, Transform, Within,
+};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::files::FileKind;
+use crate::form::{Entry, Form};
+use crate::read::{Chosen, Reader, make_room};
+use crate::schema::{EnumDef, FieldDef, Rule, Type, VariantDef};
+use crate::tree::{Item, Kind};
+use crate::words::{Words, scene_struct};
+use std::sync::Arc;
+
+/// Groups within each other, at most.
+const MOST_NESTED: usize = 16;
+
+scene_struct! {
+    /// Objects and lights that are moved and copied as one. What stands in it may be a group again, sixteen deep.
+    pub(crate) struct GroupWords as "Group", "a group" {
+        /// What is in it.
+        objects: Objects = Objects(Vec::new());
+        /// The material of those objects in it that have none of their own.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are
+        /// about the origin. A group has no `DropTo`.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name
+        /// of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// Lights that move with it. Each copy has one, as bright as it is written.
+        lights: Vec<Spanned<Light>> = Vec::new();
+        /// What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
+        name: Name = Name::default();
+    }
+}
+
+/// Kinds that are objects themselves.
+const PLAIN: usize = Object::DEF.variants.len();
+
+/// What may stand among objects: kinds of objects, and groups of them.
+pub(crate) static ITEMS: EnumDef =
+    EnumDef { name: Object::DEF.name, noun: Object::DEF.noun, doc: Object::DEF.doc, variants: &VARIANTS };
+
+static VARIANTS: [VariantDef; PLAIN + 2] = {
+    let mut all = [VariantDef::of_struct(GroupWords::TYPE); PLAIN + 2];
+    all[PLAIN + 1] = VariantDef::of_struct(IncludeWords::TYPE);
+    let mut k = 0;
+    while k < PLAIN {
+        all[k] = Object::DEF.variants[k];
+        k += 1;
+    }
+    all
+};
+
+/// A list of objects, what stands in groups among them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Objects(pub Vec<Spanned<Object>>);
+
+impl Words for Objects {
+    const TYPE: Type = Type::List(&Type::Later(|| Type::Enum(&ITEMS)));
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let few = if item.kind() == Kind::List { item.children().take(64).count() } else { 0 };
+        let mut list = Vec::with_capacity(few);
+        reader.items(item, at, |reader, child| {
+            let Some(chosen) = reader.variant(child, &ITEMS) else { return };
+            match chosen.variant.name {
+                "Group" => list.extend(group(reader, &chosen, child.head()).unwrap_or_default()),
+                "Include" => {
+                    let words: Option<IncludeWords> = reader.content(&chosen);
+                    list.extend(words.and_then(|words| reader.include(child, words)).unwrap_or_default());
+                }
+                _ => {
+                    if let Some(value) = Object::of_chosen(reader, &chosen) {
+                        make_room(&mut list, item, child);
+                        list.push(Spanned { value, span: child.span() });
+                    }
+                }
+            }
+        })?;
+        Some(Objects(list))
+    }
+
+    fn form(&self, all: bool) -> Form {
+        let mut entries = Vec::with_capacity(self.0.len());
+        let mut rest = self.0.as_slice();
+        while let Some(first) = rest.first() {
+            // What stands in the same groups is written in the same groups.
+            let of = |object: &Spanned<Object>| match object.value.placements() {
+                Placements::Within(within) => Some(Arc::clone(&within.groups)),
+                _ => None,
+            };
+            let groups = of(first);
+            let same = |other: &&Spanned<Object>| match (&groups, of(other)) {
+                (Some(groups), Some(others)) => Arc::ptr_eq(groups, &others),
+                _ => false,
+            };
+            let count = rest.iter().take_while(same).count().max(1);
+            let (these, others) = rest.split_at(count);
+            rest = others;
+            let mut forms: Vec<Form> = these.iter().map(|object| object.value.form(all)).collect();
+            for group in groups.iter().flat_map(|groups| groups.outwards()) {
+                forms = vec![grouped(forms, group, all)];
+            }
+            entries.extend(forms.into_iter().map(|form| Entry::new("", form)));
+        }
+        Form::List(entries)
+    }
+}
+
+/// The words of a group with these objects.
+fn grouped(objects: Vec<Form>, group: &Moved, all: bool) -> Form {
+    let mut fields = vec![Entry::new("objects", Form::list(objects))];
+    if all || !group.transform.is_empty() {
+        fields.push(Entry::new("transform", group.transform.form(all)));
+    }
+    if all || group.placements != Placements::One {
+        fields.push(Entry::new("placements", group.placements.form(all)));
+    }
+    let content = Form::Struct { name: GroupWords::DEF.name, fields };
+    Form::Variant { name: GroupWords::DEF.name, content: Some(Box::new(content)) }
+}
+
+/// Reads a group: the objects in it.
+fn group(reader: &mut Reader<'_>, chosen: &Chosen<'_, '_>, at: Span) -> Option<Vec<Spanned<Object>>> {
+    if reader.groups >= MOST_NESTED {
+        let message = format!("groups stand more than {MOST_NESTED} deep");
+        reader.report(Diagnostic::error(codes::TOO_MUCH, at, message).expected("fewer"));
+        return None;
+    }
+    reader.groups += 1;
+    let words: Option<GroupWords> = reader.content(chosen);
+    reader.groups -= 1;
+    let words = words?;
+    let mut objects = words.objects.0;
+    objects.extend(words.lights.into_iter().map(of_light));
+    if words.material != MaterialRef::Default {
+        for object in &mut objects {
+            let material = object.value.material_mut();
+            if let MaterialRef::Default = material {
+                *material = words.material.clone();
+            }
+        }
+    }
+    if moved(reader, words.transform, words.placements, &mut objects) { Some(objects) } else { None }
+}
+
+/// Puts objects where a group with this transform and these placements puts them. `false`: it cannot, which is reported.
+pub(crate) fn moved(
+    reader: &mut Reader<'_>,
+    transform: Vec<Spanned<Transform>>,
+    placements: Placements,
+    objects: &mut [Spanned<Object>],
+) -> bool {
+    let drops = |steps: &[Spanned<Transform>]| {
+        steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. })).map(|step| step.span)
+    };
+    let drop = drops(&transform).or_else(|| match &placements {
+        Placements::List(list) => list.iter().find_map(drops),
+        _ => None,
+    });
+    if let Some(at) = drop {
+        let fault = Diagnostic::error(codes::GROUP_DROP, at, "a group has no lowest point that is known yet")
+            .expected("Translate, Scale or Rotate")
+            .hint("drop the objects in it, or move it by Translate((0, y, 0))");
+        reader.report(fault);
+        return false;
+    }
+    if transform.is_empty() && placements == Placements::One {
+        return true;
+    }
+    let group = Arc::new(Moved { transform, placements });
+    // Neighbours that stand in the same inner groups share what is made for them.
+    let mut last: Option<Arc<Groups>> = None;
+    for object in objects {
+        let placements = object.value.placements_mut();
+        let (own, inner) = match std::mem::take(placements) {
+            Placements::Within(within) => (within.own, Some(within.groups)),
+            own => (own, None),
+        };
+        let same = last.as_ref().filter(|last| match (&last.inner, &inner) {
+            (None, None) => true,
+            (Some(last), Some(inner)) => Arc::ptr_eq(last, inner),
+            _ => false,
+        });
+        let groups = match same {
+            Some(groups) => Arc::clone(groups),
+            None => Arc::new(Groups { inner, group: Arc::clone(&group) }),
+        };
+        last = Some(Arc::clone(&groups));
+        *placements = Placements::Within(Box::new(Within { own, groups }));
+    }
+    true
+}
+
+/// A light of a group: the sphere that shines as it does.
+pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
+    let span = light.span;
+    let Light::SphereLight(light) = light.value;
+    let amount = match light.emission.value {
+        Emission::Radiance(color) => Amount::Radiance(color),
+        // What it gives outwards; the material's power is that of both sides.
+        Emission::Power(color) => Amount::Power(color.map(|power| 2.0 * power)),
+        Emission::Intensity(color) => Amount::Power(color.map(|intensity| 8.0 * std::f64::consts::PI * intensity)),
+    };
+    let emissive = Emissive { amount: Spanned { value: amount, span: light.emission.span }, two_sided: true };
+    let material = Spanned { value: Material::Emissive(Box::new(emissive)), span };
+    let sphere = Sphere {
+        center: light.center,
+        radius: light.radius,
+        material: MaterialRef::Inline(Box::new(material)),
+        transform: Vec::new(),
+        placements: Placements::One,
+        name: light.name,
+    };
+    Spanned { value: Object::Sphere(Box::new(sphere)), span }
+}

@@ -1,0 +1,30 @@
+//! Scenes within a scene.
+
+use super::{Name, Placements, Transform};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::read::{GivenMaterials, GivenVars};
+use crate::schema::Rule;
+use crate::words::scene_struct;
+use std::path::Path;
+use std::sync::Arc;
+
+scene_struct! {
+    /// The objects and lights of another scene, moved and copied as one. Its names are its own: materials and `vars` of this scene are
+    /// not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
+    pub(crate) struct IncludeWords as "Include", "an included scene" {
+        /// The scene file, RON or TOML. Paths in it start from its own folder.
+        file: Spanned<Arc<Path>> => Rule::file(FileKind::Scene);
+        /// Other values for its `vars`.
+        vars: GivenVars = GivenVars(Vec::new());
+        /// Other materials for names of its `materials`: names of this scene, or written here.
+        materials: GivenMaterials = GivenMaterials(Vec::new());
+        /// Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin. It has no `DropTo`.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name
+        /// of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
+        name: Name = Name::default();
+    }
+}

@@ -1,0 +1,41 @@
+//! Names of objects and lights.
+
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Type};
+use crate::tree::Item;
+use crate::words::Words;
+
+/// What an object or a light is called, if anything. Eight bytes long, as a scene may have millions of things without a name.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[allow(clippy::box_collection, reason = "a text by itself is three words long")]
+pub struct Name(Option<Box<String>>);
+
+impl Name {
+    /// The name; `None` where there is none.
+    pub fn as_str(&self) -> Option<&str> {
+        self.0.as_ref().map(|name| name.as_str())
+    }
+}
+
+impl<T: Into<String>> From<Option<T>> for Name {
+    fn from(name: Option<T>) -> Self {
+        Name(name.map(|name| Box::new(name.into())))
+    }
+}
+
+impl Words for Name {
+    const TYPE: Type = Type::Optional(&Type::Text);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.is_word("None") {
+            return Some(Name::default());
+        }
+        let text = reader.text(item.without_some(), at)?;
+        Some(Name::from(Some(text)))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        self.as_str().map_or(Form::word("None"), |name| Form::Text(name.to_owned()))
+    }
+}

@@ -1,0 +1,233 @@
+//! The files that a scene includes, and those that these include: found and read before the scene is, so that all of them are in
+//! memory as long as its tree.
+//!
+//! What is wrong with a file, or with a circle of them, is told by the reader at the place that names it.
+
+use crate::diagnostic::{Diagnostic, Label, Severity, Source, Span};
+use crate::load::{MAX_FILE_BYTES, parse};
+use crate::overrides::Override;
+use crate::syntax::{Sink, Syntax, ron};
+use crate::tree::{Builder, Item, Kind, NOWHERE, Node, Root, Text, Tree};
+use std::collections::HashMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+/// Files that a scene includes, at most.
+pub(crate) const MOST_FILES: usize = 256;
+
+/// A file that is included somewhere.
+#[derive(Debug)]
+pub(crate) struct Included {
+    /// Relative to the scene's folder.
+    pub path: Arc<Path>,
+    /// Where paths in it start, relative to the scene's folder.
+    pub folder: PathBuf,
+    /// Its name and text.
+    pub source: Source,
+    pub syntax: Syntax,
+    /// Why it could not be read.
+    pub fault: Option<String>,
+    /// Where it is named first.
+    pub from: Span,
+}
+
+/// All of them, in the order in which they are found.
+#[derive(Debug, Default)]
+pub(crate) struct Library {
+    pub files: Vec<Included>,
+    known: HashMap<PathBuf, usize>,
+    bytes: u64,
+}
+
+impl Library {
+    /// Reads all files that a scene includes. `source` numbers begin after those of the overrides.
+    pub fn of(text: &str, syntax: Syntax, base_dir: &Path, overrides: &[Override]) -> Library {
+        let mut library = Library::default();
+        let first = 1 + overrides.len();
+        library.look(text, syntax, 0, Path::new(""), base_dir);
+        for (k, set) in overrides.iter().enumerate() {
+            library.look_at_override(&set.argument, k + 1, base_dir);
+        }
+        let mut k = 0;
+        while let Some(file) = library.files.get_mut(k) {
+            let (text, syntax, folder) = (std::mem::take(&mut file.source.text), file.syntax, file.folder.clone());
+            library.look(&text, syntax, first + k, &folder, base_dir);
+            library.files[k].source.text = text;
+            k += 1;
+        }
+        library
+    }
+
+    /// Finds what a text includes. Texts without the word are not parsed twice.
+    fn look(&mut self, text: &str, syntax: Syntax, source: usize, folder: &Path, base_dir: &Path) {
+        if !text.contains("nclude") {
+            return;
+        }
+        let tree = parse(text, syntax, &mut Sink::default());
+        let Some(root) = tree.root() else { return };
+        for (_, list) in root.fields().filter(|(key, _)| key.text() == "include") {
+            let names: Vec<Item<'_, '_>> = list.children().collect();
+            names.into_iter().for_each(|name| self.add(name, source, folder, base_dir));
+        }
+        self.look_in(&tree, source, folder, base_dir);
+    }
+
+    /// Finds the `Include`s of a tree, wherever they stand.
+    fn look_in(&mut self, tree: &Tree<'_>, source: usize, folder: &Path, base_dir: &Path) {
+        for index in 0..tree.nodes.len() {
+            let Some(item) = tree.item(index) else { continue };
+            let body = match item.kind() {
+                Kind::Struct if item.name() == Some("Include") => item,
+                Kind::Key if item.text() == "Include" => match tree.item(index + 1) {
+                    Some(value) => value,
+                    None => continue,
+                },
+                _ => continue,
+            };
+            let file = body.fields().find(|(key, _)| key.text() == "file");
+            if let Some((_, name)) = file {
+                self.add(name, source, folder, base_dir);
+            }
+        }
+    }
+
+    fn look_at_override(&mut self, argument: &str, source: usize, base_dir: &Path) {
+        let Some(equals) = argument.find('=').filter(|_| argument.contains("nclude")) else { return };
+        let mut builder = Builder::new(0);
+        ron::parse_from(argument, equals + 1, &mut builder, &mut Sink::default());
+        let texts = vec![Text { text: argument, syntax: Syntax::Ron, folder: Path::new("") }];
+        let tree = Tree { texts, nodes: builder.nodes, ..Tree::default() };
+        if argument[..equals].trim().starts_with("include") {
+            for index in 0..tree.nodes.len() {
+                if let Some(name) = tree.item(index) {
+                    self.add(name, source, Path::new(""), base_dir);
+                }
+            }
+        }
+        self.look_in(&tree, source, Path::new(""), base_dir);
+    }
+
+    fn add(&mut self, name: Item<'_, '_>, source: usize, folder: &Path, base_dir: &Path) {
+        if name.kind() != Kind::Text || self.files.len() >= MOST_FILES {
+            return;
+        }
+        let path = joined(folder, &name.text());
+        if self.known.contains_key(&path) {
+            return;
+        }
+        let whole = base_dir.join(&path);
+        let (text, fault) = match self.read(&whole) {
+            Ok(text) => (text, None),
+            Err(fault) => (String::new(), Some(fault)),
+        };
+        let syntax = Syntax::from_path(&path).unwrap_or_else(|| Syntax::guess(&text));
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let from = Span { source: source as u32, ..name.span() };
+        self.known.insert(path.clone(), self.files.len());
+        let source = Source { name: whole.display().to_string(), text };
+        self.files.push(Included { path: path.into(), folder, source, syntax, fault, from });
+    }
+
+    /// The text of a file, or why there is none.
+    fn read(&mut self, path: &Path) -> Result<String, String> {
+        let why = |error: std::io::Error| match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => error.to_string(),
+        };
+        let about = std::fs::metadata(path).map_err(why)?;
+        if !about.is_file() {
+            return Err("it is no file".to_owned());
+        }
+        self.bytes += about.len();
+        if self.bytes > MAX_FILE_BYTES {
+            return Err(format!("all included files have more than {} GiB", MAX_FILE_BYTES >> 30));
+        }
+        let bytes = std::fs::read(path).map_err(why)?;
+        String::from_utf8(bytes)
+            .map_err(|error| format!("it is not UTF-8 at byte {}", error.utf8_error().valid_up_to()))
+    }
+
+    /// Puts the nodes of all files behind those of the scene. Of faults of syntax the first of each file is told.
+    pub fn append_to<'s>(&'s self, tree: &mut Tree<'s>, sink: &mut Sink) {
+        for file in &self.files {
+            let number = tree.texts.len();
+            tree.texts.push(Text { text: &file.source.text, syntax: file.syntax, folder: &file.folder });
+            let mut root = Root {
+                path: Arc::clone(&file.path),
+                name: file.path.display().to_string(),
+                root: NOWHERE,
+                nodes: 0,
+                fault: file.fault.clone(),
+            };
+            let mut faults = Sink::default();
+            let mut inner = parse(&file.source.text, file.syntax, &mut faults);
+            inner.flatten();
+            let first = faults.diagnostics.into_iter().find(|fault| fault.severity == Severity::Error);
+            if let Some(mut fault) = first {
+                fault.span.source = number as u32;
+                fault.labels.iter_mut().for_each(|label| label.span.source = number as u32);
+                fault.edit = None;
+                sink.push(fault);
+            } else if file.fault.is_none() && !inner.nodes.is_empty() {
+                (root.root, root.nodes) = (tree.nodes.len() as u32, inner.nodes.len() as u32);
+                tree.nodes.extend(inner.nodes.iter().map(|node| Node { source: number as u16, ..node }));
+            }
+            tree.included.push(root);
+        }
+    }
+
+    /// Says of a fault in an included file how one gets there, where the reader did not; `first`: the number of the first such
+    /// source.
+    pub fn say_where(&self, fault: &mut Diagnostic, first: usize) {
+        let file = |span: Span| (span.source as usize).checked_sub(first).and_then(|k| self.files.get(k));
+        let told = |fault: &Diagnostic, from: Span| fault.labels.iter().any(|label| label.span == from);
+        let mut at = fault.span;
+        for _ in 0..MOST_FILES {
+            let Some(included) = file(at) else { return };
+            if fault.labels.iter().any(|label| file(label.span).is_none() && label.span.source != fault.span.source) {
+                return;
+            }
+            at = included.from;
+            if told(fault, at) {
+                return;
+            }
+            let label = Label { span: at, text: format!("{} is included here", included.path.display()) };
+            fault.labels.push(label);
+        }
+    }
+}
+
+/// A path from the scene's folder, for a name in a file of this folder: without `.`, and without `..` after a name.
+pub(crate) fn joined(folder: &Path, name: &str) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in folder.join(name).components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            part => out.push(part),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_start_from_the_folder_of_the_file_that_they_stand_in() {
+        for (folder, name, path) in [
+            ("", "a.ron", "a.ron"),
+            ("parts", "a.ron", "parts/a.ron"),
+            ("parts", "../a.ron", "a.ron"),
+            ("parts/x", "./../y/a.ron", "parts/y/a.ron"),
+            ("", "../a.ron", "../a.ron"),
+            ("../x", "../a.ron", "../a.ron"),
+            ("parts", "/a.ron", "/a.ron"),
+        ] {
+            assert_eq!(joined(Path::new(folder), name), Path::new(path), "{folder} {name}");
+        }
+    }
+}

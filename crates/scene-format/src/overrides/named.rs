@@ -1,0 +1,135 @@
+//! Objects and lights by their names: `--set objects.lamp.radius=2`.
+
+use super::{Edited, Setter, Step};
+use crate::codes;
+use crate::diagnostic::Diagnostic;
+use crate::read::{repeat_body, shortened};
+use crate::schema::{Content, EnumDef, Type};
+use crate::suggest;
+use crate::tree::{Item, Kind};
+
+/// So many places of one name are shown, and so many names.
+const SHOWN: usize = 8;
+
+/// An item that has a name.
+struct Named<'t, 's> {
+    name: String,
+    item: Item<'t, 's>,
+    /// An object or, in a group, a light.
+    def: &'static EnumDef,
+    /// `objects[2]`, or `objects[2].objects[0]` in a group.
+    place: String,
+    /// Whether it stands in a `Repeat`, which makes many of it.
+    repeated: bool,
+}
+
+/// Whether items of this type have names.
+pub(super) fn have_names(kind: Type) -> Option<&'static EnumDef> {
+    let Type::Enum(def) = kind.resolved() else { return None };
+    let named = |content: &Content| matches!(content, Content::Struct(fields) if fields.field("name").is_some());
+    def.variants.iter().any(|variant| named(&variant.content)).then_some(def)
+}
+
+/// The kind of an item, and what holds its fields.
+fn kind_and_fields<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
+    match item.kind() {
+        Kind::Struct | Kind::Tuple => Some((item.name()?.to_owned(), item)),
+        Kind::Map => item.fields().next().map(|(key, value)| (key.text().into_owned(), value)),
+        _ => None,
+    }
+}
+
+/// All items with names in a list and in the groups and repetitions within it.
+fn collect<'t, 's>(
+    list: Item<'t, 's>,
+    def: &'static EnumDef,
+    place: &str,
+    repeated: bool,
+    found: &mut Vec<Named<'t, 's>>,
+) {
+    if list.kind() != Kind::List {
+        return;
+    }
+    for (index, item) in list.children().enumerate() {
+        let place = format!("{place}[{index}]");
+        if let Some(body) = repeat_body(item) {
+            for (_, items) in body.fields().filter(|(key, _)| key.text() == "items") {
+                collect(items, def, &format!("{place}.items"), true, found);
+            }
+            continue;
+        }
+        let Some((kind, fields)) = kind_and_fields(item) else { continue };
+        let Some(Content::Struct(words)) = def.variant(&kind).map(|variant| &variant.content) else { continue };
+        for (key, value) in fields.fields() {
+            let key = key.text();
+            if key == "name" && value.without_some().kind() == Kind::Text {
+                let (name, place) = (value.without_some().text().into_owned(), place.clone());
+                found.push(Named { name, item, def, place, repeated });
+            }
+            let within = words.field(&key).map(|field| field.kind);
+            if let Some(Type::List(inner)) = within
+                && let Some(def) = have_names(*inner)
+            {
+                collect(value, def, &format!("{place}.{key}"), repeated, found);
+            }
+        }
+    }
+}
+
+impl Setter {
+    /// Goes on from the item of a list that has this name.
+    pub(super) fn find_named(
+        &self,
+        list: Item<'_, '_>,
+        def: &'static EnumDef,
+        name: &str,
+        noun: &str,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let mut named = Vec::new();
+        let group = noun.trim_start_matches("the ").split(' ').next().unwrap_or(noun);
+        collect(list, def, group, false, &mut named);
+        let (these, others): (Vec<_>, Vec<_>) = named.into_iter().partition(|one| one.name == name);
+        match these.as_slice() {
+            [only] if !only.repeated => {
+                self.find(only.item, Type::Enum(only.def), rest, &format!("the {} \"{name}\"", only.def.noun))
+            }
+            [] => {
+                let message = format!("no {} has the name \"{}\"", def.noun, shortened(name));
+                let mut names: Vec<&str> = others.iter().map(|other| other.name.as_str()).collect();
+                names.sort_unstable();
+                names.dedup();
+                let fault = self.fault(codes::BAD_SET_PATH, step, message);
+                let mut fault = match names.len() {
+                    0 => fault
+                        .expected("the number of an item in brackets, counted from 0: [0]")
+                        .hint(format!("names are given in the scene: `name: \"{}\"`", shortened(name))),
+                    1..=SHOWN => fault.expected(format!("one of {}", suggest::list(&names))),
+                    count => fault.expected(format!("one of the {count} names in `{group}`, or a number in brackets")),
+                };
+                fault.did_you_mean(suggest::nearest(name, names.iter().copied()), str::to_owned);
+                Err(fault)
+            }
+            [only] => {
+                let message = format!("the {} \"{}\" stands in a `Repeat`", def.noun, shortened(name));
+                Err(self.fault(codes::BAD_SET_PATH, step, message).expected("an item that stands for itself").hint(
+                    format!(
+                        "{} makes many of it: give what differs a name in `vars`, and set that: --set vars.height=2",
+                        only.place.split(".items").next().unwrap_or(&only.place)
+                    ),
+                ))
+            }
+            several => {
+                let count = several.len();
+                let places: Vec<&str> = several.iter().take(SHOWN).map(|one| one.place.as_str()).collect();
+                let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+                let message = format!("{count} {}s have the name \"{}\"", def.noun, shortened(name));
+                Err(self
+                    .fault(codes::BAD_SET_PATH, step, message)
+                    .expected("a name that only one has, or a number")
+                    .hint(format!("they are {}{more}", suggest::join(&places, "and"))))
+            }
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! Other files in a scene: libraries of values and materials (`include`), and scenes among its objects (`Include`).
+
+use super::check::ROOT;
+use super::materials::Materials;
+use super::{MOST_ITEMS, Reader, shortened, vars};
+use crate::codes;
+use crate::desc::{IncludeWords, Light, MaterialRef, NamedMaterial, Object, Scene, group};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::expression::Value;
+use crate::form::Form;
+use crate::include::{MOST_FILES, joined};
+use crate::schema::{FieldDef, Type};
+use crate::suggest;
+use crate::tree::{Item, Kind, Root};
+use crate::words::Words;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Files within each other, at most.
+const MOST_DEEP: usize = 8;
+
+/// The field `include`: what it brings stays with the reader.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Includes;
+
+/// Values for vars of an included scene.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct GivenVars(pub Vec<(Spanned<Arc<str>>, Value)>);
+
+/// Materials for names of an included scene.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct GivenMaterials(pub Vec<(Spanned<Arc<str>>, MaterialRef)>);
+
+/// A file that is being read.
+#[derive(Debug)]
+pub(super) struct Open {
+    /// Where its tree begins.
+    root: u32,
+    name: String,
+    /// Where it is named.
+    from: Span,
+}
+
+impl Open {
+    /// Adds where the file is included.
+    pub fn labelled(&self, fault: Diagnostic) -> Diagnostic {
+        fault.label(self.from, format!("{} is included here", self.name))
+    }
+}
+
+impl Words for Includes {
+    const TYPE: Type = Type::List(&Type::File);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.items(item, at, |reader, name| {
+            let Some(text) = reader.text(name, at) else { return };
+            let Some((file, root)) = reader.open(name, &text) else { return };
+            reader.library(name, file, root);
+        })?;
+        Some(Includes)
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::List(Vec::new())
+    }
+}
+
+impl Words for GivenVars {
+    const TYPE: Type = Type::Map(&Type::Value);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let expected = "names of its vars with other values: { \"height\": 0.75 }";
+        let mut given = Vec::new();
+        reader.entries(item, at, expected, |reader, name, value| {
+            given.extend(reader.value(value).map(|value| (name, value)));
+        })?;
+        Some(GivenVars(given))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Map(Vec::new())
+    }
+}
+
+impl Words for GivenMaterials {
+    const TYPE: Type = Type::Map(&MaterialRef::TYPE);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let expected = "names of its materials with others: { \"seat\": \"oak\" }";
+        let mut given = Vec::new();
+        reader.entries(item, at, expected, |reader, name, value| {
+            given.extend(MaterialRef::read(reader, value, at).map(|material| (name, material)));
+        })?;
+        Some(GivenMaterials(given))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Map(Vec::new())
+    }
+}
+
+impl Reader<'_> {
+    /// Goes through names with what stands at them.
+    fn entries<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        at: &'static FieldDef,
+        expected: &str,
+        mut read: impl FnMut(&mut Self, Spanned<Arc<str>>, Item<'t, 's>),
+    ) -> Option<()> {
+        match item.kind() {
+            Kind::Map => {}
+            Kind::Tuple if item.name().is_none() && item.children().next().is_none() => return Some(()),
+            _ => return self.wrong_type(item, at, expected),
+        }
+        for (key, value) in item.fields() {
+            self.path.push(super::Step::Key(key.text().into_owned()));
+            if let Some(value) = self.picked(value) {
+                read(self, Spanned { value: Arc::from(&*key.text()), span: key.span() }, value);
+            }
+            self.path.pop();
+        }
+        Some(())
+    }
+
+    /// The tree of a file that an item names; what is wrong with it is reported.
+    fn open<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {
+        // Names may be missing that it would have brought.
+        let opened = self.opened(name, text);
+        self.materials.damaged |= opened.is_none();
+        self.vars.damaged |= opened.is_none();
+        opened
+    }
+
+    fn opened<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {
+        let path = joined(name.folder(), text);
+        let shown = shortened(text);
+        let fault = |message: String, code| Diagnostic::error(code, name.span(), message);
+        let Some(file) = name.included(&path) else {
+            let fault = fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer");
+            self.report(fault);
+            return None;
+        };
+        if let Some(why) = &file.fault {
+            let fault = fault(format!("cannot include {shown}: {why}"), codes::INCLUDE)
+                .expected("a scene file; names start from the folder of the file that they stand in");
+            self.report(fault);
+            return None;
+        }
+        if let Some(first) = self.open.iter().position(|open| open.root == file.root) {
+            let names: Vec<&str> = self.open[first..].iter().map(|open| open.name.as_str()).collect();
+            let message = match names.as_slice() {
+                [only] => format!("{only} includes itself"),
+                names => format!("{} include each other", suggest::join(names, "and")),
+            };
+            self.report(fault(message, codes::CIRCLE).expected("files that do not need themselves"));
+            return None;
+        }
+        if self.open.len() >= MOST_DEEP {
+            let message = format!("files include each other more than {MOST_DEEP} deep");
+            self.report(fault(message, codes::TOO_MUCH).expected("fewer"));
+            return None;
+        }
+        // An empty file, or one whose faults of syntax have been told.
+        let root = name.other(file.root)?;
+        // What is included again is read again: that counts as what repetitions make.
+        if self.repeated > MOST_ITEMS {
+            return None;
+        }
+        self.repeated += 10 + u64::from(file.nodes) / 4;
+        if self.repeated > MOST_ITEMS {
+            let message = format!("includes and repetitions make more than {MOST_ITEMS} items");
+            self.report(fault(message, codes::TOO_MUCH).expected("fewer").hint("copies are cheaper by `placements`"));
+            return None;
+        }
+        Some((file, root))
+    }
+
+    /// Reads a file that is open, with paths of its own in messages.
+    fn within<T>(&mut self, name: Item<'_, '_>, file: &Root, read: impl FnOnce(&mut Self) -> T) -> T {
+        let path = std::mem::take(&mut self.path);
+        self.open.push(Open { root: file.root, name: file.name.clone(), from: name.span() });
+        let value = read(self);
+        self.open.pop();
+        self.path = path;
+        value
+    }
+
+    /// Takes values and materials of a file.
+    fn library(&mut self, name: Item<'_, '_>, file: &Root, root: Item<'_, '_>) {
+        let objects = root
+            .fields()
+            .find(|(key, value)| matches!(&*key.text(), "objects" | "lights") && value.children().next().is_some());
+        if let Some((key, _)) = objects {
+            let message = format!("an included file has `{}`, which are not taken", key.text());
+            let fault = Diagnostic::error(codes::INCLUDE, name.span(), message)
+                .expected("a file with `vars` and `materials`")
+                .hint(format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme())))
+                .label(key.span(), "they are here");
+            return self.report(fault);
+        }
+        self.within(name, file, |reader| {
+            if !super::check::newer_version(root, reader.sink) {
+                Scene::read(reader, root, &ROOT);
+            }
+        });
+    }
+
+    /// Reads an `Include`: the objects and lights of another scene, with names of their own.
+    pub(crate) fn include(&mut self, item: Item<'_, '_>, words: IncludeWords) -> Option<Vec<Spanned<Object>>> {
+        let body = if item.kind() == Kind::Map { item.fields().next()?.1 } else { item };
+        let (_, name) = body.fields().find(|(key, _)| key.text() == "file")?;
+        let (file, root) = self.open(name, &name.text())?;
+        // Its own names.
+        let materials = std::mem::take(&mut self.materials);
+        let given = words.vars.0.iter().map(|(name, value)| (Arc::clone(&name.value), value.clone())).collect();
+        let vars = std::mem::replace(&mut self.vars, vars::Table::with(given));
+        let scene = self.within(name, file, |reader| {
+            if super::check::newer_version(root, reader.sink) {
+                return None;
+            }
+            let scene = Scene::read(reader, root, &ROOT);
+            reader.pending_vars(root);
+            scene
+        });
+        let inner = std::mem::replace(&mut self.materials, materials);
+        let table = std::mem::replace(&mut self.vars, vars);
+        let mut objects = scene.map(|scene| of_scene(scene.objects.0, scene.lights))?;
+        for (name, _) in words.vars.0.iter().filter(|(name, _)| table.is_left(&name.value)) {
+            self.unknown_name(codes::UNKNOWN_VAR, "var", &file.name, name, &table.names());
+        }
+        self.take_materials(&mut objects, inner, words.materials, &file.name);
+        group::moved(self, words.transform, words.placements, &mut objects).then_some(objects)
+    }
+
+    /// That an included file has no var or material of this name.
+    fn unknown_name(
+        &mut self,
+        code: codes::Code,
+        what: &str,
+        file: &str,
+        name: &Spanned<Arc<str>>,
+        known: &[Arc<str>],
+    ) {
+        let known: Vec<&str> = known.iter().map(|name| &**name).collect();
+        let message = format!("{file} has no {what} \"{}\"", shortened(&name.value));
+        let mut fault = Diagnostic::error(code, name.span, message).expected(match known.len() {
+            0 => format!("none: it has no {what}s"),
+            1..=8 => format!("one of {}", suggest::list(&known)),
+            count => format!("one of its {count} {what}s"),
+        });
+        let nearest = suggest::nearest(&name.value, known.iter().copied());
+        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        self.report(fault);
+    }
+
+    /// Gives the objects of an included scene materials of this one: those that are given for its own, else its own under names
+    /// that say where they come from.
+    fn take_materials(
+        &mut self,
+        objects: &mut [Spanned<Object>],
+        mut inner: Materials,
+        given: GivenMaterials,
+        file: &str,
+    ) {
+        let mut names: HashMap<Arc<str>, MaterialRef> = HashMap::new();
+        for (name, material) in given.0 {
+            if !inner.knows(&name.value) {
+                self.unknown_name(codes::UNKNOWN_MATERIAL, "material", file, &name, &inner.known());
+            }
+            names.insert(name.value, material);
+        }
+        let read = inner.take();
+        let mut own: HashMap<Arc<str>, NamedMaterial> =
+            read.into_iter().map(|named| (Arc::clone(&named.name.value), named)).collect();
+        for object in objects {
+            let material = object.value.material_mut();
+            let MaterialRef::Named { name, span } = material else { continue };
+            let (name, span) = (Arc::clone(name), *span);
+            let taken = names.entry(Arc::clone(&name)).or_insert_with(|| match own.remove(&name) {
+                Some(named) => MaterialRef::Named { name: self.materials.adopt(file, named), span },
+                // That there is none has been told.
+                None => MaterialRef::Named { name, span },
+            });
+            *material = taken.clone();
+        }
+    }
+}
+
+fn of_scene(mut objects: Vec<Spanned<Object>>, lights: Vec<Spanned<Light>>) -> Vec<Spanned<Object>> {
+    objects.extend(lights.into_iter().map(group::of_light));
+    objects
+}

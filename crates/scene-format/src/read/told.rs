@@ -1,0 +1,53 @@
+//! Values and names in words, for messages.
+
+use crate::tree::{Item, Kind};
+
+/// A value in words, for "cannot be ..".
+pub(crate) fn describe(item: Item<'_, '_>) -> String {
+    match item.kind() {
+        Kind::Bool => format!("`{}`", item.lexeme()),
+        Kind::Integer | Kind::Float => format!("the number {}", shortened(item.lexeme())),
+        Kind::Text => format!("the text {}", shortened(item.lexeme())),
+        Kind::Char => "a single character".to_owned(),
+        Kind::Date => "a date or time".to_owned(),
+        Kind::Word => format!("the word `{}`", shortened(item.lexeme())),
+        Kind::Key => "a name".to_owned(),
+        Kind::List => match item.children().count() {
+            0 => "an empty list".to_owned(),
+            1 => "a list of one item".to_owned(),
+            count => format!("a list of {count} items"),
+        },
+        Kind::Tuple | Kind::Struct if item.name().is_some() => {
+            format!("`{}(..)`", shortened(item.name().unwrap_or_default()))
+        }
+        Kind::Tuple => match item.children().count() {
+            0 => "an empty pair of brackets".to_owned(),
+            1 => "one value in brackets".to_owned(),
+            count => format!("{count} values in brackets"),
+        },
+        Kind::Struct => "a group of fields".to_owned(),
+        Kind::Map => "a table of fields".to_owned(),
+        // The rest is syntax that readers do not see.
+        _ => "this".to_owned(),
+    }
+}
+
+/// So many characters of something long are shown.
+pub(super) const SHOWN: usize = 40;
+
+/// The first characters of something that may be long.
+pub(crate) fn shortened(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    if line.len() == text.len() && line.chars().count() <= SHOWN {
+        return line.to_owned();
+    }
+    let head: String = line.chars().take(SHOWN - 2).collect();
+    format!("{head}..")
+}
+
+/// ``the `focus_distance` of a thin lens``: names that are no words are set off.
+pub(crate) fn plain(noun: &str) -> String {
+    let words: Vec<String> =
+        noun.split(' ').map(|word| if word.contains('_') { format!("`{word}`") } else { word.to_owned() }).collect();
+    words.join(" ")
+}

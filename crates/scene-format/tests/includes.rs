@@ -1,0 +1,191 @@
+//! Files that a scene includes: whose names win, where paths start, what is said of faults, and that nothing goes on for ever.
+
+use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
+use scene_format::{FileKind, LoadError, Loaded, Override, Syntax, convert, hash_hex, load, load_with};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A folder of its own with these files.
+fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("includes").join(name);
+    for (file, text) in files {
+        let path = folder.join(file);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder is made");
+        std::fs::write(path, text).expect("a file is written");
+    }
+    folder
+}
+
+const CHAIR: &str = r##"Scene(
+    include: ["parts/wood.toml"],
+    vars: { "height": 0.5 },
+    materials: { "seat": Diffuse(albedo: "#ff0000"), "back": Diffuse(albedo: Texture(file: "grain.png")) },
+    objects: [
+        Box(center: (0, "=height", 0), material: "seat"),
+        Box(center: (0, "=2*height", 0), material: "wood"),
+        Mesh(file: "parts/leg.obj", material: "back", placements: "parts/legs.txt"),
+    ],
+    lights: [SphereLight(center: (0, "=height", 0), radius: 0.1, radiance: 1)],
+)"##;
+const WOOD: &str =
+    "[vars]\nshade = 0.25\n[materials]\nwood = { Diffuse = { albedo = \"=shade\" } }\nseat = \"unused\"\n";
+
+fn room(name: &str, room: &str) -> Result<Loaded, LoadError> {
+    let wood = WOOD.replace(
+        "seat = \"unused\"\n",
+        "seat = { Mirror = {} }\nother = { Diffuse = { albedo = { Texture = { file = \"x.png\" } } } }\n",
+    );
+    let folder = folder(name, &[("scenes/chair.ron", CHAIR), ("scenes/parts/wood.toml", &wood), ("room.ron", room)]);
+    load(&folder.join("room.ron"))
+}
+
+fn codes(result: Result<Loaded, LoadError>) -> Vec<String> {
+    match result {
+        Err(LoadError::Invalid { diagnostics, .. }) => {
+            diagnostics.iter().map(|fault| fault.code.as_str().to_owned()).collect()
+        }
+        Ok(_) => Vec::new(),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn albedo(loaded: &Loaded, object: usize) -> Albedo {
+    let material = match loaded.scene.objects[object].value.material() {
+        MaterialRef::Named { name, .. } => {
+            let named = loaded.scene.materials.iter().find(|named| named.name.value == *name);
+            &named.expect("a material of this name").material
+        }
+        MaterialRef::Inline(material) => &material.value,
+        MaterialRef::Default => panic!("no material"),
+    };
+    let Material::Diffuse(diffuse) = material else { panic!("no diffuse material") };
+    diffuse.albedo.clone()
+}
+
+#[test]
+fn an_included_scene_has_names_and_paths_of_its_own() {
+    let text = r#"Scene(
+        background: 1,
+        vars: { "height": 7, "shade": 1 },
+        materials: { "seat": Mirror() },
+        objects: [Sphere(center: (0, "=height*shade", 0), radius: 1, material: "seat"), Include(file: "scenes/chair.ron")],
+    )"#;
+    let loaded = room("names", text).expect("a scene");
+    assert_eq!(loaded.warnings, Vec::new());
+    assert_eq!(loaded.scene.objects.len(), 5, "a sphere, two boxes, a mesh, a light");
+    assert!(matches!(&loaded.scene.objects[1].value, Object::Box(seat) if seat.center.value == [0.0, 0.5, 0.0]));
+    assert_eq!(albedo(&loaded, 1), Albedo::Color([1.0, 0.0, 0.0].into()));
+    assert_eq!(albedo(&loaded, 2), Albedo::Color([0.25; 3].into()));
+    let Object::Mesh(leg) = &loaded.scene.objects[3].value else { panic!("a mesh") };
+    assert_eq!(&*leg.file().expect("a file").value, Path::new("scenes/parts/leg.obj"));
+    let files: Vec<&Path> = leg.placements.files().iter().map(|file| &*file.value).collect();
+    assert_eq!(files, [Path::new("scenes/parts/legs.txt")]);
+    let Albedo::Texture(grain) = albedo(&loaded, 3) else { panic!("a picture") };
+    assert_eq!(&*grain.file.value, Path::new("scenes/grain.png"));
+    let includes: Vec<&Path> = loaded.scene.includes.iter().map(|file| &**file).collect();
+    assert_eq!(includes, [Path::new("scenes/chair.ron"), Path::new("scenes/parts/wood.toml")]);
+}
+
+#[test]
+fn vars_and_materials_are_given_for_its_own() {
+    let text = r##"Scene(
+        background: 1,
+        materials: { "oak": Diffuse(albedo: 0.1) },
+        objects: [
+            Include(file: "scenes/chair.ron", vars: { "height": "=2*3", "shade": 0.5 },
+                materials: { "seat": "oak", "back": Diffuse(albedo: 0.9) }, placements: Ring(count: 4, radius: 3)),
+            Repeat(count: 2, items: [Include(file: "scenes/chair.ron", vars: { "height": "=i" }, transform: [Translate(("=i", 0, 0))])]),
+        ],
+    )"##;
+    let loaded = room("given", text).expect("a scene");
+    assert!(matches!(&loaded.scene.objects[1].value, Object::Box(seat) if seat.center.value == [0.0, 12.0, 0.0]));
+    assert_eq!(albedo(&loaded, 0), Albedo::Color([0.1; 3].into()));
+    assert_eq!(albedo(&loaded, 1), Albedo::Color([0.5; 3].into()));
+    assert_eq!(albedo(&loaded, 2), Albedo::Color([0.9; 3].into()));
+    assert_eq!(loaded.scene.objects[0].value.placements().known_copies(), 4);
+    assert!(matches!(&loaded.scene.objects[8].value, Object::Box(seat) if seat.center.value == [0.0, 1.0, 0.0]));
+    assert!(matches!(loaded.scene.objects[8].value.placements(), Placements::Within(_)));
+    // Of equal materials there is one, whatever the number of chairs.
+    let names: Vec<&str> = loaded.scene.materials.iter().map(|named| &*named.name.value).collect();
+    let chair = Path::new("scenes/chair.ron").display().to_string();
+    let of = |name: &str| format!("{chair}: {name}");
+    assert_eq!(names, ["oak".to_owned(), of("wood"), of("seat"), of("wood (2)"), of("back")]);
+    assert!(codes(room("left", &text.replace("\"shade\": 0.5", "\"shad\": 0.5"))).contains(&"E0406".to_owned()));
+}
+
+#[test]
+fn names_of_the_file_itself_win_and_of_two_files_those_of_the_later() {
+    let text = r#"Scene(
+        include: ["a.ron", "b.ron"],
+        background: 1,
+        vars: { "own": 3 },
+        objects: [Box(center: "=(own, both, twice)", material: "m"), Box(material: "n")],
+        materials: { "n": Diffuse(albedo: 0.75) },
+    )"#;
+    let a = r#"Scene(vars: { "own": 1, "both": 1, "twice": "=2*own" }, materials: { "m": Mirror(), "n": Mirror() })"#;
+    let b = r#"Scene(vars: { "both": 2 }, materials: { "m": Diffuse(albedo: 0.5) })"#;
+    let folder = folder("wins", &[("s.ron", text), ("a.ron", a), ("b.ron", b)]);
+    let loaded = load(&folder.join("s.ron")).expect("a scene");
+    assert_eq!(loaded.warnings, Vec::new());
+    assert!(matches!(&loaded.scene.objects[0].value, Object::Box(cuboid) if cuboid.center.value == [3.0, 2.0, 6.0]));
+    assert_eq!(albedo(&loaded, 0), Albedo::Color([0.5; 3].into()));
+    assert_eq!(albedo(&loaded, 1), Albedo::Color([0.75; 3].into()));
+    // The same by --set, and in TOML.
+    let without = text.replace("include: [\"a.ron\", \"b.ron\"],", "");
+    std::fs::write(folder.join("t.ron"), without).expect("a file");
+    let set = load_with(&folder.join("t.ron"), &[Override::from("include=[\"a.ron\", \"b.ron\"]")]).expect("a scene");
+    assert_eq!(hash_hex(&set.scene), hash_hex(&loaded.scene));
+    let toml = convert("s", text, Syntax::Ron, Syntax::Toml).expect("what is included need not be there");
+    assert!(toml.contains("include = [\"a.ron\", \"b.ron\"]"), "{toml}");
+    std::fs::write(folder.join("s.toml"), toml).expect("a file");
+    assert_eq!(hash_hex(&load(&folder.join("s.toml")).expect("a scene").scene), hash_hex(&loaded.scene));
+}
+
+#[test]
+fn a_fault_in_an_included_file_says_the_way_there_and_the_files_are_known() {
+    let text = "Scene(background: 1, objects: [Include(file: \"scenes/chair.ron\", vars: { \"height\": true })])";
+    let Err(LoadError::Invalid { diagnostics, sources, files }) = room("faults", text) else { panic!("a truth value") };
+    assert!(diagnostics.iter().all(|fault| sources[fault.span.source as usize].name.ends_with("chair.ron")));
+    assert!(diagnostics[0].labels.iter().any(|label| label.span.source == 0), "{:?}", diagnostics[0]);
+    let scenes: Vec<&Path> = files.iter().filter(|file| file.kind == FileKind::Scene).map(|file| &*file.path).collect();
+    assert_eq!(scenes, [Path::new("scenes/chair.ron"), Path::new("scenes/parts/wood.toml")]);
+    assert_eq!(codes(room("folder", "Scene(background: 1, include: [\"scenes\"], objects: [Box()])")), ["E0560"]);
+}
+
+#[test]
+fn circles_depth_and_number_are_bounded() {
+    let chain = |k: usize, last: usize| {
+        if k < last { format!("Scene(include: [\"{}.ron\"])", k + 1) } else { "Scene()".into() }
+    };
+    for (name, last, wanted) in [("eight", 8, vec![]), ("nine", 9, vec!["E0606".to_owned()])] {
+        let texts: Vec<(String, String)> = (1..=last).map(|k| (format!("{k}.ron"), chain(k, last))).collect();
+        let mut files: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), text.as_str())).collect();
+        files.push(("s.ron", "Scene(include: [\"1.ron\"], background: 1, objects: [Box()])"));
+        assert_eq!(codes(load(&folder(name, &files).join("s.ron"))), wanted, "{name}");
+    }
+    let names: Vec<String> = (0..300).map(|k| format!("\"{k}.ron\"")).collect();
+    let many = format!("Scene(include: [{}], background: 1, objects: [Box()])", names.join(", "));
+    let texts: Vec<(String, &str)> = (0..300).map(|k| (format!("{k}.ron"), "Scene()")).collect();
+    let mut files: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), *text)).collect();
+    files.push(("s.ron", &many));
+    let found = codes(load(&folder("many", &files).join("s.ron")));
+    assert!(!found.is_empty() && found.iter().all(|code| code == "E0606"), "{found:?}");
+    let own = "Scene(background: 1, objects: [Include(file: \"s.ron\")])";
+    assert_eq!(codes(load(&folder("own", &[("s.ron", own)]).join("s.ron"))), ["E0407"]);
+}
+
+#[test]
+fn scenes_in_scenes_in_scenes_end_soon() {
+    // Each includes the next thirty times: 30^7 boxes.
+    let texts: Vec<(String, String)> = (0..8)
+        .map(|k| {
+            let next = format!("Include(file: \"{}.ron\")", k + 1);
+            let item = if k < 7 { next } else { "Box()".to_owned() };
+            (format!("{k}.ron"), format!("Scene(background: 1, objects: [Repeat(count: 30, items: [{item}])])"))
+        })
+        .collect();
+    let files: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), text.as_str())).collect();
+    let start = Instant::now();
+    assert_eq!(codes(load(&folder("laughs", &files).join("0.ron"))), ["E0606"]);
+    assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
+}
