@@ -3,9 +3,10 @@
 
 use crate::SceneDesc;
 use crate::diagnostic::{Edit, Span};
-use crate::load::{load_bytes, parse};
+use crate::load::load_bytes;
 use crate::print::number;
 use crate::render::apply_edits;
+use crate::syntax::parse;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
 use std::path::Path;

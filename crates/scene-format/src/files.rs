@@ -3,8 +3,14 @@
 use crate::diagnostic::{Diagnostic, Span};
 use std::collections::HashSet;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
+
+/// Scene files may have this many bytes (1 GiB).
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// Files that a scene includes, at most.
+pub(crate) const MOST_FILES: usize = 256;
 
 /// What a file that a scene names holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,4 +79,39 @@ pub(crate) fn broken_lines(text: &str, faults: &[Diagnostic]) -> Vec<Range<u32>>
         lines.push(start as u32..end as u32);
     }
     lines
+}
+
+/// A path from the scene's folder, for a name in a file of this folder: without `.`, and without `..` after a name.
+pub(crate) fn joined(folder: &Path, name: &str) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in folder.join(name).components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            part => out.push(part),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_start_from_the_folder_of_the_file_that_they_stand_in() {
+        for (folder, name, path) in [
+            ("", "a.ron", "a.ron"),
+            ("parts", "a.ron", "parts/a.ron"),
+            ("parts", "../a.ron", "a.ron"),
+            ("parts/x", "./../y/a.ron", "parts/y/a.ron"),
+            ("", "../a.ron", "../a.ron"),
+            ("../x", "../a.ron", "../a.ron"),
+            ("parts", "/a.ron", "/a.ron"),
+        ] {
+            assert_eq!(joined(Path::new(folder), name), Path::new(path), "{folder} {name}");
+        }
+    }
 }

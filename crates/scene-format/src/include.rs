@@ -4,16 +4,13 @@
 //! What is wrong with a file, or with a circle of them, is told by the reader at the place that names it.
 
 use crate::diagnostic::{Diagnostic, Label, Severity, Source, Span};
-use crate::load::{MAX_FILE_BYTES, parse};
+use crate::files::{MAX_FILE_BYTES, MOST_FILES, joined};
 use crate::overrides::Override;
-use crate::syntax::{Sink, Syntax, ron};
+use crate::syntax::{Sink, Syntax, parse, ron};
 use crate::tree::{Builder, Item, Kind, NOWHERE, Node, Root, Text, Tree};
 use std::collections::HashMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Files that a scene includes, at most.
-pub(crate) const MOST_FILES: usize = 256;
 
 /// A file that is included somewhere.
 #[derive(Debug)]
@@ -193,41 +190,6 @@ impl Library {
             }
             let label = Label { span: at, text: format!("{} is included here", included.path.display()) };
             fault.labels.push(label);
-        }
-    }
-}
-
-/// A path from the scene's folder, for a name in a file of this folder: without `.`, and without `..` after a name.
-pub(crate) fn joined(folder: &Path, name: &str) -> PathBuf {
-    let mut out = PathBuf::new();
-    for part in folder.join(name).components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
-                out.pop();
-            }
-            part => out.push(part),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_start_from_the_folder_of_the_file_that_they_stand_in() {
-        for (folder, name, path) in [
-            ("", "a.ron", "a.ron"),
-            ("parts", "a.ron", "parts/a.ron"),
-            ("parts", "../a.ron", "a.ron"),
-            ("parts/x", "./../y/a.ron", "parts/y/a.ron"),
-            ("", "../a.ron", "../a.ron"),
-            ("../x", "../a.ron", "../a.ron"),
-            ("parts", "/a.ron", "/a.ron"),
-        ] {
-            assert_eq!(joined(Path::new(folder), name), Path::new(path), "{folder} {name}");
         }
     }
 }

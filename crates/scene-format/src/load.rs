@@ -3,19 +3,14 @@
 use crate::codes;
 use crate::desc::{Scene, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
-use crate::files::{self, FileKind, NamedFile};
+use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
 use crate::overrides::{self, Override};
 use crate::read;
-use crate::syntax::{Sink, Syntax, foreign, ron, toml};
-use crate::tree::{Builder, Text, Tree};
-use std::collections::HashMap;
+use crate::syntax::{Sink, Syntax, foreign, parse};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Scene files may have this many bytes (1 GiB).
-pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// A scene that loaded.
 #[derive(Clone, Debug)]
@@ -182,18 +177,6 @@ fn analyse(text: &str, syntax: Syntax, overrides: &[Override], library: &Library
     overrides::apply(&mut tree, overrides, sink);
     library.append_to(&mut tree, sink);
     read::scene(&tree, sink)
-}
-
-/// The tree of a text, whatever is wrong with it.
-pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
-    let mut builder = Builder::new(0);
-    let errors = sink.errors;
-    let (comments, added) = match syntax {
-        Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
-        Syntax::Toml => toml::parse(text, &mut builder, sink),
-    };
-    let texts = vec![Text { text, syntax, folder: Path::new("") }];
-    Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, included: Vec::new() }
 }
 
 fn too_large(name: String) -> LoadError {

@@ -7,7 +7,7 @@ mod named;
 use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
-use crate::include::MOST_FILES;
+use crate::files::MOST_FILES;
 use crate::read::shortened;
 use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
 use crate::suggest;

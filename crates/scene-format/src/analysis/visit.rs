@@ -27,7 +27,7 @@ pub(super) struct Visit<'t, 's> {
 
 /// The tree of a text, whatever is wrong with it.
 pub(super) fn tree(text: &str, syntax: Syntax) -> Tree<'_> {
-    crate::load::parse(text, syntax, &mut Sink::default())
+    crate::syntax::parse(text, syntax, &mut Sink::default())
 }
 
 /// Calls `meet` for every value that the schema knows, parents first.

@@ -14,6 +14,7 @@ pub(super) static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
 
 /// Reads a whole scene. What is wrong goes to `sink`; the result counts only when that holds no error.
+// Long: one step after the other.
 pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let syntax_errors = sink.errors;
     let Some(root) = tree.root() else {

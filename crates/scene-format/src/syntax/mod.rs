@@ -19,7 +19,8 @@ mod toml_tables;
 
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS, Span, too_many};
 use crate::files::Files;
-use crate::tree::Kind;
+use crate::tree::{Builder, Kind, Text, Tree};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Brackets inside brackets deeper than this are refused, so that no file can overflow the stack.
@@ -123,4 +124,16 @@ pub(crate) fn is_toml_number(lexeme: &str) -> bool {
 /// A span of `usize` bytes in source `source`.
 pub(crate) fn span(source: u16, start: usize, end: usize) -> Span {
     Span { source: u32::from(source), start: start as u32, end: end as u32 }
+}
+
+/// The tree of a text, whatever is wrong with it.
+pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
+    let mut builder = Builder::new(0);
+    let errors = sink.errors;
+    let (comments, added) = match syntax {
+        Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
+        Syntax::Toml => toml::parse(text, &mut builder, sink),
+    };
+    let texts = vec![Text { text, syntax, folder: Path::new("") }];
+    Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, included: Vec::new() }
 }

@@ -413,7 +413,7 @@ pub(super) fn key_span(source: u16, key: &Key) -> Span {
 
 #[cfg(test)]
 mod tests {
-    use crate::load::parse;
+    use crate::syntax::parse;
     use crate::syntax::{Sink, Syntax};
     use crate::tree::{Item, Kind};
     use toml::Value;

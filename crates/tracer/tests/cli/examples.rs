@@ -84,5 +84,5 @@ fn every_example_of_the_reference_renders() {
             other => panic!("a block in `{other}`"),
         }
     }
-    assert!(scenes == 4 && parts >= 30, "{scenes} scenes and {parts} parts");
+    assert!(scenes == 5 && parts >= 30, "{scenes} scenes and {parts} parts");
 }

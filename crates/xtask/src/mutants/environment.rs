@@ -1,6 +1,6 @@
 //! Faults in pictures of all directions.
 
-use super::{Mutant, proofs, units};
+use super::{Mutant, kernel_units, proofs};
 
 const LIGHT: &str = "crates/kernels/src/engine/stages/lights/environment.rs";
 const PICTURE: &str = "crates/kernels/src/scene/environment.rs";
@@ -27,14 +27,14 @@ pub const MUTANTS: &[Mutant] = &[
         file: PICTURE,
         find: "total += sum * f64::from(heights[j as usize] - heights[j as usize + 1]);",
         replace: "total += sum;",
-        caught_by: units(&["environment"]),
+        caught_by: kernel_units(&["environment"]),
     },
     Mutant {
         name: "environment-whose-neighbours-are-not-sampled",
         file: PICTURE,
         find: "(k * size / of) as i64 - 1..=(((k + 1) * size).div_ceil(of)) as i64",
         replace: "(k * size / of) as i64..=(((k + 1) * size).div_ceil(of)) as i64 - 1",
-        caught_by: units(&["environment"]),
+        caught_by: kernel_units(&["environment"]),
     },
     Mutant {
         name: "environment-chosen-more-often-than-reckoned",

@@ -1,6 +1,6 @@
 //! Faults of photons, guided rays and glint chains (`render.caustics`).
 
-use super::{Mutant, proofs, units};
+use super::{Mutant, kernel_units, proofs};
 
 const PHOTONS: &str = "crates/kernels/src/engine/stages/photons.rs";
 const AIM: &str = "crates/kernels/src/engine/stages/aim.rs";
@@ -85,28 +85,28 @@ pub const MUTANTS: &[Mutant] = &[
         file: CELLS,
         find: "radius.mul_add(1.0 + MARGIN, TO_NEXT * next)",
         replace: "(0.1 * radius)",
-        caught_by: units(&["engine::guide::cells"]),
+        caught_by: kernel_units(&["engine::guide::cells"]),
     },
     Mutant {
         name: "cells-of-other-places",
         file: CELLS,
         find: "row = entry.row;",
         replace: "row = entry.row + SPHERES as u32;",
-        caught_by: units(&["engine::guide::cells"]),
+        caught_by: kernel_units(&["engine::guide::cells"]),
     },
     Mutant {
         name: "aimed-rays-count-in-full",
         file: AIM,
         find: "let weight = by_itself / (by_itself + density);",
         replace: "let weight = by_itself / density;",
-        caught_by: units(&["engine::stages::aim"]),
+        caught_by: kernel_units(&["engine::stages::aim"]),
     },
     Mutant {
         name: "aimed-rays-without-their-chance",
         file: AIM,
         find: "* (targets.chance * F::splat(1.0 / TWO_PI))",
         replace: "* F::splat(1.0 / TWO_PI)",
-        caught_by: units(&["engine::stages::aim"]),
+        caught_by: kernel_units(&["engine::stages::aim"]),
     },
     Mutant {
         name: "own-rays-count-in-full-beside-aimed-ones",
@@ -135,7 +135,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: LIGHT_PATHS,
         find: "F::select(alike(s, wo, wi, refracted, ior), factor, F::splat(0.0))",
         replace: "factor",
-        caught_by: units(&["engine::stages::light_paths"]),
+        caught_by: kernel_units(&["engine::stages::light_paths"]),
     },
     Mutant {
         name: "light-paths-with-one-index-of-refraction",

@@ -1,6 +1,6 @@
 //! Faults in compiling, the scene's tables, the tree, the film and developing.
 
-use super::{Mutant, proofs, suite, units};
+use super::{Mutant, kernel_units, proofs, suite, units};
 
 const COMPILE: &str = "crates/tracer-core/src/compile/mod.rs";
 const MESHES: &str = "crates/tracer-core/src/compile/meshes.rs";
@@ -42,7 +42,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "coplanar-lamps-lose",
         file: COPLANAR_FIND,
-        find: "let rank = |face: &Face| (face.precedence, face.primitive, face.instance);",
+        find: "let rank = |face: &Face| (face.rank, face.primitive, face.instance);",
         replace: "let rank = |face: &Face| (0, face.primitive, face.instance);",
         caught_by: proofs(&["coplanar::"]),
     },
@@ -184,7 +184,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: LIGHT,
         find: "trail | 1 << depth, depth + 1",
         replace: "trail, depth + 1",
-        caught_by: units(&["engine::stages::lights"]),
+        caught_by: kernel_units(&["engine::stages::lights"]),
     },
     Mutant {
         name: "curvature-is-the-radius",
@@ -225,8 +225,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "grid-that-moves-half-as-far",
         file: "crates/tracer-core/src/engine/grid.rs",
-        find: "(shift[0] * TILE as f32) as u8",
-        replace: "(shift[0] * 8.0) as u8",
+        find: "map(|x| (x * TILE as f32) as u8)",
+        replace: "map(|x| (x * 8.0) as u8)",
         caught_by: units(&["grid"]),
     },
     Mutant {
@@ -234,14 +234,14 @@ pub const MUTANTS: &[Mutant] = &[
         file: "crates/kernels/src/sampling/blocks.rs",
         find: "+ 2 * steps as i32",
         replace: "+ steps as i32",
-        caught_by: units(&["blocks", "grid"]),
+        caught_by: kernel_units(&["blocks", "grid"]),
     },
     Mutant {
         name: "blocks-cut-in-half-of-the-places",
         file: "crates/kernels/src/sampling/blocks.rs",
         find: ">> 61",
         replace: ">> 62",
-        caught_by: units(&["blocks"]),
+        caught_by: kernel_units(&["blocks"]),
     },
     Mutant {
         name: "film-drops-negative-samples",
@@ -310,8 +310,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "boxes-not-padded",
         file: "crates/kernels/src/bvh/ray_space.rs",
-        find: "pub(crate) const PAD: f32 = 1.0 / 524_288.0;",
-        replace: "pub(crate) const PAD: f32 = 0.0;",
+        find: "pub const PAD: f32 = 1.0 / 524_288.0;",
+        replace: "pub const PAD: f32 = 0.0;",
         caught_by: suite("bvh_watertight", &["closed_meshes_do_not_leak"]),
     },
     Mutant {
@@ -331,8 +331,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "parts-without-slack",
         file: "crates/kernels/src/bvh/triangle.rs",
-        find: "pub(crate) const SLACK: f32 = 1.0 / 1_048_576.0;",
-        replace: "pub(crate) const SLACK: f32 = 0.0;",
+        find: "pub const SLACK: f32 = 1.0 / 1_048_576.0;",
+        replace: "pub const SLACK: f32 = 0.0;",
         caught_by: suite("bvh_closest", &["a_cut_takes_no_hit_away_and_adds_none"]),
     },
     Mutant {
