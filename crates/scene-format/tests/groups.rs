@@ -135,7 +135,9 @@ fn a_name_leads_to_what_it_names_wherever_that_stands() {
     );
     let scene = scene.expect("three names");
     assert!(matches!(&scene.objects[4].value, Object::Sphere(ball) if ball.radius.value == 2.0));
-    assert!(matches!(&scene.objects[1].value, Object::Mesh(leg) if leg.file().expect("a file").value.ends_with("foot.off")));
+    assert!(
+        matches!(&scene.objects[1].value, Object::Mesh(leg) if leg.file().expect("a file").value.ends_with("foot.off"))
+    );
     // The group has no place of its own now, and what stood in two stands in one.
     assert_eq!(scene.objects[0].value.placements(), &Placements::One);
     let by_number = set(TABLE, &["objects[1].radius=2"]).expect("a number");

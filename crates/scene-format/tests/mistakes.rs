@@ -345,9 +345,9 @@ fn points_at(fault: &Diagnostic, broken: &str, at: usize) -> bool {
         .find(|c: char| !c.is_whitespace())
         .map_or(wanted, |skip| line(broken, at + skip));
     let seen = |span: &scene_format::diagnostic::Span| lines(span).contains(&wanted) || lines(span).contains(&next);
-    // A bracket that is open at the end of the file is told where it was opened.
+    // A bracket that is open at the end of the file is told where it was opened; that end has no second place.
     let (opened, noticed) =
-        (fault.span.start as usize, fault.labels.first().map_or(0, |label| label.span.end as usize));
+        (fault.span.start as usize, fault.labels.first().map_or(broken.len(), |label| label.span.end as usize));
     if fault.code == "E0102" && (opened..noticed).contains(&at) {
         return true;
     }
