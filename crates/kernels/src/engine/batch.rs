@@ -391,6 +391,12 @@ pub struct Batch {
     pub watch: Watch,
 }
 
+impl Default for Batch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Batch {
     /// Allocates.
     pub fn new() -> Self {

@@ -60,7 +60,7 @@ impl SphereRows {
 
     /// Number of rows.
     #[inline(always)]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.weight.len()
     }
 }
@@ -113,7 +113,7 @@ impl Cells {
                 looked_at.clear();
                 looked_at.extend(of_cell.iter().step_by(step).map(|&(_, k)| photons[k as usize]));
                 let Some(place) = cells.place(looked_at[0].point) else { continue };
-                found.push(Entry { key: key_of(place, level), row: cells.rows.len() as u32 });
+                found.push(Entry { key: key_of(place, level), row: cells.rows.count() as u32 });
                 let flux: f32 = of_cell.iter().map(|&(_, k)| photons[k as usize].flux).sum();
                 let width = (1u32 << (LEVELS - 1 - level)) as f32 / FINEST;
                 add_spheres(&mut looked_at, &mut cells.rows);

@@ -147,7 +147,7 @@ pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M
         sums[0] = sums[0] + weight;
         within[0] = within[0] + F::select(cone.holds(w), weight / cone.width, zero);
     }
-    for k in 0..guide.casters.len() {
+    for k in 0..guide.casters.count() {
         let (cone, weight) = targets.of_caster(k);
         sums[1] = sums[1] + weight;
         within[1] = within[1] + F::select(cone.holds(w), weight / cone.width, zero);
@@ -166,7 +166,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items);
     let (aimers, paths) = (&batch.aimers, &mut batch.paths);
     let before = paths.len;
-    let casters = guide.casters.len().min(MOST_CASTERS);
+    let casters = guide.casters.count().min(MOST_CASTERS);
     for i in (0..aimers.len).step_by(F::N) {
         let slot = F::U::load(&aimers.slot[i..]);
         let pixel = PixelOf::<F>::new(slot, &batch.pixels);

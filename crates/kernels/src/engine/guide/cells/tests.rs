@@ -35,7 +35,7 @@ fn spheres_hold_where_light_comes_from() {
     let mut looked_at: Vec<Photon> = photons().into_iter().step_by(420).collect();
     let mut rows = SphereRows::default();
     add_spheres(&mut looked_at, &mut rows);
-    assert_eq!(rows.len(), SPHERES);
+    assert_eq!(rows.count(), SPHERES);
     for photon in looked_at {
         let holds = |k: usize| distance2(rows.center.each_ref().map(|c| c[k]), photon.from) <= rows.radius2[k];
         assert!((0..SPHERES).any(holds), "{photon:?}");
