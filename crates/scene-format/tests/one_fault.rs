@@ -78,7 +78,7 @@ fn one_fault_in_ron_is_one_error() {
             ("Translate((9, 0, 0))", "Translate(9, 0, 0)", "E0206"),
             ("Translate((9, 0, 0))", "Translate(by: (9, 0, 0))", "E0203"),
             ("version: 1", "version: 2", "E0208"),
-            ("version: 1,", "include: \"room.ron\",", "E0210"),
+            ("version: 1,", "let: 1,", "E0210"),
             // Values.
             ("radius: 10", "radius: -10", "E0301"),
             ("sigma: 0.4", "sigma: -0.4", "E0302"),
@@ -187,7 +187,7 @@ fn one_fault_in_toml_is_one_error() {
             ("fov = 60", "fov = 60\nfov = 70", "E0205"),
             ("[20, 30, -20]", "[20, 30]", "E0206"),
             ("version = 1", "version = 2", "E0208"),
-            ("version = 1", "include = 1", "E0210"),
+            ("version = 1", "let = 1", "E0210"),
             ("version = 1", "vars = 1", "E0203"),
             // Values.
             ("radius = 10", "radius = -10", "E0301"),
