@@ -112,6 +112,8 @@ function figures(state) {
 
 function render(state) {
   document.body.dataset.phase = state.phase;
+  // For whoever waits until it is on the screen: `frame` is what is.
+  document.body.dataset.newest = state.frame?.number ?? "";
   document.title = `${state.phase === "wrong" ? "! " : ""}${state.name}`;
   element("name").textContent = state.name;
   const phase = PHASES[state.phase];

@@ -40,7 +40,14 @@ async function open(address, settings = {}) {
   return page;
 }
 
-const phase = (page, name) => page.waitForFunction((name) => document.body.dataset.phase === name, name, { timeout: 60000 });
+/** Waits for a phase; for "done" until its last frame has been painted, too. */
+async function phase(page, name) {
+  await page.waitForFunction((name) => {
+    const { phase, frame, newest } = document.body.dataset;
+    return phase === name && (name !== "done" || frame === newest);
+  }, name, { timeout: 60000 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
 /** What the canvas shows in the middle of the picture. */
 const middle = (page) => page.evaluate(() => {
   const canvas = document.getElementById("picture");
