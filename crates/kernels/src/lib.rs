@@ -6,6 +6,8 @@
 
 // What a test expects reaches no picture: it may be computed by std. See clippy.toml.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
+// Its documentation is for those who work on it.
+#![allow(rustdoc::private_intra_doc_links)]
 #![deny(unsafe_code)]
 #![warn(clippy::undocumented_unsafe_blocks)]
 

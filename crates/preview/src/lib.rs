@@ -1,6 +1,6 @@
 //! `tracer preview`: a picture in the browser that follows its scene file.
 //!
-//! Four parts, each in a file of its own, that meet in [`shared::Shared`] and nowhere else:
+//! Four parts, each in a file of its own, that meet in `shared::Shared` and nowhere else:
 //!
 //! - the **watch** (`watch.rs`) looks at all files that the scene uses and orders a new picture when one has changed;
 //! - the **studio** (`studio.rs`), one thread, loads, compiles and renders, and ends early when there is a new order;

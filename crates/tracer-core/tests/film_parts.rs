@@ -151,7 +151,10 @@ fn a_part_that_was_ended_anywhere_is_gone_on_with() {
         for end in [0, 500, 4000, 11_111] {
             let ended = render(&scene, &options(part, 2), &EndAfter(end, AtomicU64::new(0)));
             let file = bytes(&ended);
-            assert!(matches!(merge(&[file.clone()], Gaps::Allowed), Err(MergeError::Unfinished { part: 0 })));
+            assert!(matches!(
+                merge(std::slice::from_ref(&file), Gaps::Allowed),
+                Err(MergeError::Unfinished { part: 0 })
+            ));
             let film = Film::load(&mut file.as_slice()).expect("a film");
             let whole = resume(&scene, &options(part, 1), film.clone(), &Unobserved).expect("it fits");
             assert!(without_time(whole) == at_once, "{split:?} {end}");

@@ -342,7 +342,7 @@ pub struct Batch {
     pub items: Vec<Item>,
     /// The pixels of the slots.
     pub pixels: Pixels,
-    /// Items with glint chains ([`super::techniques::glints`]), a bit each.
+    /// Items with glint chains (`techniques::glints`), a bit each.
     pub glints: u32,
     /// Items whose pixels share, a bit each, where any do.
     pub shares: u32,

@@ -10,7 +10,7 @@ use crate::layers::LayerSet;
 pub enum Task {
     /// The picture.
     Picture,
-    /// Glint chains: they end at all but mirrors and glass ([`super::techniques::glints`]).
+    /// Glint chains: they end at all but mirrors and glass (`techniques::glints`).
     Chains,
 }
 

@@ -1,7 +1,7 @@
 //! Picture layers: what camera rays hit first, kept beside the picture.
 //!
 //! A layer is a file here, named as its word in scenes is, with one contract ([`PictureLayer`]), and one line of
-//! [`layers!`]. The kernel that fills them (`engine::stages::first_hits`), the film that sums them (`film::layers`) and
+//! `layers!`. The kernel that fills them (`engine::stages::first_hits`), the film that sums them (`film::layers`) and
 //! the files that they end in go by the contract and know no layer by its name.
 //!
 //! Samples lie where the pixel's filter has them, so their plain mean is the filtered one, as it is of the picture.

@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-fn render<'a>(sandbox: &Sandbox, more: &[&'a str]) {
+fn render(sandbox: &Sandbox, more: &[&str]) {
     sandbox.run(&[&["render", "scene.ron", "-q"], more].concat()).ends(0);
 }
 
