@@ -1,0 +1,53 @@
+//! Repetitions: what they stand for, and how many items they may make.
+
+mod common;
+
+use common::load;
+use scene_format::{Syntax, convert, hash};
+
+/// `Repeat` says the same as its items written out, wherever a list stands, in both syntaxes; the converter keeps it with its comments.
+#[test]
+fn repetitions_say_what_they_stand_for() {
+    let short = r#"Scene(
+    background: 1,
+    vars: { "n": 3 },
+    objects: [
+        // a row
+        Repeat(count: "=n", vars: { "x": "=2*i" }, items: [
+            Sphere(center: ("=x", "=i", 0), radius: 1), // one of them
+            Repeat(count: 2, index: "k", items: [Sphere(center: ("=x + k", 0, 0), radius: "=1 + i + k")]),
+        ]),
+        Box(size: 0.3, placements: [Repeat(count: 2, items: [[Translate(("=i - 2", -1, 0)), Repeat(count: 2, items: [Scale(2)])]])]),
+    ],
+)"#;
+    let sphere = |x: u32, y: u32, r: u32| format!("Sphere(center: ({x}, {y}, 0), radius: {r}), ");
+    let row = |i: u32| sphere(2 * i, i, 1) + &sphere(2 * i, 0, 1 + i) + &sphere(2 * i + 1, 0, 2 + i);
+    let copies = "[Translate((-2, -1, 0)), Scale(2), Scale(2)], [Translate((-1, -1, 0)), Scale(2), Scale(2)]";
+    let long = format!(
+        "Scene(background: 1, objects: [{}{}{} Box(size: 0.3, placements: [{copies}])])",
+        row(0),
+        row(1),
+        row(2)
+    );
+    let (short_scene, long_scene) = (load(short, Syntax::Ron), load(&long, Syntax::Ron));
+    let (short_scene, long_scene) = (short_scene.expect("right").scene, long_scene.expect("right").scene);
+    assert_eq!(short_scene.objects, long_scene.objects);
+    assert_eq!(hash(&short_scene), hash(&long_scene));
+    let toml = convert("short.ron", short, Syntax::Ron, Syntax::Toml).expect("right");
+    assert!(toml.contains("# a row") && toml.contains("# one of them") && toml.contains("\"=x + k\""), "{toml}");
+    let back = convert("short.toml", &toml, Syntax::Toml, Syntax::Ron).expect("right");
+    for (text, syntax) in [(&toml, Syntax::Toml), (&back, Syntax::Ron)] {
+        let scene = load(text, syntax).unwrap_or_else(|error| panic!("{error:?}: {text}")).scene;
+        assert_eq!(scene.objects, long_scene.objects, "{text}");
+    }
+}
+
+/// A million spheres of three lines.
+#[test]
+fn a_million_items_are_read_in_time() {
+    let text = r#"Scene(background: 1, objects: [
+        Repeat(count: 1000, index: "x", items: [Repeat(count: 1000, index: "z", items: [
+            Sphere(center: ("=x", 0, "=z"), radius: "=0.2 + 0.2*random(x, z)")])])])"#;
+    let scene = load(text, Syntax::Ron).expect("right").scene;
+    assert_eq!(scene.objects.len(), 1_000_000);
+}
