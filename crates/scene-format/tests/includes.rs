@@ -189,3 +189,30 @@ fn scenes_in_scenes_in_scenes_end_soon() {
     assert_eq!(codes(load(&folder("laughs", &files).join("0.ron"))), ["E0606"]);
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }
+
+/// One file without the list around it: one error, and the edit mends it; the names that it would have brought are not missed.
+#[test]
+fn a_file_without_its_list_is_one_error() {
+    for (name, syntax, text) in [
+        (
+            "a.ron",
+            Syntax::Ron,
+            r#"Scene(background: 1, include: "wood.toml", objects: [Sphere(center: (0, 0, 0), radius: "=shade", material: "wood")])"#,
+        ),
+        (
+            "a.toml",
+            Syntax::Toml,
+            "background = 1\ninclude = \"wood.toml\"\n[[objects]]\nSphere = { center = [0, 0, 0], radius = \"=shade\", material = \"wood\" }\n",
+        ),
+    ] {
+        let wood = "[vars]\nshade = 0.25\n[materials]\nwood = { Mirror = {} }\n";
+        let folder = folder("without_list", &[("wood.toml", wood), (name, text)]);
+        let Err(LoadError::Invalid { diagnostics, .. }) = load(&folder.join(name)) else { panic!("{name} is wrong") };
+        let [fault] = diagnostics.as_slice() else { panic!("{}: {diagnostics:#?}", syntax.name()) };
+        let edit = fault.edit.as_ref().expect("an edit");
+        let (start, end) = (edit.span.start as usize, edit.span.end as usize);
+        let mended = format!("{}{}{}", &text[..start], edit.replacement, &text[end..]);
+        std::fs::write(folder.join(name), mended).expect("written");
+        assert!(load(&folder.join(name)).is_ok(), "{}", syntax.name());
+    }
+}

@@ -52,12 +52,15 @@ impl Words for Includes {
     const TYPE: Type = Type::List(&Type::File);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        reader.items(item, at, |reader, name| {
+        let read = reader.items(item, at, |reader, name| {
             let Some(text) = reader.text(name, at) else { return };
             let Some((file, root)) = reader.open(name, &text) else { return };
             reader.library(name, file, root);
-        })?;
-        Some(Includes)
+        });
+        // Names may be missing that they would have brought.
+        reader.materials.damaged |= read.is_none();
+        reader.vars.damaged |= read.is_none();
+        read.map(|()| Includes)
     }
 
     fn form(&self, _all: bool) -> Form {

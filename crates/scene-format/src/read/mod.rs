@@ -30,7 +30,7 @@ pub(crate) use vars::{Vars, is_expression};
 use crate::codes;
 use crate::desc::{ITEMS, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
-use crate::schema::{FieldDef, StructDef};
+use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
@@ -503,10 +503,11 @@ impl<'r> Reader<'r> {
                 Some(format!("[{lexeme}]"))
             }
             Kind::Tuple => lexeme.get(1..lexeme.len() - 1).map(|inner| format!("[{inner}]")),
+            Kind::Text if matches!(at.kind, Type::List(Type::File)) => Some(format!("[{lexeme}]")),
             _ => None,
         };
         // A table under a TOML header is not between brackets that could be edited.
-        let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[']));
+        let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[', '"']));
         self.wrong_kind(item, at.noun, "a list: [a, b, c]", edit)
     }
 
