@@ -67,7 +67,7 @@ impl Stage {
     }
 }
 
-/// What the tree did for a sample of the batches.
+/// What the tree did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TreeWork {
     /// Rays it was asked about.

@@ -272,7 +272,7 @@ pub struct StageSeconds {
     pub seconds: f64,
 }
 
-/// What a ray costs the tree, on average over every 64th batch; null where it was not asked about one.
+/// What a ray costs the tree, on average; null where it was not asked about one.
 #[derive(Clone, Debug, Serialize)]
 pub struct PerRay {
     /// Nodes of eight boxes.

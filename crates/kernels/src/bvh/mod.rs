@@ -182,25 +182,16 @@ impl Accel {
         self.stats
     }
 
-    /// Finds the closest hit of the rays whose indices are in `active`.
+    /// Finds the closest hit of the rays whose indices are in `active`, and says what it did.
     ///
     /// # Panics
     /// If an index is beyond a slice.
-    pub fn closest(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) {
-        self.closest_at::<false>(self.level, rays, active, hits, coherence);
+    pub fn closest(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) -> Counters {
+        self.closest_at(self.level, rays, active, hits, coherence)
     }
 
-    /// As [`closest`](Self::closest), and says what it did. Counting costs a little.
-    ///
-    /// # Panics
-    /// If an index is beyond a slice.
-    pub fn closest_counted(&self, rays: &Rays, active: &[u32], hits: &mut Hits, coherence: Coherence) -> Counters {
-        self.closest_at::<true>(self.level, rays, active, hits, coherence)
-    }
-
-    /// As [`closest`](Self::closest) with the instructions of a level, whatever the structure's own; says what it did
-    /// where `COUNT`.
-    pub fn closest_at<const COUNT: bool>(
+    /// As [`closest`](Self::closest) with the instructions of a level, whatever the structure's own.
+    pub fn closest_at(
         &self,
         level: Level,
         rays: &Rays,
@@ -209,38 +200,23 @@ impl Accel {
         coherence: Coherence,
     ) -> Counters {
         let mut counters = Counters::default();
-        kernels::closest::<COUNT>(level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
+        kernels::closest(level, coherence, &self.view(), Batch { rays, active }, hits, &mut counters);
         if let Some(coplanar) = &self.coplanar {
             coplanar.settle(rays, active, hits);
         }
         counters
     }
 
-    /// Finds which of the rays whose indices are in `active` are blocked.
+    /// Finds which of the rays whose indices are in `active` are blocked, and says what it did.
     ///
     /// # Panics
     /// If an index is beyond a slice.
-    pub fn occluded(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion, coherence: Coherence) {
-        self.occluded_at::<false>(self.level, rays, active, occlusion, coherence);
+    pub fn occluded(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion, coherence: Coherence) -> Counters {
+        self.occluded_at(self.level, rays, active, occlusion, coherence)
     }
 
-    /// As [`occluded`](Self::occluded), and says what it did.
-    ///
-    /// # Panics
-    /// If an index is beyond a slice.
-    pub fn occluded_counted(
-        &self,
-        rays: &Rays,
-        active: &[u32],
-        occlusion: &mut Occlusion,
-        coherence: Coherence,
-    ) -> Counters {
-        self.occluded_at::<true>(self.level, rays, active, occlusion, coherence)
-    }
-
-    /// As [`occluded`](Self::occluded) with the instructions of a level, whatever the structure's own; says what it
-    /// did where `COUNT`.
-    pub fn occluded_at<const COUNT: bool>(
+    /// As [`occluded`](Self::occluded) with the instructions of a level, whatever the structure's own.
+    pub fn occluded_at(
         &self,
         level: Level,
         rays: &Rays,
@@ -251,7 +227,7 @@ impl Accel {
         let mut counters = Counters::default();
         let (view, batch) = (self.view(), Batch { rays, active });
         let Some(coplanar) = &self.coplanar else {
-            kernels::occluded::<COUNT>(level, coherence, &view, batch, occlusion, &mut counters);
+            kernels::occluded(level, coherence, &view, batch, occlusion, &mut counters);
             return counters;
         };
         let ends = coplanar.ends(rays, active, occlusion);
@@ -261,7 +237,7 @@ impl Accel {
             target_instance: occlusion.target_instance,
             occluded: &mut *occlusion.occluded,
         };
-        kernels::occluded::<COUNT>(level, coherence, &view, batch, &mut shorter, &mut counters);
+        kernels::occluded(level, coherence, &view, batch, &mut shorter, &mut counters);
         coplanar.cover(rays, active, occlusion);
         counters
     }

@@ -3,14 +3,10 @@
 use crate::report::{Costs, Stage, Statistics};
 use std::time::Instant;
 
-/// Every so many batches the tree counts what it does, which costs it a few per cent.
-const COUNTED: u32 = 64;
-
 /// Keeps the statistics of a thread, or nothing.
 #[derive(Debug, Default)]
 pub struct Watch {
     last: Option<Instant>,
-    batches: u32,
     /// What was counted since it was started.
     pub statistics: Statistics,
     /// Kept whether statistics are or not.
@@ -21,7 +17,6 @@ impl Watch {
     /// Starts the time of a batch; `on`: there is somebody to tell.
     pub fn start(&mut self, on: bool) {
         self.last = on.then(Instant::now);
-        self.batches = self.batches.wrapping_add(1);
     }
 
     /// Goes on after other work, if statistics are kept.
@@ -32,11 +27,6 @@ impl Watch {
     /// Whether statistics are kept.
     pub fn is_on(&self) -> bool {
         self.last.is_some()
-    }
-
-    /// Whether the tree is to count in this batch.
-    pub fn counts_tree(&self) -> bool {
-        self.is_on() && self.batches % COUNTED == 1
     }
 
     /// All time since the last lap was spent on this stage.

@@ -109,8 +109,8 @@ fn count(accel: &Accel, set: &Set, answers: &mut Answers) -> Counters {
     batches(
         set,
         answers,
-        |rays, active, hits| add(accel.closest_counted(rays, active, hits, set.coherence)),
-        |rays, active, ends| add(accel.occluded_counted(rays, active, ends, set.coherence)),
+        |rays, active, hits| add(accel.closest(rays, active, hits, set.coherence)),
+        |rays, active, ends| add(accel.occluded(rays, active, ends, set.coherence)),
     );
     total.get()
 }

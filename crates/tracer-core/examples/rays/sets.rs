@@ -79,8 +79,12 @@ pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
     batches(
         set,
         answers,
-        |rays, active, hits| accel.closest(rays, active, hits, set.coherence),
-        |rays, active, ends| accel.occluded(rays, active, ends, set.coherence),
+        |rays, active, hits| {
+            accel.closest(rays, active, hits, set.coherence);
+        },
+        |rays, active, ends| {
+            accel.occluded(rays, active, ends, set.coherence);
+        },
     );
 }
 

@@ -68,11 +68,9 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
     let coherence = if camera { Coherence::Coherent } else { Coherence::Incoherent };
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
-    if batch.watch.counts_tree() {
-        let counters = accel.closest_at::<true>(level, &rays, active, &mut hits, coherence);
+    let counters = accel.closest_at(level, &rays, active, &mut hits, coherence);
+    if batch.watch.is_on() {
         batch.watch.statistics.closest.add(active.len(), &counters);
-    } else {
-        accel.closest_at::<false>(level, &rays, active, &mut hits, coherence);
     }
 }
 
@@ -99,11 +97,9 @@ pub fn occluded_in_tree(accel: &Accel, kernels: &Kernels, coherence: Coherence, 
     };
     let rays = rays(&shadows.origin, &shadows.direction, &shadows.from_primitive[..], &shadows.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
-    if batch.watch.counts_tree() {
-        let counters = accel.occluded_at::<true>(kernels.level(), &rays, active, &mut occlusion, coherence);
+    let counters = accel.occluded_at(kernels.level(), &rays, active, &mut occlusion, coherence);
+    if batch.watch.is_on() {
         batch.watch.statistics.occluded.add(active.len(), &counters);
-    } else {
-        accel.occluded_at::<false>(kernels.level(), &rays, active, &mut occlusion, coherence);
     }
     batch.watch.lap(Stage::Occluded);
 }

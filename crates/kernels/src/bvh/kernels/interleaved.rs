@@ -144,13 +144,7 @@ struct Candidate<I: Isa> {
 
 /// Traces the batch with `IN_FLIGHT` rays under way at a time.
 #[inline(always)]
-pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
-    isa: I,
-    tree: &TreeView,
-    batch: Batch,
-    goal: &mut G,
-    counters: &mut Counters,
-) {
+pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
     if batch.active.is_empty() {
         return;
     }
@@ -165,18 +159,14 @@ pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
         // Nodes are 0…, triangles 10…, everything else 11… (see `Ref`).
         let (not_nodes, not_triangles) = isa.high_bits16(&next);
         let mut at_nodes = !not_nodes & 0xFFFF;
-        if COUNT {
-            counters.nodes += u64::from(at_nodes.count_ones());
-        }
+        counters.nodes += u64::from(at_nodes.count_ones());
         while at_nodes != 0 {
             let at = first_of(&mut at_nodes);
             next.0[at] = visit_node::<I, G>(isa, tree, &mut flights[at], next.0[at]);
             prefetch(tree, next.0[at]);
         }
         let mut at_triangles = not_nodes & !not_triangles;
-        if COUNT {
-            counters.triangle_leaves += u64::from(at_triangles.count_ones());
-        }
+        counters.triangle_leaves += u64::from(at_triangles.count_ones());
         let mut passed = 0;
         while at_triangles != 0 {
             let at = first_of(&mut at_triangles);
@@ -229,9 +219,7 @@ pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
                     }
                 }
             } else if node < Ref::INSTANCE {
-                if COUNT {
-                    counters.sphere_leaves += 1;
-                }
+                counters.sphere_leaves += 1;
                 // SAFETY: a reference to a sphere leaf (see `TreeView`).
                 let leaf = unsafe { item::<Spheres4>(tree, node & Ref::UNIT) };
                 let ray = flight.ray as usize;
@@ -252,9 +240,7 @@ pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
             } else if node == Ref::LEAVE.0 {
                 leave(tree, batch, goal, flight)
             } else {
-                if COUNT {
-                    counters.instances += 1;
-                }
+                counters.instances += 1;
                 enter_instance(tree, batch, goal, flight, node & Ref::UNIT)
             };
             prefetch(tree, next.0[at]);

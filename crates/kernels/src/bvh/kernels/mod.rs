@@ -25,7 +25,6 @@ mod query;
 
 use super::{Coherence, Hits, Occlusion};
 use crate::level::{Level, Set};
-use isa::Isa16;
 use query::{AnyHit, Closest, Goal};
 pub use query::{Batch, MeshRecord, TreeView};
 
@@ -53,8 +52,8 @@ pub struct Counters {
     pub instances: u64,
 }
 
-/// Closest hits, counting only where `COUNT`.
-pub fn closest<const COUNT: bool>(
+/// Closest hits; counts what it does.
+pub fn closest(
     level: Level,
     coherence: Coherence,
     tree: &TreeView,
@@ -62,11 +61,11 @@ pub fn closest<const COUNT: bool>(
     hits: &mut Hits,
     counters: &mut Counters,
 ) {
-    trace::<_, COUNT>(level, coherence, tree, batch, &mut Closest { hits }, counters);
+    trace(level, coherence, tree, batch, &mut Closest { hits }, counters);
 }
 
-/// Occlusion, counting only where `COUNT`.
-pub fn occluded<const COUNT: bool>(
+/// Occlusion; counts what it does.
+pub fn occluded(
     level: Level,
     coherence: Coherence,
     tree: &TreeView,
@@ -74,11 +73,13 @@ pub fn occluded<const COUNT: bool>(
     occlusion: &mut Occlusion,
     counters: &mut Counters,
 ) {
-    trace::<_, COUNT>(level, coherence, tree, batch, &mut AnyHit { occlusion }, counters);
+    trace(level, coherence, tree, batch, &mut AnyHit { occlusion }, counters);
 }
 
+/// Packets gain where sixteen lanes are one or two instructions. Without them they are code alone: unrolled by the compiler, a
+/// quarter of a megabyte for each question.
 #[allow(unsafe_code)]
-fn trace<G: Goal, const COUNT: bool>(
+fn trace<G: Goal>(
     level: Level,
     coherence: Coherence,
     tree: &TreeView,
@@ -86,76 +87,70 @@ fn trace<G: Goal, const COUNT: bool>(
     goal: &mut G,
     counters: &mut Counters,
 ) {
-    match level.set() {
-        Set::Portable => kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters),
+    match (level.set(), coherence) {
+        (Set::Portable, _) => one_by_one_portable(tree, batch, goal, counters),
         #[cfg(not(target_arch = "x86_64"))]
-        Set::Portable8 => kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters),
+        (Set::Portable8, _) => one_by_one_portable(tree, batch, goal, counters),
         // SAFETY: a `Level` of this set exists only where the processor has its instructions.
         #[cfg(target_arch = "x86_64")]
-        Set::Scalar => unsafe { kernel_fma::<G, COUNT>(coherence, tree, batch, goal, counters) },
+        (Set::Scalar, _) => unsafe { one_by_one_fma(tree, batch, goal, counters) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Set::Avx2 => unsafe { kernel_avx2::<G, COUNT>(coherence, tree, batch, goal, counters) },
+        (Set::Avx2, Coherence::Incoherent) => unsafe { one_by_one_avx2(tree, batch, goal, counters) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Set::Avx512 => unsafe { kernel_avx512::<G, COUNT>(coherence, tree, batch, goal, counters) },
+        (Set::Avx2, Coherence::Coherent) => unsafe { packets_avx2(tree, batch, goal, counters) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        (Set::Avx512, Coherence::Incoherent) => unsafe { one_by_one_avx512(tree, batch, goal, counters) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        (Set::Avx512, Coherence::Coherent) => unsafe { packets_avx512(tree, batch, goal, counters) },
     }
 }
 
-#[inline(always)]
-fn kernel<I: Isa16, G: Goal, const COUNT: bool>(
-    isa: I,
-    coherence: Coherence,
-    tree: &TreeView,
-    batch: Batch,
-    goal: &mut G,
-    counters: &mut Counters,
-) {
-    match coherence {
-        Coherence::Incoherent => interleaved::trace::<I, G, COUNT>(isa, tree, batch, goal, counters),
-        Coherence::Coherent => packet::trace::<I, G, COUNT>(isa, tree, batch, goal, counters),
-    }
+fn one_by_one_portable<G: Goal>(tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
+    interleaved::trace(portable::Portable, tree, batch, goal, counters);
 }
 
 /// The portable kernel, whose fused multiplications become one instruction each here and a call of a library elsewhere.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "fma")]
-fn kernel_fma<G: Goal, const COUNT: bool>(
-    coherence: Coherence,
-    tree: &TreeView,
-    batch: Batch,
-    goal: &mut G,
-    counters: &mut Counters,
-) {
-    kernel::<_, G, COUNT>(portable::Portable, coherence, tree, batch, goal, counters);
+fn one_by_one_fma<G: Goal>(tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
+    interleaved::trace(portable::Portable, tree, batch, goal, counters);
+}
+
+/// Both ways through the tree with the instructions of a level.
+#[cfg(target_arch = "x86_64")]
+macro_rules! kernels {
+    ($one_by_one:ident, $packets:ident, $isa:ty, $features:literal) => {
+        #[allow(unsafe_code)]
+        #[inline(never)]
+        #[target_feature(enable = $features)]
+        fn $one_by_one<G: Goal>(tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
+            // SAFETY: this function runs only where the processor has its features.
+            let isa = unsafe { <$isa>::new() };
+            interleaved::trace(isa, tree, batch, goal, counters);
+        }
+
+        #[allow(unsafe_code)]
+        #[target_feature(enable = $features)]
+        fn $packets<G: Goal>(tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
+            // SAFETY: this function runs only where the processor has its features.
+            let isa = unsafe { <$isa>::new() };
+            packet::trace(isa, tree, batch, goal, counters, |rest, goal, counters| {
+                $one_by_one(tree, rest, goal, counters);
+            });
+        }
+    };
 }
 
 #[cfg(target_arch = "x86_64")]
-#[allow(unsafe_code)]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-fn kernel_avx2<G: Goal, const COUNT: bool>(
-    coherence: Coherence,
-    tree: &TreeView,
-    batch: Batch,
-    goal: &mut G,
-    counters: &mut Counters,
-) {
-    // SAFETY: this function runs only where the processor has its features.
-    let isa = unsafe { avx2::Avx2::new() };
-    kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
-}
-
+kernels!(one_by_one_avx2, packets_avx2, avx2::Avx2, "avx2,fma,bmi1,bmi2,popcnt,lzcnt");
 #[cfg(target_arch = "x86_64")]
-#[allow(unsafe_code)]
-#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
-fn kernel_avx512<G: Goal, const COUNT: bool>(
-    coherence: Coherence,
-    tree: &TreeView,
-    batch: Batch,
-    goal: &mut G,
-    counters: &mut Counters,
-) {
-    // SAFETY: this function runs only where the processor has its features.
-    let isa = unsafe { avx512::Avx512::new() };
-    kernel::<_, G, COUNT>(isa, coherence, tree, batch, goal, counters);
-}
+kernels!(
+    one_by_one_avx512,
+    packets_avx512,
+    avx512::Avx512,
+    "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt,lzcnt"
+);

@@ -11,7 +11,7 @@
 
 use super::super::geometry::NONE;
 use super::super::layout::{Node, Parts4, Ref, Shape, Spheres4, Triangles4};
-use super::interleaved::{self, item, prefetch};
+use super::interleaved::{item, prefetch};
 use super::isa::{Isa16, Lanes, WordLanes};
 use super::leaves::{LeafHits, PaddedBoxes, padded_boxes, parts4, places_of, shape, spheres4, triangles4};
 use super::packet_space::PacketSpace;
@@ -71,14 +71,15 @@ struct Packet<'a, 'b, I> {
     stack: [Entry; STACK],
 }
 
-/// Traces the batch in packets.
+/// Traces the batch in packets, and by `one_by_one` those rays that are better off alone.
 #[inline(always)]
-pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
+pub fn trace<I: Isa16, G: Goal>(
     isa: I,
     tree: &TreeView,
     batch: Batch,
     goal: &mut G,
     counters: &mut Counters,
+    one_by_one: impl Fn(Batch, &mut G, &mut Counters),
 ) {
     let nothing = WordLanes([NONE; 16]);
     let mut packet = Packet {
@@ -110,7 +111,7 @@ pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
         if left > 0 {
             left -= 1;
         } else if rays.len() >= SMALLEST && packet.load(rays, goal) {
-            packet.traverse::<G, COUNT>(goal, counters);
+            packet.traverse::<G>(goal, counters);
             if packet.cost > packet.saved {
                 left = pause;
                 pause = LONGEST_PAUSE.min(2 * pause);
@@ -123,12 +124,12 @@ pub fn trace<I: Isa16, G: Goal, const COUNT: bool>(
         put_aside += rays.len();
         if put_aside > ASIDE - 16 {
             let rest = Batch { rays: batch.rays, active: &aside[..put_aside] };
-            interleaved::trace::<I, G, COUNT>(isa, tree, rest, goal, counters);
+            one_by_one(rest, goal, counters);
             put_aside = 0;
         }
     }
     let rest = Batch { rays: batch.rays, active: &aside[..put_aside] };
-    interleaved::trace::<I, G, COUNT>(isa, tree, rest, goal, counters);
+    one_by_one(rest, goal, counters);
 }
 
 impl<'a, I: Isa16> Packet<'a, '_, I> {
@@ -228,7 +229,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
     }
 
     #[inline(always)]
-    fn traverse<G: Goal, const COUNT: bool>(&mut self, goal: &mut G, counters: &mut Counters) {
+    fn traverse<G: Goal>(&mut self, goal: &mut G, counters: &mut Counters) {
         self.push(Entry { reference: self.tree.root, lanes: self.alive, distance: f32::NEG_INFINITY });
         while self.height > 0 && self.alive != 0 {
             self.height -= 1;
@@ -247,28 +248,20 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             self.saved += lanes.count_ones();
             self.cost += if self.tree.bytes > NEAR_BYTES { FAR_COST } else { NEAR_COST };
             if node < Ref::TRIANGLES {
-                if COUNT {
-                    counters.nodes += 1;
-                }
+                counters.nodes += 1;
                 self.visit_node(node, lanes);
             } else if node < Ref::SPHERES {
-                if COUNT {
-                    counters.triangle_leaves += 1;
-                }
+                counters.triangle_leaves += 1;
                 if node < Ref::PARTS {
                     self.visit_triangles::<G, false>(node & Ref::UNIT, lanes);
                 } else {
                     self.visit_triangles::<G, true>(node & Ref::UNIT, lanes);
                 }
             } else if node < Ref::INSTANCE {
-                if COUNT {
-                    counters.sphere_leaves += 1;
-                }
+                counters.sphere_leaves += 1;
                 self.visit_spheres::<G>(node & Ref::UNIT, lanes);
             } else {
-                if COUNT {
-                    counters.instances += 1;
-                }
+                counters.instances += 1;
                 self.enter_instance(goal, node & Ref::UNIT, lanes);
             }
         }
