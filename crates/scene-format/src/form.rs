@@ -1,4 +1,4 @@
-//! A value in the words of the language, ready to be printed in either syntax or hashed: what the writer, the converter and the
+//! A value in the words of the language, ready to be printed in any syntax or hashed: what the writer, the converter and the
 //! defaults of the reference speak.
 
 /// A value as it will be written.

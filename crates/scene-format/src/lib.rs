@@ -1,6 +1,6 @@
 //! The words of the scene language: what a person writes, read with positions, checked, and given as a [`SceneDesc`].
 //!
-//! This crate knows the language (both syntaxes, defaults, ranges, names) and nothing of rays, threads or printing.
+//! This crate knows the language (its three syntaxes, defaults, ranges, names) and nothing of rays, threads or printing.
 //!
 //! The way of a scene file: text → tape of spanned nodes (`tree`, by `syntax`) → `--set` edits (`overrides`) → checked reader
 //! (`read`, going by the schema that the macros of `words` make from the types in [`desc`]) → [`SceneDesc`] or all its faults as
@@ -36,7 +36,7 @@ mod words;
 mod write;
 
 pub use codes::explain;
-pub use convert::{convert, format};
+pub use convert::{comments, convert, format};
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use edit::{Viewpoint, ViewpointError, write_viewpoint};
@@ -49,4 +49,4 @@ pub use overrides::Override;
 pub use reference::{diagnostics_reference, reference};
 pub use suggest::nearest;
 pub use syntax::Syntax;
-pub use write::{Defaults, hash, hash_hex, to_ron, to_text, to_toml};
+pub use write::{Defaults, hash, hash_hex, to_json, to_ron, to_text, to_toml};
