@@ -94,8 +94,8 @@ pub fn find(code: &str) -> Option<&'static Entry> {
 }
 
 codes! {
-    /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign of
-    /// another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and JSON.
+    /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign
+    /// of another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: “0”, radius: 1)])
@@ -114,7 +114,7 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0], radius: 1)])
     /// ```
     STRAY_BRACKET "E0103" "a closing bracket does not match";
-    /// Two values stand side by side. Values in brackets are parted by commas; a comma after the last one is allowed, but in JSON.
+    /// Two values stand side by side. Values in brackets are parted by commas; one after the last is allowed, but in JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0) radius: 1)])

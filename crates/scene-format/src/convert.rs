@@ -15,8 +15,8 @@ use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
 use std::path::Path;
 
-/// Writes a scene in another syntax. `name` is shown in diagnostics. JSON has no comments, so a scene's own are left out there: how many
-/// it has [`comments`] says.
+/// Writes a scene in another syntax. `name` is shown in diagnostics. JSON has no comments, so a scene's own are left
+/// out there: how many it has [`comments`] says.
 ///
 /// # Errors
 /// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write. Faults of files that it
@@ -165,7 +165,7 @@ impl Converter<'_, '_> {
         let value = value(self);
         self.ended(end);
         let after = if header { early } else { self.comment_after(end) };
-        Entry { name, value, before, after }
+        Entry { name: name.into(), value, before, after }
     }
 
     fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {

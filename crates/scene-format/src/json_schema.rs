@@ -233,7 +233,7 @@ fn json_form(form: &Form) -> Value {
         Form::Vector(numbers) => Value::Array(numbers.iter().map(json_form).collect()),
         Form::List(entries) => Value::Array(entries.iter().map(|entry| json_form(&entry.value)).collect()),
         Form::Map(entries) | Form::Struct { fields: entries, .. } => {
-            Value::Object(entries.iter().map(|entry| (entry.name.clone(), json_form(&entry.value))).collect())
+            Value::Object(entries.iter().map(|entry| (entry.name.to_string(), json_form(&entry.value))).collect())
         }
         Form::Variant { name, content: None } => json!(name),
         Form::Variant { name, content: Some(content) } => json!({ *name: json_form(content) }),

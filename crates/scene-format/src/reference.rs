@@ -206,6 +206,9 @@ subprocess.run([\"tracer\", \"render\", \"balls.json\", \"-o\", \"balls.png\"], 
 scene; `--diagnostics json` says so to programs. Where a field may be `None`, `null` is that; elsewhere it is a fault: leave the field out
 to get its default.
 
+In Rust, `SceneDesc` of the crate `scene-format` and all that is in it are `Serialize` and `Deserialize`: `serde_json`, `ron` and `toml` write
+scenes that `tracer` reads, and read those that include no others.
+
 ## In an editor
 
 `tracer lsp` is a language server for scenes in all syntaxes ([how](editors.md)). Without it:

@@ -56,6 +56,9 @@ pub(crate) enum Kind {
     Added,
 }
 
+/// The source of nodes whose spans point nowhere: those of a description that serde gives.
+pub(crate) const NO_SOURCE: u16 = u16::MAX;
+
 /// In place of an index: there is none.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
@@ -203,6 +206,9 @@ impl<'t, 's> Item<'t, 's> {
 
     pub fn span(&self) -> Span {
         let node = self.node;
+        if node.source == NO_SOURCE {
+            return Span::NONE;
+        }
         Span { source: u32::from(node.source), start: node.start, end: node.end }
     }
 
@@ -216,13 +222,23 @@ impl<'t, 's> Item<'t, 's> {
         nodes.at_mut(at).size = (nodes.len() - at) as u32;
     }
 
+    /// The text that it stands in.
+    #[inline]
+    fn source(&self) -> &'t Text<'s> {
+        let texts = &self.tree.texts;
+        match texts.get(usize::from(self.node.source)) {
+            Some(text) => text,
+            None => &texts[0],
+        }
+    }
+
     pub fn syntax(&self) -> Syntax {
-        self.tree.texts[usize::from(self.node.source)].syntax
+        self.source().syntax
     }
 
     /// Where paths in its file start, relative to the scene's folder.
     pub fn folder(&self) -> &'s Path {
-        self.tree.texts[usize::from(self.node.source)].folder
+        self.source().folder
     }
 
     /// An included file by its path from the scene's folder.
@@ -233,7 +249,7 @@ impl<'t, 's> Item<'t, 's> {
     /// The node as it was written.
     pub fn lexeme(&self) -> &'s str {
         let node = self.node;
-        let text: &'s str = self.tree.texts[usize::from(node.source)].text;
+        let text: &'s str = self.source().text;
         text.get(node.start as usize..node.end as usize).unwrap_or("")
     }
 

@@ -121,7 +121,7 @@ fn feed(hasher: &mut Sha256, form: &Form) {
 
 fn feed_fields(hasher: &mut Sha256, fields: &[&Entry]) {
     for field in fields {
-        feed(hasher, &Form::Text(field.name.clone()));
+        feed(hasher, &Form::Text(field.name.to_string()));
         feed(hasher, &field.value);
     }
 }

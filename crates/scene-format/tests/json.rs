@@ -7,7 +7,8 @@ use common::{Random, errors};
 use scene_format::{Defaults, Syntax, convert, to_text};
 use std::path::Path;
 
-/// Every scene of the repository goes from RON to JSON to TOML to RON, and says what it said, word for word but for its comments.
+/// Every scene of the repository goes from RON to JSON to TOML to RON, and says what it said, word for word but for
+/// its comments.
 #[test]
 fn scenes_go_round_all_syntaxes() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -1,5 +1,5 @@
-//! One mistake of a person gives one error, at its line: every scene of the repository, in all syntaxes, with mistakes that people
-//! make, one at a time.
+//! One mistake of a person gives one error, at its line: every scene of the repository, in all syntaxes, with
+//! mistakes that people make, one at a time.
 
 mod common;
 

@@ -1,4 +1,5 @@
-//! Where a cursor stands in JSON: from the text before it alone, so that what is half written behind it does not matter.
+//! Where a cursor stands in JSON: from the text before it alone, so that what is half written behind it does not
+//! matter.
 
 use super::place::{Step, Way};
 

@@ -181,7 +181,7 @@ pub(super) fn image(item: Item<'_, '_>) -> Option<String> {
     let [width, height] = sides(item)?;
     Some(match item.syntax() {
         Syntax::Ron => format!("Image(width: {width}, height: {height})"),
-        syntax => syntax.from_toml(format!("{{ width = {width}, height = {height} }}")).into_owned(),
+        syntax => syntax.of_toml(format!("{{ width = {width}, height = {height} }}")).into_owned(),
     })
 }
 
@@ -251,13 +251,13 @@ impl Reader<'_> {
         let Some(steps) = meant_transform(&name, body) else { return false };
         let mended = match item.syntax() {
             Syntax::Ron => format!("{}({})", steps.kind, steps.ron),
-            syntax => syntax.from_toml(format!("{{ {} = {} }}", steps.kind, steps.toml)).into_owned(),
+            syntax => syntax.of_toml(format!("{{ {} = {} }}", steps.kind, steps.toml)).into_owned(),
         };
         let mut fault =
             Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("a {} is not written so", steps.noun)).expected(
                 match item.syntax() {
                     Syntax::Ron => steps.form.to_owned(),
-                    syntax => syntax.from_toml(steps.form_of_toml).into_owned(),
+                    syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
                 },
             );
         if steps.certain {
@@ -276,14 +276,14 @@ impl Reader<'_> {
         let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
         let expected = match item.syntax() {
             Syntax::Ron => "[Translate((x, y, z))]".into(),
-            syntax => syntax.from_toml("[{ Translate = [x, y, z] }]"),
+            syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
         };
         let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
         if let [x, y, z] = numbers[..] {
             let mended = match item.syntax() {
                 Syntax::Ron => format!("[Translate(({x}, {y}, {z}))]"),
-                syntax => syntax.from_toml(format!("[{{ Translate = [{x}, {y}, {z}] }}]")).into_owned(),
+                syntax => syntax.of_toml(format!("[{{ Translate = [{x}, {y}, {z}] }}]")).into_owned(),
             };
             fault = fault.hint(format!("write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });

@@ -33,7 +33,7 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         }
         _ => None,
     };
-    words.map(|words| syntax.from_toml(words))
+    words.map(|words| syntax.of_toml(words))
 }
 
 /// Where a field belongs that stands in the wrong group: `samples` in the image.

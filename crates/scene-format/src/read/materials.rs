@@ -278,7 +278,7 @@ impl Reader<'_> {
             fault.hint = match (kind, item.syntax()) {
                 (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {name}(..)"),
                 (Some(_), syntax) => {
-                    syntax.from_toml(format!("for a material written here: {{ {name} = {{ .. }} }}")).into_owned()
+                    syntax.of_toml(format!("for a material written here: {{ {name} = {{ .. }} }}")).into_owned()
                 }
                 (None, Syntax::Ron) => {
                     "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()

@@ -8,6 +8,7 @@ mod elsewhere;
 mod hints;
 mod include;
 mod materials;
+mod part;
 mod pick;
 mod repeat;
 mod told;
@@ -18,6 +19,7 @@ mod vector;
 
 pub(crate) use check::scene;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
@@ -242,7 +244,7 @@ impl<'r> Reader<'r> {
                     Syntax::Ron => format!("{}({})", def.name, field_words(def)),
                     syntax => {
                         let words = format!("{{ {} }}", field_words(def).replace(": ", " = "));
-                        syntax.from_toml(words).into_owned()
+                        syntax.of_toml(words).into_owned()
                     }
                 };
                 return self.wrong_kind(item, def.noun, &expected, edit);
@@ -308,7 +310,7 @@ impl<'r> Reader<'r> {
                 .expected(value::expected_for(field, item));
                 fault.hint = match item.syntax() {
                     Syntax::Ron => format!("add `{}: ..`", field.name),
-                    syntax => syntax.from_toml(format!("add `{} = ..`", field.name)).into_owned(),
+                    syntax => syntax.of_toml(format!("add `{} = ..`", field.name)).into_owned(),
                 };
                 self.path.push(Step::Field(field.name));
                 self.report(fault);

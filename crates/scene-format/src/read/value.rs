@@ -24,7 +24,7 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
             .replace("(x, y, z)", "[x, y, z]")
             .replace("(x, y)", "[x, y]")
             .replace("(r, g, b)", "[r, g, b]")
-            .replace("Texture(..)", &syntax.from_toml("{ Texture = .. }"))
+            .replace("Texture(..)", &syntax.of_toml("{ Texture = .. }"))
             .replace("or None", &format!("or {}", none(syntax))),
     }
 }
@@ -424,7 +424,7 @@ impl Reader<'_> {
         } else if is_picture(&text) && expected_for(at, item).contains("Texture") {
             let replacement = match item.syntax() {
                 Syntax::Ron => format!("Texture(file: {})", item.lexeme()),
-                syntax => syntax.from_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
+                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
             };
             fault.hint = format!("a picture is written {}", shortened(&replacement));
             fault.edit = Some(Edit { span: item.span(), replacement });

@@ -130,7 +130,7 @@ impl Reader<'_> {
                         Some(Edit { span: Span { end: start, ..item.span() }, replacement: (*only).to_owned() });
                 } else if lexeme.starts_with('{') {
                     let syntax = item.syntax();
-                    fault.hint = syntax.from_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned();
+                    fault.hint = syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned();
                     let replacement = match syntax {
                         Syntax::Json => format!("{{ \"{only}\": {lexeme} }}"),
                         Syntax::Ron | Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
@@ -272,10 +272,10 @@ impl Reader<'_> {
             }
             (Content::Struct(def), syntax) => {
                 let words = format!("{{ {name} = {{ {} }} }}", super::field_words(def).replace(": ..", " = .."));
-                (syntax.from_toml(words).into_owned(), def.fields.iter().all(|f| f.default.is_some()))
+                (syntax.of_toml(words).into_owned(), def.fields.iter().all(|f| f.default.is_some()))
             }
             (_, Syntax::Ron) => (format!("{name}(..)"), false),
-            (_, syntax) => (syntax.from_toml(format!("{{ {name} = .. }}")).into_owned(), false),
+            (_, syntax) => (syntax.of_toml(format!("{{ {name} = .. }}")).into_owned(), false),
         };
         let needs = match chosen.item.syntax() {
             Syntax::Ron => format!("`{name}` needs brackets after it"),
@@ -286,7 +286,7 @@ impl Reader<'_> {
         if complete {
             let replacement = match chosen.item.syntax() {
                 Syntax::Ron => format!("{name}()"),
-                syntax => syntax.from_toml(format!("{{ {name} = {{}} }}")).into_owned(),
+                syntax => syntax.of_toml(format!("{{ {name} = {{}} }}")).into_owned(),
             };
             fault.hint = format!("write {replacement} for the defaults");
             fault.edit = Some(Edit { span: chosen.item.span(), replacement });
@@ -337,13 +337,13 @@ fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Synt
         Syntax::Ron => format!("`{}({})`", variant.name, words.join(", ")),
         syntax => {
             let words = words.join(", ").replace(": ..", " = ..");
-            syntax.from_toml(format!("`{{ {} = {{ {words} }} }}`", variant.name)).into_owned()
+            syntax.of_toml(format!("`{{ {} = {{ {words} }} }}`", variant.name)).into_owned()
         }
     })
 }
 
 /// Stands for the field of a value that is not in one.
-static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
+pub(super) static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
     name: "",
     noun: "this",
     doc: &[],
@@ -361,7 +361,7 @@ pub(crate) fn choices(def: &'static EnumDef, syntax: Syntax) -> String {
             (Content::Unit, Syntax::Ron) => variant.name.to_owned(),
             (Content::Unit, _) => format!("\"{}\"", variant.name),
             (_, Syntax::Ron) => format!("{}(..)", variant.name),
-            (_, syntax) => syntax.from_toml(format!("{{ {} = .. }}", variant.name)).into_owned(),
+            (_, syntax) => syntax.of_toml(format!("{{ {} = .. }}", variant.name)).into_owned(),
         })
         .collect();
     match words.split_last() {

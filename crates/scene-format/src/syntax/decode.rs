@@ -127,8 +127,8 @@ pub(crate) fn json_text(lexeme: &str) -> Cow<'_, str> {
     if inner.contains('\\') { Cow::Owned(resolve_json_escapes(inner, &mut |_, _| {})) } else { Cow::Borrowed(inner) }
 }
 
-/// Resolves the escapes of JSON; `fault(start, end)` hears of each one that means nothing, by bytes in `inner`. A character beyond
-/// U+FFFF is two of them, a surrogate pair (RFC 8259, section 7).
+/// Resolves the escapes of JSON; `fault(start, end)` hears of each one that means nothing, by bytes in `inner`. A
+/// character beyond U+FFFF is two of them, a surrogate pair (RFC 8259, section 7).
 pub(crate) fn resolve_json_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) -> String {
     let unit = |escape: &str| {
         let digits = escape.strip_prefix('u')?.get(..4).filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()));

@@ -1,5 +1,5 @@
-//! JSON (RFC 8259) into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or
-//! bracket.
+//! JSON (RFC 8259) into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next
+//! comma or bracket.
 
 use super::brackets::{self, Fate, Open};
 use super::json_literal::QUOTES;
@@ -238,8 +238,8 @@ impl Parser<'_> {
 
     fn fate(&self, close: u8) -> Fate {
         let fate = brackets::fate(self.text, &self.open, self.at, close);
-        // A bracket in the middle of a line whose own brackets are all closed is one too many.
-        // So is one that closes what was opened on an earlier line, but another one than what was closed just before it.
+        // A bracket in the middle of a line whose own brackets are all closed is one too many. So is one that closes
+        // what was opened on an earlier line, but another one than what was closed just before it.
         let opened = self.open.last().map_or(self.line, |open| open.line);
         let other = self.closed != (self.line, opened);
         let stray = self.trust == Trust::Indentation

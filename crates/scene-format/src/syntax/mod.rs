@@ -38,8 +38,8 @@ pub enum Syntax {
     Ron,
     /// Tom's Obvious Minimal Language: `[camera]`, `fov = 40`.
     Toml,
-    /// JavaScript Object Notation (RFC 8259), for programs that write scenes: `{ "camera": { "fov": 40 } }`. The values are those of TOML;
-    /// `null` is `None`.
+    /// JavaScript Object Notation (RFC 8259), for programs that write scenes: `{ "camera": { "fov": 40 } }`. The
+    /// values are those of TOML; `null` is `None`.
     Json,
 }
 
@@ -53,8 +53,8 @@ impl Syntax {
         Syntax::ALL.into_iter().find(|syntax| extension.eq_ignore_ascii_case(syntax.name()))
     }
 
-    /// By what the text looks like, for texts without a file name: TOML when the first thing in it is `key =` or `[header`, JSON when
-    /// it is `{`.
+    /// By what the text looks like, for texts without a file name: TOML when the first thing in it is `key =` or
+    /// `[header`, JSON when it is `{`.
     pub fn guess(text: &str) -> Syntax {
         for line in text.trim_start_matches('\u{feff}').lines().map(str::trim) {
             if line.is_empty() || line.starts_with('#') && !line.starts_with("#!") {
@@ -79,9 +79,9 @@ impl Syntax {
         }
     }
 
-    /// Words that are written in TOML, `{ Sphere = { radius = 1 } }`, in TOML or in JSON, `{ "Sphere": { "radius": 1 } }`: every name before a
-    /// ` = ` outside of quotes.
-    pub(crate) fn from_toml(self, words: impl Into<Cow<'static, str>>) -> Cow<'static, str> {
+    /// Words that are written in TOML, `{ Sphere = { radius = 1 } }`, in TOML or in JSON, `{ "Sphere": { "radius": 1
+    /// } }`: every name before a ` = ` outside of quotes.
+    pub(crate) fn of_toml(self, words: impl Into<Cow<'static, str>>) -> Cow<'static, str> {
         let words = words.into();
         if self != Syntax::Json || !words.contains(" = ") {
             return words;
@@ -108,7 +108,8 @@ impl Syntax {
                 _ => {}
             }
             out.push(sign);
-            if !(sign == '_' || sign.is_ascii_alphanumeric()) && !(sign == ' ' && signs.peek() == Some(&'=')) {
+            let of_name = sign == '_' || sign.is_ascii_alphanumeric();
+            if !(of_name || sign == ' ' && signs.peek() == Some(&'=')) {
                 name = out.len();
             }
         }
@@ -179,7 +180,12 @@ pub(crate) fn span(source: u16, start: usize, end: usize) -> Span {
 
 /// The tree of a text, whatever is wrong with it.
 pub(crate) fn parse<'s>(text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
-    let mut builder = Builder::new(0);
+    parse_as(0, text, syntax, sink)
+}
+
+/// As [`parse`], for the text of this number.
+pub(crate) fn parse_as<'s>(source: u16, text: &'s str, syntax: Syntax, sink: &mut Sink) -> Tree<'s> {
+    let mut builder = Builder::new(source);
     let errors = sink.errors;
     let (comments, added) = match syntax {
         Syntax::Ron => (ron::parse(text, &mut builder, sink), HashMap::new()),
@@ -208,8 +214,8 @@ mod tests {
             (r#"{ Texture = { file = "a = \" b = c.png" } }"#, r#"{ "Texture": { "file": "a = \" b = c.png" } }"#),
             (r#"{ Diffuse = {"albedo": 1} }"#, r#"{ "Diffuse": {"albedo": 1} }"#),
         ] {
-            assert_eq!(Syntax::Json.from_toml(toml), json);
-            assert_eq!(Syntax::Toml.from_toml(toml), toml);
+            assert_eq!(Syntax::Json.of_toml(toml), json);
+            assert_eq!(Syntax::Toml.of_toml(toml), toml);
         }
     }
 

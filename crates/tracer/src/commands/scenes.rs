@@ -24,7 +24,8 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(scenes)
 }
 
-/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` and `.json` that have objects. Hidden folders are left out.
+/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` and `.json` that have objects.
+/// Hidden folders are left out.
 fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
