@@ -11,7 +11,7 @@ const SPHERES: usize = 100_000;
 const RUNS: usize = 7;
 
 fn main() {
-    for syntax in [Syntax::Ron, Syntax::Toml] {
+    for syntax in Syntax::ALL {
         let text = scene(syntax);
         let mut best = f64::INFINITY;
         for _ in 0..RUNS {
@@ -44,6 +44,11 @@ fn scene(syntax: Syntax) -> String {
             "background = 1\n[materials]\nred = {{ Diffuse = {{ albedo = [0.8, 0.1, 0.1] }} }}\nglass = {{ Transparent = \
              {{ ior = 1.5 }} }}\nchrome = {{ Mirror = {{}} }}"
         ),
+        Syntax::Json => writeln!(
+            out,
+            "{{\n    \"background\": 1,\n    \"materials\": {{ \"red\": {{ \"Diffuse\": {{ \"albedo\": [0.8, 0.1, 0.1] }} }}, \
+             \"glass\": {{ \"Transparent\": {{ \"ior\": 1.5 }} }}, \"chrome\": {{ \"Mirror\": {{}} }} }},\n    \"objects\": ["
+        ),
     };
     for index in 0..SPHERES {
         let (x, y, z) = (index as f64 * 0.37 % 91.0 - 45.0, index as f64 * 0.73 % 83.0, index as f64 * 1.13 % 77.0);
@@ -58,10 +63,18 @@ fn scene(syntax: Syntax) -> String {
                 "[[objects]]\nSphere = {{ center = [{x:.3}, {y:.3}, {z:.3}], radius = {radius:.2}, material = \
                  \"{material}\" }}"
             ),
+            Syntax::Json => writeln!(
+                out,
+                "        {{ \"Sphere\": {{ \"center\": [{x:.3}, {y:.3}, {z:.3}], \"radius\": {radius:.2}, \
+                 \"material\": \"{material}\" }} }}{}",
+                if index + 1 < SPHERES { "," } else { "" }
+            ),
         };
     }
-    if syntax == Syntax::Ron {
-        out.push_str("    ],\n)\n");
-    }
+    out.push_str(match syntax {
+        Syntax::Ron => "    ],\n)\n",
+        Syntax::Toml => "",
+        Syntax::Json => "    ]\n}\n",
+    });
     out
 }

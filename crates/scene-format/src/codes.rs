@@ -20,6 +20,11 @@ impl Code {
         self.0.starts_with("E01")
     }
 
+    /// Whether brackets do not match, as it seems.
+    pub(crate) fn is_of_brackets(self) -> bool {
+        matches!(self, UNCLOSED_BRACKET | STRAY_BRACKET | TEXT_AFTER_END)
+    }
+
     /// Whether it is one of a value that is of the right kind but out of its range.
     pub fn is_value(self) -> bool {
         self.0.starts_with("E03")
@@ -89,8 +94,8 @@ pub fn find(code: &str) -> Option<&'static Entry> {
 }
 
 codes! {
-    /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign of the
-    /// other syntax (`#` in RON, `//` in TOML), typographic quotes, or round brackets in TOML.
+    /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign
+    /// of another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: “0”, radius: 1)])
@@ -109,13 +114,13 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0], radius: 1)])
     /// ```
     STRAY_BRACKET "E0103" "a closing bracket does not match";
-    /// Two values stand side by side. Values in brackets are parted by commas; a comma after the last one is allowed.
+    /// Two values stand side by side. Values in brackets are parted by commas; one after the last is allowed, but in JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0) radius: 1)])
     /// ```
     MISSING_COMMA "E0104" "a comma is missing";
-    /// A name and its value are joined by `:` in RON and by `=` in TOML.
+    /// A name and its value are joined by `:` in RON and JSON and by `=` in TOML.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center = (0, 0, 0), radius: 1)])
@@ -203,7 +208,7 @@ codes! {
     /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
     TOO_MANY "E0120" "too many faults";
     /// Several numbers are parted by commas where one value stands. The numbers of a vector stand in brackets of their own:
-    /// `(0, 0, 0)` in RON, `[0, 0, 0]` in TOML.
+    /// `(0, 0, 0)` in RON, `[0, 0, 0]` in TOML and JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: 0, 0, 0, radius: 1)])
@@ -222,8 +227,8 @@ codes! {
     /// )
     /// ```
     MERGE_CONFLICT "E0122" "a merge that was not finished";
-    /// The file is written in another language: TOML under a name that says RON or the other way round, YAML, or a scene of another
-    /// program (POV-Ray, pbrt, Mitsuba). Only RON and TOML are read, each by its extension or by `--syntax`.
+    /// The file is written in another language: TOML under a name that says RON, YAML, or a scene of another
+    /// program (POV-Ray, pbrt, Mitsuba). Only RON, TOML and JSON are read, each by its extension or by `--syntax`.
     OTHER_LANGUAGE "E0123" "a file in another language";
 
     /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a

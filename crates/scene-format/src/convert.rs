@@ -15,13 +15,19 @@ use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
 use std::path::Path;
 
-/// Writes a scene in another syntax. `name` is shown in diagnostics.
+/// Writes a scene in another syntax. `name` is shown in diagnostics. JSON has no comments, so a scene's own are left
+/// out there: how many it has [`comments`] says.
 ///
 /// # Errors
 /// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write. Faults of files that it
 /// includes do not count.
 pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, LoadError> {
     write(name, text, from, to, false)
+}
+
+/// How many comments a text has.
+pub fn comments(text: &str, syntax: Syntax) -> usize {
+    parse(text, syntax, &mut Sink::default()).comments.len()
 }
 
 /// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with the person's
@@ -48,16 +54,13 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     let mut converter = Converter { tree: &tree, next_comment: 0, to, blanks: keeps_blanks.then_some(0) };
     // What stands at the file's top stays there: a headline, a licence, how to render it.
     let before = match from {
-        Syntax::Ron => converter.comments_before(root.span().start),
+        Syntax::Ron | Syntax::Json => converter.comments_before(root.span().start),
         Syntax::Toml => converter.comments_of_the_file(),
     };
     let form = converter.form(root, Scene::TYPE);
     let mut after = converter.comments_before(u32::MAX);
     after.pop_if(|last| last == BLANK_LINE);
-    Ok(match to {
-        Syntax::Ron => print::ron(&form, &before, &after),
-        Syntax::Toml => print::toml(&form, &before, &after),
-    })
+    Ok(print::scene(&form, to, &before, &after))
 }
 
 /// Whether a fault is one of an included file, or that there is none.
@@ -162,7 +165,7 @@ impl Converter<'_, '_> {
         let value = value(self);
         self.ended(end);
         let after = if header { early } else { self.comment_after(end) };
-        Entry { name, value, before, after }
+        Entry { name: name.into(), value, before, after }
     }
 
     fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {
@@ -171,6 +174,9 @@ impl Converter<'_, '_> {
         }
         if let Some(body) = pick_body(item) {
             return self.pick(body, kind);
+        }
+        if item.is_null() && self.to == Syntax::Json {
+            return Form::Lexeme(item.lexeme().to_owned());
         }
         match kind.resolved() {
             Type::Value => self.value(item),
@@ -268,7 +274,12 @@ impl Converter<'_, '_> {
     /// A number as it was written, or the same number where the other syntax does not know the form.
     fn number(&self, item: Item<'_, '_>) -> String {
         let lexeme = item.lexeme();
-        if self.to == Syntax::Toml && item.syntax() == Syntax::Ron && !crate::syntax::is_toml_number(lexeme) {
+        let known = match self.to {
+            Syntax::Ron => true,
+            Syntax::Toml => crate::syntax::is_toml_number(lexeme),
+            Syntax::Json => crate::syntax::is_json_number(lexeme),
+        };
+        if !known {
             return print::number(item.number().unwrap_or(0.0));
         }
         if self.to == Syntax::Ron { lexeme.trim_start_matches('+').to_owned() } else { lexeme.to_owned() }
@@ -278,7 +289,12 @@ impl Converter<'_, '_> {
         let fields = item
             .fields()
             .filter_map(|(key, value)| {
-                let field = def.field(&key.text())?;
+                let name = key.text();
+                // Where the schema is, for editors of TOML and JSON.
+                if name == "$schema" && def.name == "Scene" && self.to != Syntax::Ron {
+                    return Some(self.entry(name.into_owned(), key.span().start, value, Type::Text));
+                }
+                let field = def.field(&name)?;
                 Some(self.entry(field.name.to_owned(), key.span().start, value, field.kind))
             })
             .collect();
@@ -293,6 +309,7 @@ impl Converter<'_, '_> {
                 Some((key, value)) => (key.text(), Some(value)),
                 None => ("".into(), None),
             },
+            _ if item.is_null() => ("None".into(), None),
             _ => (item.text(), None),
         };
         let Some(variant) = def.variant(&name) else { return Form::Absent };

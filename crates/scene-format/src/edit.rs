@@ -120,7 +120,7 @@ fn edits(tree: &Tree<'_>, text: &str, syntax: Syntax, fields: &[(&str, Value)]) 
     for &(name, value) in fields {
         match camera.fields().find(|(key, _)| key.text() == name) {
             Some((_, written)) => {
-                let square = syntax == Syntax::Toml || written.lexeme().trim_start().starts_with('[');
+                let square = syntax != Syntax::Ron || written.lexeme().trim_start().starts_with('[');
                 let replacement = value.text(if square { SQUARE } else { ROUND });
                 edits.push(Edit { span: written.span(), replacement });
             }
@@ -141,6 +141,7 @@ fn added(item: Item<'_, '_>, text: &str, syntax: Syntax, fields: &[(&str, Value)
     let braced = lexeme.starts_with('{');
     let pair = |(name, value): &(&str, Value)| match syntax {
         Syntax::Toml => format!("{name} = {}", value.text(SQUARE)),
+        Syntax::Json => format!("\"{name}\": {}", value.text(SQUARE)),
         Syntax::Ron if braced => format!("\"{name}\": {}", value.text(SQUARE)),
         Syntax::Ron => format!("{name}: {}", value.text(ROUND)),
     };

@@ -1,5 +1,7 @@
-//! A value in the words of the language, ready to be printed in either syntax or hashed: what the writer, the converter and the
-//! defaults of the reference speak.
+//! A value in the words of the language, ready to be printed in any syntax or hashed: what the writer, the converter
+//! and the defaults of the reference speak.
+
+use std::borrow::Cow;
 
 /// A value as it will be written.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +34,7 @@ pub(crate) const BLANK_LINE: &str = "\n";
 /// A value with its name (in lists: none) and the comments that belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {
-    pub name: String,
+    pub name: Cow<'static, str>,
     pub value: Form,
     /// Comments on the lines before it, without their signs.
     pub before: Vec<String>,
@@ -41,7 +43,7 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    pub fn new(name: impl Into<String>, value: Form) -> Entry {
+    pub fn new(name: impl Into<Cow<'static, str>>, value: Form) -> Entry {
         Entry { name: name.into(), value, before: Vec::new(), after: None }
     }
 }

@@ -1,4 +1,4 @@
-//! The schema as JSON Schema draft-07, for editors: completion and checks while a TOML (or JSON) scene is written.
+//! The schema as JSON Schema draft-07, for editors: completion and checks while a TOML or JSON scene is written.
 //!
 //! Draft-07 because taplo and most editors know it best: vectors are `items` with `minItems` and `maxItems`, descriptions stand
 //! beside `allOf`, since draft-07 ignores what stands beside a `$ref`.
@@ -108,7 +108,10 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
         Type::Map(inner) => {
             json!({ "type": "object", "additionalProperties": type_schema(*inner, rule, definitions) })
         }
-        Type::Optional(inner) => json!({ "anyOf": [type_schema(*inner, rule, definitions), { "enum": ["None"] }] }),
+        // `null` is JSON's own word for it.
+        Type::Optional(inner) => {
+            json!({ "anyOf": [type_schema(*inner, rule, definitions), { "enum": ["None"] }, { "type": "null" }] })
+        }
         Type::OneOf(kinds) => {
             let kinds: Vec<Value> =
                 kinds.iter().map(|&kind| Value::Object(type_schema(kind, rule, definitions))).collect();
@@ -159,6 +162,9 @@ fn enum_schema(def: &'static EnumDef, definitions: &mut Map<String, Value>) -> M
         let names: Vec<&str> = units.iter().map(|variant| variant.name).collect();
         let docs: Vec<String> = units.iter().map(|variant| prose(variant.doc)).collect();
         choices.push(json!({ "enum": names, "x-taplo": { "docs": { "enumValues": docs } } }));
+        if names.contains(&"None") {
+            choices.push(json!({ "type": "null" }));
+        }
     }
     for variant in def.variants {
         let content = match &variant.content {
@@ -227,7 +233,7 @@ fn json_form(form: &Form) -> Value {
         Form::Vector(numbers) => Value::Array(numbers.iter().map(json_form).collect()),
         Form::List(entries) => Value::Array(entries.iter().map(|entry| json_form(&entry.value)).collect()),
         Form::Map(entries) | Form::Struct { fields: entries, .. } => {
-            Value::Object(entries.iter().map(|entry| (entry.name.clone(), json_form(&entry.value))).collect())
+            Value::Object(entries.iter().map(|entry| (entry.name.to_string(), json_form(&entry.value))).collect())
         }
         Form::Variant { name, content: None } => json!(name),
         Form::Variant { name, content: Some(content) } => json!({ *name: json_form(content) }),

@@ -1,16 +1,55 @@
 //! The words of the scene language: what a person writes, read with positions, checked, and given as a [`SceneDesc`].
 //!
-//! This crate knows the language (both syntaxes, defaults, ranges, names) and nothing of rays, threads or printing.
+//! This crate knows the language (its three syntaxes, defaults, ranges, names) and nothing of rays, threads or
+//! printing.
 //!
 //! The way of a scene file: text → tape of spanned nodes (`tree`, by `syntax`) → `--set` edits (`overrides`) → checked reader
 //! (`read`, going by the schema that the macros of `words` make from the types in [`desc`]) → [`SceneDesc`] or all its faults as
 //! [`Diagnostic`]s, which [`render`] turns into text.
+//!
+//! A program that makes scenes builds a [`SceneDesc`], and writes it in any syntax; what is written says the same
+//! when it is read:
+//!
+//! ```
+//! use scene_format::desc::{Background, Camera, Material, MaterialRef, Mirror, Name, Object, Placements, Sphere};
+//! use scene_format::{Defaults, SceneDesc, Syntax, load_str, to_text};
+//! use std::path::Path;
+//!
+//! let mirror = Material::Mirror(Mirror { reflectance: [0.9; 3].into() });
+//! let ball = Sphere {
+//!     center: [0.0, 1.0, 0.0].into(),
+//!     radius: 1.0.into(),
+//!     material: MaterialRef::Inline(Box::new(mirror.into())),
+//!     transform: Vec::new(),
+//!     placements: Placements::One,
+//!     name: Name::from(Some("ball")),
+//! };
+//! let scene = SceneDesc {
+//!     camera: Camera { fov: 30.0.into(), ..Camera::default() },
+//!     background: Background::Color([0.5, 0.6, 0.8]),
+//!     objects: vec![Object::Sphere(Box::new(ball)).into()],
+//!     ..SceneDesc::default()
+//! };
+//! for syntax in Syntax::ALL {
+//!     let text = to_text(&scene, syntax, Defaults::Hidden);
+//!     let back = load_str("ball", &text, syntax, Path::new(""), &[])?.scene;
+//!     assert_eq!(back.objects, scene.objects);
+//! }
+//!
+//! // The same by serde, with `serde_json`, `ron`, `toml` or any other crate whose format says itself what it holds.
+//! let json = serde_json::to_string(&scene)?;
+//! assert!(json.contains(r#""objects":[{"Sphere":{"center":[0.0,1.0,0.0],"radius":1.0"#));
+//! let back: SceneDesc = serde_json::from_str(&json)?;
+//! assert_eq!(back, scene);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod analysis;
 pub mod codes;
 mod convert;
 pub mod desc;
+mod deserialize;
 pub mod diagnostic;
 mod edit;
 mod examples;
@@ -28,6 +67,8 @@ mod read;
 mod reference;
 pub mod render;
 mod schema;
+mod serde_types;
+mod serialize;
 mod suggest;
 mod syntax;
 mod tape;
@@ -36,7 +77,7 @@ mod words;
 mod write;
 
 pub use codes::explain;
-pub use convert::{convert, format};
+pub use convert::{comments, convert, format};
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use edit::{Viewpoint, ViewpointError, write_viewpoint};
@@ -49,4 +90,4 @@ pub use overrides::Override;
 pub use reference::{diagnostics_reference, reference};
 pub use suggest::nearest;
 pub use syntax::Syntax;
-pub use write::{Defaults, hash, hash_hex, to_ron, to_text, to_toml};
+pub use write::{Defaults, hash, hash_hex, to_json, to_ron, to_text, to_toml};

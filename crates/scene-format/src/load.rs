@@ -8,7 +8,8 @@ use crate::follow_ups;
 use crate::include::Library;
 use crate::overrides::{self, Override};
 use crate::read;
-use crate::syntax::{Sink, Syntax, foreign, parse};
+use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
+use crate::tree::NO_SOURCE;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -147,27 +148,43 @@ fn load_string(
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
     match scene {
         Some(scene) => {
-            let scene = SceneDesc {
-                version: scene.version,
-                camera: scene.camera,
-                image: scene.image,
-                render: scene.render,
-                effects: scene.effects,
-                output: scene.output,
-                background: scene.background,
-                lights: scene.lights,
-                materials: scene.materials,
-                objects: scene.objects.0,
-                base_dir: base_dir.to_owned(),
-                sources,
-                includes: library.files.iter().map(|file| Arc::clone(&file.path)).collect(),
-            };
+            let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();
+            let scene = SceneDesc { base_dir: base_dir.to_owned(), sources, includes, ..described(scene) };
             Ok(Loaded { scene, warnings: diagnostics })
         }
         None => {
             let files = sink.files.outside(&broken);
             Err(LoadError::Invalid { diagnostics, sources, files })
         }
+    }
+}
+
+/// The description that a scene's words give.
+fn described(scene: Scene) -> SceneDesc {
+    SceneDesc {
+        version: scene.version,
+        camera: scene.camera,
+        image: scene.image,
+        render: scene.render,
+        effects: scene.effects,
+        output: scene.output,
+        background: scene.background,
+        lights: scene.lights,
+        materials: scene.materials,
+        objects: scene.objects.0,
+        base_dir: PathBuf::new(),
+        sources: Vec::new(),
+        includes: Vec::new(),
+    }
+}
+
+/// Reads a scene from JSON that nobody will see: spans point nowhere, and no file is looked at.
+pub(crate) fn unseen(text: &str) -> Result<SceneDesc, Diagnostics> {
+    let mut sink = Sink::default();
+    let tree = parse_as(NO_SOURCE, text, Syntax::Json, &mut sink);
+    match read::scene(&tree, &mut sink) {
+        Some(scene) if sink.errors == 0 => Ok(described(scene)),
+        _ => Err(sink.diagnostics),
     }
 }
 

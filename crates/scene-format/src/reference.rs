@@ -15,7 +15,7 @@ const INTRODUCTION: &str = "\
 This file is generated from the types in `crates/scene-format/src/desc`; a test fails when it differs
 (`UPDATE_EXPECT=1 cargo test -p scene-format` writes it anew).
 
-A scene is one file, in RON (`.ron`) or TOML (`.toml`), with the same words in both:
+A scene is one file, in RON (`.ron`), TOML (`.toml`) or JSON (`.json`), with the same words in all three:
 
 ```ron
 Scene(
@@ -36,12 +36,23 @@ SphereLight = { center = [3, 4, 5], radius = 1, radiance = 20 }
 Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }
 ```
 
-- Numbers: `3`, `-0.25`, `1.5e3`, `1_000`; a whole number may stand where any number may.
-- Vectors: `(x, y, z)` or `[x, y, z]`; in TOML `[x, y, z]`.
+```json
+{
+    \"materials\": { \"red\": { \"Diffuse\": { \"albedo\": [0.8, 0.1, 0.1] } } },
+    \"lights\": [{ \"SphereLight\": { \"center\": [3, 4, 5], \"radius\": 1, \"radiance\": 20 } }],
+    \"objects\": [{ \"Sphere\": { \"center\": [0, 0, 0], \"radius\": 1, \"material\": \"red\" } }]
+}
+```
+
+RON is made for people, TOML for those who have editors for it, JSON for [programs](#from-programs).
+
+- Numbers: `3`, `-0.25`, `1.5e3`, and `1_000` but in JSON; a whole number may stand where any number may.
+- Vectors: `(x, y, z)` or `[x, y, z]`; in TOML and JSON `[x, y, z]`.
 - Colours: `(r, g, b)` linear RGB, one number for grey, or `\"#rrggbb\"` (sRGB).
-- Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML; kinds without fields are `Name` and `\"Name\"`.
+- Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML, `{ \"Name\": { \"field\": value } }` in JSON; kinds without
+  fields are `Name`, and in TOML and JSON `\"Name\"`. What is said of values in TOML below holds in JSON, too, where `null` is `\"None\"`.
 - Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
-- Comments: `//` and `/* */` in RON, `#` in TOML.
+- Comments: `//` and `/* */` in RON, `#` in TOML, none in JSON.
 - The words `repeat`, `keyframes`, `for` and `let` are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`. An object or a light with a `name` that no other has is found by it,
@@ -120,7 +131,7 @@ Scene(
 - Names of the including file win against those of `include`, and of two files those of the later; their expressions see the names that won.
 - An `Include` has names of its own: it sees no `vars` and materials of this scene, nor this scene its. `vars` and `materials` give names that
   it has other values. Its camera, picture, background and settings are not taken.
-- Files may be RON or TOML, whatever this one is. Paths in a file start from its own folder. Files may include others, eight deep, 256 in all, and
+- Files may be in any syntax, whatever this one is. Paths in a file start from its own folder. Files may include others, eight deep, 256 in all, and
   not themselves. Messages say where a file is included; `tracer preview` renders again when one changes.
 
 ## Placements files
@@ -163,9 +174,44 @@ with `material: Emissive(radiance: ..)`.
 Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 tells of meshes that
 are inside out).
 
+## From programs
+
+A program writes a scene as JSON and calls `tracer`. In Python:
+
+```python
+import json
+import math
+import subprocess
+
+balls = [
+    {\"Sphere\": {
+        \"center\": [3 * math.cos(k), 0, 3 * math.sin(k)],
+        \"radius\": 0.5,
+        \"material\": {\"Diffuse\": {\"albedo\": [0.8, 0.1 * k, 0.1]}},
+    }}
+    for k in range(6)
+]
+scene = {
+    \"camera\": {\"position\": [0, 4, 8]},
+    \"render\": {\"samples\": 16},
+    \"background\": 1,
+    \"objects\": balls,
+}
+with open(\"balls.json\", \"w\") as file:
+    json.dump(scene, file)
+subprocess.run([\"tracer\", \"render\", \"balls.json\", \"-o\", \"balls.png\"], check=True)
+```
+
+`tracer render - -o balls.png` takes the scene from standard input. What is wrong with it is told with its line and column, as in any
+scene; `--diagnostics json` says so to programs. Where a field may be `None`, `null` is that; elsewhere it is a fault: leave the field out
+to get its default.
+
+In Rust, `SceneDesc` of the crate `scene-format` and all that is in it are `Serialize` and `Deserialize`: `serde_json`, `ron` and `toml` write
+scenes that `tracer` reads, and read those that include no others.
+
 ## In an editor
 
-`tracer lsp` is a language server for scenes in both syntaxes ([how](editors.md)). Without it:
+`tracer lsp` is a language server for scenes in all syntaxes ([how](editors.md)). Without it:
 
 `tracer schema > scene.schema.json` writes a JSON Schema (draft-07) with all descriptions, defaults and ranges. With
 [taplo](https://taplo.tamasfe.dev) (the extension Even Better TOML in VS Code; its language server in others) an editor completes the
@@ -175,7 +221,8 @@ words of a TOML scene, explains them and marks what is wrong, if the scene's fir
 #:schema ./scene.schema.json
 ```
 
-On the command line `taplo check scene.toml` says the same. For RON, and for what a schema cannot tell (names that are missing, files),
+On the command line `taplo check scene.toml` says the same. A JSON scene names it by `\"$schema\": \"./scene.schema.json\"`, which most
+editors know. For RON, and for what a schema cannot tell (names that are missing, files),
 an editor can run `tracer check scene.ron --diagnostics json`: one JSON object a line, with the bytes, lines and columns of each fault
 and of the edit that mends it.
 ";

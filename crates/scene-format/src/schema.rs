@@ -37,6 +37,16 @@ pub(crate) enum Type {
 }
 
 impl Type {
+    /// Whether it may be `None`.
+    pub fn takes_none(self) -> bool {
+        match self.resolved() {
+            Type::Optional(_) => true,
+            Type::Enum(def) => def.variant("None").is_some(),
+            Type::OneOf(kinds) => kinds.iter().any(|kind| kind.takes_none()),
+            _ => false,
+        }
+    }
+
     /// The type itself, where it is one that is told later.
     pub fn resolved(self) -> Type {
         match self {

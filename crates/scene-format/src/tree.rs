@@ -1,4 +1,4 @@
-//! The spanned syntax tree: one tree type for both syntaxes, before any word of it has a meaning.
+//! The spanned syntax tree: one tree type for all syntaxes, before any word of it has a meaning.
 //!
 //! The tree is a tape of 16-byte nodes in the order of writing (a node is followed by its children), so that reading a scene of
 //! 10^5 objects allocates nothing per node. Nodes hold positions only; names, numbers and texts are read from the source text
@@ -32,7 +32,7 @@ pub(crate) enum Kind {
     Char,
     /// A date or time in TOML.
     Date,
-    /// A bare word in RON: `None`, `Bvh`.
+    /// A bare word in RON: `None`, `Bvh`; `null` in JSON.
     Word,
     /// `[a, b]`.
     List,
@@ -40,7 +40,7 @@ pub(crate) enum Kind {
     Tuple,
     /// `(a: 1)` and `Name(a: 1)`: keys and values in turn.
     Struct,
-    /// `{ "k": v }`, and tables of TOML: keys and values in turn.
+    /// `{ "k": v }`, in RON and JSON, and tables of TOML: keys and values in turn.
     Map,
     /// The key of the value that follows.
     Key,
@@ -55,6 +55,9 @@ pub(crate) enum Kind {
     /// What belongs to a table elsewhere; `start` is the next node of this kind for the same table. Readers never see it.
     Added,
 }
+
+/// The source of nodes whose spans point nowhere: those of a description that serde gives.
+pub(crate) const NO_SOURCE: u16 = u16::MAX;
 
 /// In place of an index: there is none.
 pub(crate) const NOWHERE: u32 = u32::MAX;
@@ -203,6 +206,9 @@ impl<'t, 's> Item<'t, 's> {
 
     pub fn span(&self) -> Span {
         let node = self.node;
+        if node.source == NO_SOURCE {
+            return Span::NONE;
+        }
         Span { source: u32::from(node.source), start: node.start, end: node.end }
     }
 
@@ -216,13 +222,23 @@ impl<'t, 's> Item<'t, 's> {
         nodes.at_mut(at).size = (nodes.len() - at) as u32;
     }
 
+    /// The text that it stands in.
+    #[inline]
+    fn source(&self) -> &'t Text<'s> {
+        let texts = &self.tree.texts;
+        match texts.get(usize::from(self.node.source)) {
+            Some(text) => text,
+            None => &texts[0],
+        }
+    }
+
     pub fn syntax(&self) -> Syntax {
-        self.tree.texts[usize::from(self.node.source)].syntax
+        self.source().syntax
     }
 
     /// Where paths in its file start, relative to the scene's folder.
     pub fn folder(&self) -> &'s Path {
-        self.tree.texts[usize::from(self.node.source)].folder
+        self.source().folder
     }
 
     /// An included file by its path from the scene's folder.
@@ -233,7 +249,7 @@ impl<'t, 's> Item<'t, 's> {
     /// The node as it was written.
     pub fn lexeme(&self) -> &'s str {
         let node = self.node;
-        let text: &'s str = self.tree.texts[usize::from(node.source)].text;
+        let text: &'s str = self.source().text;
         text.get(node.start as usize..node.end as usize).unwrap_or("")
     }
 
@@ -266,13 +282,18 @@ impl<'t, 's> Item<'t, 's> {
         self
     }
 
-    /// Whether it is the word `name`: `name` in RON, `"name"` in TOML.
+    /// Whether it is the word `name`: `name` in RON, `"name"` in TOML and JSON, where `null` is `None`.
     pub fn is_word(&self, name: &str) -> bool {
         match self.kind() {
-            Kind::Word => self.lexeme() == name,
-            Kind::Text => self.syntax() == Syntax::Toml && self.text() == name,
+            Kind::Word => self.lexeme() == name || name == "None" && self.is_null(),
+            Kind::Text => self.syntax() != Syntax::Ron && self.text() == name,
             _ => false,
         }
+    }
+
+    /// Whether it is the `null` of JSON.
+    pub fn is_null(&self) -> bool {
+        self.kind() == Kind::Word && self.syntax() == Syntax::Json
     }
 
     /// What to underline when the node as a whole is meant: its name, its opening bracket, or the whole of a leaf.
@@ -299,6 +320,7 @@ impl<'t, 's> Item<'t, 's> {
             (Kind::Key | Kind::Text | Kind::Char, Syntax::Ron) => decode::ron_text(self.lexeme()),
             (Kind::Key, Syntax::Toml) => decode::toml_key(self.lexeme()),
             (Kind::Text, Syntax::Toml) => decode::toml_text(self.lexeme()),
+            (Kind::Key | Kind::Text, Syntax::Json) => decode::json_text(self.lexeme()),
             _ => Cow::Borrowed(self.lexeme()),
         }
     }

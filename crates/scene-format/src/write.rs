@@ -26,15 +26,17 @@ pub fn to_toml(scene: &SceneDesc, defaults: Defaults) -> String {
     print::toml(&form(scene, defaults), &[], &[])
 }
 
-/// A scene in either syntax.
-pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String {
-    match syntax {
-        Syntax::Ron => to_ron(scene, defaults),
-        Syntax::Toml => to_toml(scene, defaults),
-    }
+/// A scene as JSON.
+pub fn to_json(scene: &SceneDesc, defaults: Defaults) -> String {
+    print::json(&form(scene, defaults))
 }
 
-fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
+/// A scene in any syntax.
+pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String {
+    print::scene(&form(scene, defaults), syntax, &[], &[])
+}
+
+pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
     let words = Scene {
         include: crate::read::Includes,
         vars: crate::read::Vars,
@@ -119,7 +121,7 @@ fn feed(hasher: &mut Sha256, form: &Form) {
 
 fn feed_fields(hasher: &mut Sha256, fields: &[&Entry]) {
     for field in fields {
-        feed(hasher, &Form::Text(field.name.clone()));
+        feed(hasher, &Form::Text(field.name.to_string()));
         feed(hasher, &field.value);
     }
 }

@@ -28,11 +28,11 @@ fn output(path: &Path, syntax: Syntax) -> String {
     }
 }
 
-fn check(syntax: Syntax, extension: &str) {
+fn check(syntax: Syntax, extension: &str, least: usize) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken").join(extension);
     let update = std::env::var_os("UPDATE_EXPECT").is_some();
     let scenes = files(extension, &folder);
-    assert!(scenes.len() >= 120, "only {} broken scenes in {extension}", scenes.len());
+    assert!(scenes.len() >= least, "only {} broken scenes in {extension}", scenes.len());
     let mut wrong = Vec::new();
     for scene in &scenes {
         let expected = scene.with_extension("txt");
@@ -56,18 +56,23 @@ fn check(syntax: Syntax, extension: &str) {
 
 #[test]
 fn broken_ron_scenes_are_told_word_for_word() {
-    check(Syntax::Ron, "ron");
+    check(Syntax::Ron, "ron", 120);
 }
 
 #[test]
 fn broken_toml_scenes_are_told_word_for_word() {
-    check(Syntax::Toml, "toml");
+    check(Syntax::Toml, "toml", 120);
+}
+
+#[test]
+fn broken_json_scenes_are_told_word_for_word() {
+    check(Syntax::Json, "json", 60);
 }
 
 /// The files `seven_faults.*` hold seven faults of seven kinds: those are said, each once, and nothing else.
 #[test]
 fn seven_faults_are_exactly_seven_diagnostics() {
-    for (syntax, extension) in [(Syntax::Ron, "ron"), (Syntax::Toml, "toml")] {
+    for (syntax, extension) in [(Syntax::Ron, "ron"), (Syntax::Toml, "toml"), (Syntax::Json, "json")] {
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/broken/{extension}/seven_faults.{extension}"));
         let bytes = std::fs::read(&path).expect("the file with seven faults");

@@ -15,13 +15,16 @@ fn errors(bytes: &[u8], syntax: Syntax) -> Vec<Diagnostic> {
 }
 
 /// Edits after which as many errors are left, for the reason beside them.
-const NO_FEWER: [(&str, &str); 1] = [("word_true_capital.toml", "true is a word then, but not where it stands")];
+const NO_FEWER: [(&str, &str); 2] = [
+    ("word_true_capital.toml", "true is a word then, but not where it stands"),
+    ("word_undefined.json", "null is a value then, but not where it stands"),
+];
 
 #[test]
 fn every_offered_edit_leaves_fewer_errors() {
     let mut wrong = Vec::new();
     let mut tried = 0;
-    for (syntax, extension) in [(Syntax::Ron, "ron"), (Syntax::Toml, "toml")] {
+    for (syntax, extension) in [(Syntax::Ron, "ron"), (Syntax::Toml, "toml"), (Syntax::Json, "json")] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken").join(extension);
         for entry in std::fs::read_dir(folder).expect("the folder of broken scenes") {
             let path = entry.expect("an entry of the folder").path();

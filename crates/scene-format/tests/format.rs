@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FULL_RON, FULL_TOML};
+use common::{FULL_JSON, FULL_RON, FULL_TOML};
 use scene_format::{Syntax, convert, examples, format, hash_hex, load_str};
 use std::path::Path;
 
@@ -75,6 +75,35 @@ Sphere = {center=[0,0,0],radius=1}
 
 ";
 
+const MESSY_JSON: &str = r##"
+{"$schema":"scene.schema.json", "background":1,
+
+
+    "camera":{"fov":4e1,
+    "look_at":[0,0,0]}, "render": { "clamp": null, "noise": "None" },
+    "objects":[
+        {"Sphere":{"center":[0,0,0], "radius":1.50, "material": {"Diffuse":{"albedo":"#808080"}}}},
+
+        {"Box":{"size": 1}}]}"##;
+
+const TIDY_JSON: &str = r##"{
+    "$schema": "scene.schema.json",
+    "background": 1,
+
+    "camera": { "fov": 4e1, "look_at": [0, 0, 0] },
+    "render": { "clamp": null, "noise": "None" },
+    "objects": [
+        { "Sphere": {
+            "center": [0, 0, 0],
+            "radius": 1.50,
+            "material": { "Diffuse": { "albedo": "#808080" } }
+        } },
+
+        { "Box": { "size": 1 } }
+    ]
+}
+"##;
+
 #[test]
 fn messy_scenes_become_tidy() {
     assert_eq!(format("messy.ron", MESSY_RON, Syntax::Ron).expect("right"), TIDY_RON);
@@ -85,6 +114,7 @@ fn messy_scenes_become_tidy() {
         assert!(tidy.contains(line), "{line:?} is not in\n{tidy}");
     }
     assert!(!tidy.contains("\n\n\n") && tidy.ends_with("radius = 1\n"), "{tidy}");
+    assert_eq!(format("messy.json", MESSY_JSON, Syntax::Json).expect("right"), TIDY_JSON);
 }
 
 #[test]
@@ -94,10 +124,13 @@ fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
         (MESSY_TOML.to_owned(), Syntax::Toml),
         (FULL_RON.to_owned(), Syntax::Ron),
         (FULL_TOML.to_owned(), Syntax::Toml),
+        (FULL_JSON.to_owned(), Syntax::Json),
+        (MESSY_JSON.to_owned(), Syntax::Json),
     ];
     for example in examples() {
         let toml = convert("example", &example.ron, Syntax::Ron, Syntax::Toml).expect("right");
-        texts.extend([(example.ron, Syntax::Ron), (toml, Syntax::Toml)]);
+        let json = convert("example", &example.ron, Syntax::Ron, Syntax::Json).expect("right");
+        texts.extend([(example.ron, Syntax::Ron), (toml, Syntax::Toml), (json, Syntax::Json)]);
     }
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
     for folder in [folder.to_owned(), folder.join("gallery")] {

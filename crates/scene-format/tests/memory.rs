@@ -2,7 +2,7 @@
 //!
 //! One test alone in its process, because the count is that of the whole process.
 
-use scene_format::Syntax::{self, Ron, Toml};
+use scene_format::Syntax::{self, Json, Ron, Toml};
 use scene_format::load_bytes;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -73,7 +73,7 @@ const SIZE: usize = 4 << 20;
 const BEYOND: usize = 12 << 20;
 
 /// The shortest pieces that give the largest trees; `#` becomes a name that no other piece has.
-const WRONG: [(Syntax, &str, &str, &str); 48] = [
+const WRONG: [(Syntax, &str, &str, &str); 57] = [
     (Ron, "Scene(objects: [", "1,", "])"),
     (Ron, "Scene(objects: [", "[],", "])"),
     (Ron, "Scene(objects: [", "(),", "])"),
@@ -88,6 +88,15 @@ const WRONG: [(Syntax, &str, &str, &str); 48] = [
     (Ron, "Scene(materials: {", "\"a\":1,", "})"),
     (Ron, "Scene(materials: {", "\"#\":1,", "})"),
     (Ron, "Scene(materials: {", "\"a\":Mirror(),", "})"),
+    (Json, "{\"objects\": [", "1,", "1]}"),
+    (Json, "{\"objects\": [", "[],", "1]}"),
+    (Json, "{\"objects\": [", "{\"a\":1},", "1]}"),
+    (Json, "{\"objects\": [", "a,", "1]}"),
+    (Json, "{\"materials\": {", "\"#\":1,", "\"a\":1}}"),
+    (Json, "{", "a:1,", "\"a\":1}"),
+    (Json, "", "//\n", "{}"),
+    (Json, "", "[", ""),
+    (Json, "{\"objects\": [", "\"", "]}"),
     (Ron, "", "//\n", "Scene()"),
     (Ron, "", "[", ""),
     (Ron, "", "(", ""),
@@ -127,7 +136,7 @@ const WRONG: [(Syntax, &str, &str, &str); 48] = [
 ];
 
 /// The shortest pieces of right scenes that give the most.
-const RIGHT: [(Syntax, &str, &str, &str); 34] = [
+const RIGHT: [(Syntax, &str, &str, &str); 38] = [
     (Ron, "Scene(objects: [Mesh(faces: [[0,1,2]], points: [", "(0,0,0),", "])])"),
     (Ron, "Scene(objects: [Mesh(points: [(0,0,0),(1,0,0),(0,1,0)], faces: [", "[0,1,2],", "])])"),
     (Ron, "Scene(objects: [Mesh(points: [(0,0,0),(1,0,0),(0,1,0)], faces: [[0,1,", "2,", "]])])"),
@@ -172,6 +181,20 @@ const RIGHT: [(Syntax, &str, &str, &str); 34] = [
     (Toml, "objects=[{Mesh.file=\"a\"}]\n[materials]\n", "#.Mirror={}\n", ""),
     (Toml, "objects=[{Mesh.file=\"a\"}]\n[materials]\n", "#={Mirror={}}\n", ""),
     (Toml, "objects=[{Mesh.file=\"a\"}]\n", "[materials.#.Mirror]\n", ""),
+    (Json, "{\"objects\":[{\"Mesh\":{\"file\":\"a\"}}", ",{\"Mesh\":{\"file\":\"a\"}}", "]}"),
+    (
+        Json,
+        "{\"objects\":[{\"Mesh\":{\"file\":\"a\"}}",
+        ",{\"Sphere\":{\"center\":[0,0,0],\"radius\":1,\"material\":{\"Mirror\":{}}}}",
+        "]}",
+    ),
+    (Json, "{\"objects\":[{\"Mesh\":{\"file\":\"a\",\"placements\":[[]", ",[{\"Scale\":1}]", "]}}]}"),
+    (
+        Json,
+        "{\"objects\":[{\"Mesh\":{\"file\":\"a\"}}],\"materials\":{\"a b\":{\"Mirror\":{}}",
+        ",\"#\":{\"Mirror\":{}}",
+        "}}",
+    ),
 ];
 
 fn name(mut index: usize) -> String {

@@ -1,5 +1,5 @@
-//! One mistake of a person gives one error, at its line: every scene of the repository, in both syntaxes, with mistakes that people
-//! make, one at a time.
+//! One mistake of a person gives one error, at its line: every scene of the repository, in all syntaxes, with
+//! mistakes that people make, one at a time.
 
 mod common;
 
@@ -27,7 +27,7 @@ enum Kind {
 }
 
 fn tokens(text: &str, syntax: Syntax) -> Vec<Token> {
-    let comment = if syntax == Syntax::Ron { "//" } else { "#" };
+    let comment = if syntax == Syntax::Toml { "#" } else { "//" };
     let mut found = Vec::new();
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {
@@ -38,7 +38,16 @@ fn tokens(text: &str, syntax: Syntax) -> Vec<Token> {
         } else if rest.starts_with(comment) {
             (Kind::Comment, rest.find('\n').unwrap_or(rest.len()))
         } else if first == '"' {
-            (Kind::Text, rest[1..].find('"').map_or(rest.len(), |length| length + 2))
+            let length = rest[1..].find('"').map_or(rest.len(), |length| length + 2);
+            let inner = rest.get(1..length - 1).unwrap_or_default();
+            let word = inner.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+            if syntax == Syntax::Json && word && rest[length..].starts_with(':') {
+                // Names of the language without their quotes, as in the other syntaxes.
+                found.push(Token { at: at + 1..at + length - 1, kind: Kind::Word });
+                at += length;
+                continue;
+            }
+            (Kind::Text, length)
         } else if first.is_ascii_digit() || first == '-' {
             let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-' | '_');
             (Kind::Number, rest.find(|c| !number(c)).unwrap_or(rest.len()))
@@ -100,9 +109,10 @@ impl Site<'_> {
             && self.sign(6, &[")", "]"])
     }
 
-    /// The name of a field, its value following. (In TOML names of materials look the same.)
+    /// The name of a field, its value following. (In TOML and JSON names of materials look the same.)
     fn is_field(&self) -> bool {
-        if self.text.contains(&format!("material = \"{}\"", self.here())) {
+        let named = |sign: &str| self.text.contains(&format!("{sign}\"{}\"", self.here()));
+        if named("material = ") || named("\"material\": ") {
             return false;
         }
         self.is(0, Kind::Word, &[]) && self.sign(1, &[":", "="]) && self.here().starts_with(char::is_lowercase)
@@ -110,7 +120,13 @@ impl Site<'_> {
 
     /// The name of a kind or struct, its brackets following.
     fn is_kind(&self) -> bool {
-        self.is(0, Kind::Word, &[]) && self.here().starts_with(char::is_uppercase) && self.sign(1, &["(", "="])
+        self.is(0, Kind::Word, &[]) && self.here().starts_with(char::is_uppercase) && self.sign(1, &["(", "=", ":"])
+    }
+
+    /// A name with the quotes around it that JSON has.
+    fn with_quotes(&self) -> Range<usize> {
+        let at = &self.tokens[self.index].at;
+        at.start - 1..at.end + 1
     }
 
     /// Whether a bracket closes next, comments aside: before it no comma is needed.
@@ -146,7 +162,8 @@ struct Mistake {
 
 const RON: Option<Syntax> = Some(Syntax::Ron);
 const TOML: Option<Syntax> = Some(Syntax::Toml);
-const BOTH: Option<Syntax> = None;
+const JSON: Option<Syntax> = Some(Syntax::Json);
+const ALL: Option<Syntax> = None;
 
 macro_rules! mistakes {
     ($($syntax:ident $name:literal |$site:ident| $make:expr;)+) => {
@@ -161,29 +178,29 @@ fn when(holds: bool) -> Option<()> {
 
 const MISTAKES: &[Mistake] = mistakes![
     // Signs.
-    BOTH "no comma" |s| { when(s.sign(0, &[","]) && !s.closes_next())?; s.becomes("") };
-    BOTH "two commas" |s| { when(s.sign(0, &[","]))?; s.becomes(",,") };
+    ALL "no comma" |s| { when(s.sign(0, &[","]) && !s.closes_next())?; s.becomes("") };
+    ALL "two commas" |s| { when(s.sign(0, &[","]))?; s.becomes(",,") };
     RON "a semicolon for a comma" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
     TOML "a semicolon for a comma in TOML" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
     RON "= for :" |s| { when(s.sign(0, &[":"]))?; s.becomes(" =") };
     TOML ": for =" |s| { when(s.sign(0, &["="]))?; s.becomes(":") };
-    BOTH "no colon" |s| { when(s.sign(0, &[":", "="]))?; s.becomes("") };
-    BOTH "colon twice" |s| { when(s.sign(0, &[":", "="]))?; s.becomes(s.here().repeat(2)) };
-    BOTH "no value" |s| {
+    ALL "no colon" |s| { when(s.sign(0, &[":", "="]))?; s.becomes("") };
+    ALL "colon twice" |s| { when(s.sign(0, &[":", "="]))?; s.becomes(s.here().repeat(2)) };
+    ALL "no value" |s| {
         when(s.sign(-1, &[":", "="]) && (s.is(0, Kind::Number, &[]) || s.is(0, Kind::Text, &[])))?;
         s.becomes("")
     };
     // Brackets.
-    BOTH "no closing bracket" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes("") };
-    BOTH "closed by another bracket" |s| {
+    ALL "no closing bracket" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes("") };
+    ALL "closed by another bracket" |s| {
         when(s.sign(0, &[")", "]", "}"]))?;
         s.becomes(match s.here() { ")" => "]", "]" => "}", _ => ")" })
     };
-    BOTH "opened by another bracket" |s| {
+    ALL "opened by another bracket" |s| {
         when(s.sign(0, &["(", "["]) && !s.sign(-1, &["["]) && !s.sign(1, &["["]))?;
         s.becomes(if s.here() == "(" { "[" } else { "{" })
     };
-    BOTH "one closing bracket too many" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes(s.here().repeat(2)) };
+    ALL "one closing bracket too many" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes(s.here().repeat(2)) };
     RON "braces of Rust" |s| {
         when(s.is_kind())?;
         let open = Site { index: s.index + 1, ..*s };
@@ -200,7 +217,7 @@ const MISTAKES: &[Mistake] = mistakes![
         let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
         Some((from.start..to.end, format!("[{}]", &s.text[from.end..to.start])))
     };
-    BOTH "a vector without brackets" |s| {
+    ALL "a vector without brackets" |s| {
         when(s.is_vector())?;
         let inner = s.through(6)?;
         Some((inner.clone(), s.text[inner.start + 1..inner.end - 1].to_owned()))
@@ -219,8 +236,8 @@ const MISTAKES: &[Mistake] = mistakes![
         Some((from..to, s.text[s.token(1)?.at.start..s.tokens[item].at.end].to_owned()))
     };
     // Texts.
-    BOTH "no closing quote" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_end_matches('"')) };
-    BOTH "no opening quote" |s| {
+    ALL "no closing quote" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().trim_end_matches('"')) };
+    ALL "no opening quote" |s| {
         when(s.is(0, Kind::Text, &[]) && !s.here().starts_with("\"#"))?;
         s.becomes(s.here().trim_start_matches('"'))
     };
@@ -234,57 +251,59 @@ const MISTAKES: &[Mistake] = mistakes![
         s.becomes(s.here().trim_matches('"'))
     };
     RON "single quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().replace('"', "'")) };
-    BOTH "quotes of a word processor" |s| {
+    ALL "quotes of a word processor" |s| {
         when(s.is(0, Kind::Text, &[]))?;
         s.becomes(format!("“{}”", s.here().trim_matches('"')))
     };
-    BOTH "backslashes in a path" |s| {
+    ALL "backslashes in a path" |s| {
         when(s.is(0, Kind::Text, &[]) && s.here().contains("assets/"))?;
         s.becomes(s.here().replace('/', "\\"))
     };
     // Numbers.
-    BOTH "a number between quotes" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("\"{}\"", s.here())) };
-    BOTH "a unit" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}deg", s.here())) };
-    BOTH "a unit after a space" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{} cm", s.here())) };
-    BOTH "a decimal comma" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('.'))?; s.becomes(s.here().replace('.', ",")) };
-    BOTH "two points" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}.5.1", s.here().split('.').next()?)) };
-    BOTH "a sign apart" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with('-'))?; s.becomes(s.here().replacen('-', "- ", 1)) };
-    BOTH "a letter for a digit" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('0'))?; s.becomes(s.here().replacen('0', "O", 1)) };
+    ALL "a number between quotes" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("\"{}\"", s.here())) };
+    ALL "a unit" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}deg", s.here())) };
+    ALL "a unit after a space" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{} cm", s.here())) };
+    ALL "a decimal comma" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('.'))?; s.becomes(s.here().replace('.', ",")) };
+    ALL "two points" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}.5.1", s.here().split('.').next()?)) };
+    ALL "a sign apart" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with('-'))?; s.becomes(s.here().replacen('-', "- ", 1)) };
+    ALL "a letter for a digit" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('0'))?; s.becomes(s.here().replacen('0', "O", 1)) };
     TOML "no digit before the point" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?; s.becomes(&s.here()[1..]) };
     TOML "a leading zero" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?; s.becomes(format!("0{}", s.here())) };
-    BOTH "one number short" |s| {
+    ALL "one number short" |s| {
         when(s.is_vector())?;
         let end = s.token(4)?.at.start..s.token(5)?.at.end;
         Some((end, String::new()))
     };
-    BOTH "one number too many" |s| { when(s.is_vector())?; let last = s.token(5)?.at.clone(); Some((last.end..last.end, ", 1".to_owned())) };
-    BOTH "a number for a vector" |s| { when(s.is_vector() && s.is(-2, Kind::Word, &["center", "position", "look_at", "axis"]))?; Some((s.through(6)?, "1".to_owned())) };
+    ALL "one number too many" |s| { when(s.is_vector())?; let last = s.token(5)?.at.clone(); Some((last.end..last.end, ", 1".to_owned())) };
+    ALL "a number for a vector" |s| { when(s.is_vector() && s.is(-2, Kind::Word, &["center", "position", "look_at", "axis"]))?; Some((s.through(6)?, "1".to_owned())) };
     // Names.
-    BOTH "a field with a capital" |s| {
+    ALL "a field with a capital" |s| {
         when(s.is_field() && s.index > 0 && !s.sign(-1, &["."]))?;
         let mut name = s.here().to_owned();
         name[..1].make_ascii_uppercase();
         s.becomes(name)
     };
-    BOTH "a field in capitals" |s| { when(s.is_field())?; s.becomes(s.here().to_uppercase()) };
-    BOTH "a field with a hyphen" |s| { when(s.is_field() && s.here().contains('_') && s.sign(1, &["="]))?; s.becomes(s.here().replace('_', "-")) };
+    ALL "a field in capitals" |s| { when(s.is_field())?; s.becomes(s.here().to_uppercase()) };
+    ALL "a field with a hyphen" |s| { when(s.is_field() && s.here().contains('_') && s.sign(1, &["="]))?; s.becomes(s.here().replace('_', "-")) };
     RON "a hyphen in RON" |s| { when(s.is_field() && s.here().contains('_'))?; s.becomes(s.here().replace('_', "-")) };
-    BOTH "a field in camel case" |s| {
+    ALL "a field in camel case" |s| {
         when(s.is_field() && s.here().contains('_'))?;
         let (first, second) = s.here().split_once('_')?;
         s.becomes(format!("{first}{}{}", second[..1].to_uppercase(), &second[1..]))
     };
-    BOTH "a plural" |s| { when(s.is_field() && !s.here().ends_with('s'))?; s.becomes(format!("{}s", s.here())) };
+    ALL "a plural" |s| { when(s.is_field() && !s.here().ends_with('s'))?; s.becomes(format!("{}s", s.here())) };
     RON "a singular" |s| { when(s.is_field() && s.here().ends_with('s'))?; s.becomes(s.here().trim_end_matches('s')) };
-    BOTH "a letter left out" |s| {
+    ALL "a letter left out" |s| {
         when((s.is_field() || s.is_kind()) && s.here().len() > 4)?;
         s.becomes(format!("{}{}", &s.here()[..2], &s.here()[3..]))
     };
-    BOTH "a kind without a capital" |s| { when(s.is_kind())?; s.becomes(s.here().to_lowercase()) };
+    ALL "a kind without a capital" |s| { when(s.is_kind())?; s.becomes(s.here().to_lowercase()) };
     RON "a kind between quotes" |s| { when(s.is_kind())?; s.becomes(format!("\"{}\"", s.here())) };
-    BOTH "a field twice" |s| {
+    ALL "a field twice" |s| {
         when(s.is_field() && (s.is(2, Kind::Number, &[]) || s.is(2, Kind::Text, &[])) && s.sign(3, &[","]))?;
-        let field = s.through(2)?;
+        let mut field = s.through(2)?;
+        // In JSON a quote stands before it.
+        field.start -= usize::from(s.text[..field.start].ends_with('"'));
         Some((field.start..field.start, format!("{}, ", &s.text[field.clone()])))
     };
     RON "a field without its name" |s| {
@@ -301,7 +320,7 @@ const MISTAKES: &[Mistake] = mistakes![
     RON "# for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "#", 1)) };
     TOML "// for #" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen('#', "//", 1)) };
     RON "/ for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "/", 1)) };
-    BOTH "-- for a comment" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen(['/', '#'], "--", 1).replacen("--/", "--", 1)) };
+    ALL "-- for a comment" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen(['/', '#'], "--", 1).replacen("--/", "--", 1)) };
     // Lines of TOML.
     TOML "a table for an item of a list" |s| {
         when(s.sign(0, &["["]) && s.sign(1, &["["]) && s.is(2, Kind::Word, &[]) && s.sign(4, &["]"]))?;
@@ -327,6 +346,63 @@ const MISTAKES: &[Mistake] = mistakes![
         let (close, end) = (inner.close()?, s.close()?);
         let fields = &s.text[s.token(3)?.at.end..s.tokens[close].at.start];
         Some((s.token(0)?.at.start..s.tokens[end].at.end, format!("{}({})", &s.text[s.token(1)?.at.clone()], fields.trim())))
+    };
+    // JSON.
+    JSON "a semicolon for a comma in JSON" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
+    JSON "= for : in JSON" |s| { when(s.sign(0, &[":"]))?; s.becomes(" =") };
+    JSON "a comma before a closing bracket" |s| {
+        when(s.index > 0 && s.sign(0, &["]", "}"]) && !s.sign(-1, &["[", "{"]))?;
+        let before = s.text[..s.token(0)?.at.start].trim_end().len();
+        Some((before..before, ",".to_owned()))
+    };
+    JSON "a name without quotes" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), s.here().to_owned())) };
+    JSON "a name in single quotes" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("'{}'", s.here()))) };
+    JSON "a name without its first quote" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("{}\"", s.here()))) };
+    JSON "a name without its last quote" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("\"{}", s.here()))) };
+    JSON "a text in single quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().replace('"', "'")) };
+    JSON "no quotes around a value in JSON" |s| {
+        when(s.is(0, Kind::Text, &[]) && s.sign(-1, &[":"]))?;
+        s.becomes(s.here().trim_matches('"'))
+    };
+    JSON "round brackets in JSON" |s| {
+        when(s.is_vector())?;
+        let inner = s.through(6)?;
+        Some((inner.clone(), format!("({})", &s.text[inner.start + 1..inner.end - 1])))
+    };
+    JSON "a vector without its opening bracket in JSON" |s| { when(s.is_vector())?; s.becomes("") };
+    JSON "a line comment" |s| {
+        let end = s.tokens[s.index].at.end;
+        when(s.text[end..].starts_with('\n'))?;
+        Some((end..end, " // it's mine, isn't it".to_owned()))
+    };
+    JSON "a comment of Python" |s| {
+        let end = s.tokens[s.index].at.end;
+        when(s.text[end..].starts_with('\n'))?;
+        Some((end..end, "  # mine".to_owned()))
+    };
+    JSON "a block comment" |s| { when(s.sign(0, &[","]))?; s.becomes("/* \"a\": 1, */,") };
+    JSON "not a number" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes("NaN") };
+    JSON "None for a number" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes("None") };
+    JSON "no digit before the point in JSON" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?; s.becomes(&s.here()[1..]) };
+    JSON "no digit after the point" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().bytes().all(|byte| byte.is_ascii_digit()))?;
+        s.becomes(format!("{}.", s.here()))
+    };
+    JSON "a leading zero in JSON" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?; s.becomes(format!("0{}", s.here())) };
+    JSON "a plus sign" |s| { when(s.is(0, Kind::Number, &[]) && !s.here().starts_with('-'))?; s.becomes(format!("+{}", s.here())) };
+    JSON "braces for a list in JSON" |s| {
+        when(s.sign(0, &["["]) && s.sign(1, &["{"]))?;
+        let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
+        Some((from.start..to.end, format!("{{{}}}", &s.text[from.end..to.start])))
+    };
+    JSON "a list for names in JSON" |s| {
+        when(s.sign(0, &["{"]) && s.is(1, Kind::Word, &[]))?;
+        let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
+        Some((from.start..to.end, format!("[{}]", &s.text[from.end..to.start])))
+    };
+    JSON "a field without its name in JSON" |s| {
+        when(s.is_field() && s.is(2, Kind::Number, &[]))?;
+        Some((s.with_quotes().start..s.token(1)?.at.end, String::new()))
     };
 ];
 
@@ -413,7 +489,8 @@ fn one_mistake_is_one_error_at_its_line() {
     let mut counts = vec![(0usize, 0usize, String::new()); MISTAKES.len()];
     for (name, ron) in &scenes {
         let toml = convert(name, ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
-        for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml)] {
+        let json = convert(name, ron, Syntax::Ron, Syntax::Json).expect("the scene is right");
+        for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml), (&json, Syntax::Json)] {
             // Without a quote TOML's own `=` and `,` are told from those of an expression by nobody.
             if syntax == Syntax::Toml && text.contains("\"=") {
                 continue;

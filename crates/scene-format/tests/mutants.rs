@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{FULL_RON, FULL_TOML, Random};
+use common::{FULL, Random};
 use scene_format::render::{Style, json_lines, text};
 use scene_format::{Defaults, LoadError, Override, Syntax, convert, load_bytes, to_text};
 use std::path::Path;
@@ -89,12 +89,13 @@ fn exercise(bytes: Vec<u8>, syntax: Syntax, overrides: &[Override]) -> bool {
             assert!(load_bytes("written", written.into_bytes(), Some(syntax), Path::new(""), &[]).is_ok());
             if overrides.is_empty() {
                 let source = String::from_utf8(bytes).expect("what loads is UTF-8");
-                let other = if syntax == Syntax::Ron { Syntax::Toml } else { Syntax::Ron };
-                let converted = convert("mutant", &source, syntax, other).expect("what loads can be converted");
-                assert!(
-                    load_bytes("c", converted.clone().into_bytes(), Some(other), Path::new(""), &[]).is_ok(),
-                    "{converted}"
-                );
+                for other in Syntax::ALL.into_iter().filter(|other| *other != syntax) {
+                    let converted = convert("mutant", &source, syntax, other).expect("what loads can be converted");
+                    assert!(
+                        load_bytes("c", converted.clone().into_bytes(), Some(other), Path::new(""), &[]).is_ok(),
+                        "{converted}"
+                    );
+                }
             }
             true
         }
@@ -142,7 +143,7 @@ fn mutants_neither_panic_nor_hang() {
     let mut random = Random(5);
     let (mut right, mut slowest) = (0, Duration::ZERO);
     for index in 0..count {
-        let (source, syntax) = if index % 2 == 0 { (FULL_RON, Syntax::Ron) } else { (FULL_TOML, Syntax::Toml) };
+        let (source, syntax) = FULL[index % FULL.len()];
         let mutant = mutate(source, &mut random);
         slowest = slowest.max(soonest(|| right += usize::from(exercise(mutant.clone(), syntax, &[]))));
     }
@@ -167,7 +168,7 @@ fn mutated_set_arguments_neither_panic_nor_hang() {
     for index in 0..3000 {
         let argument: &str = ARGUMENTS[random.below(ARGUMENTS.len())];
         let argument = String::from_utf8_lossy(&mutate(argument, &mut random)).into_owned();
-        let (source, syntax) = if index % 2 == 0 { (FULL_RON, Syntax::Ron) } else { (FULL_TOML, Syntax::Toml) };
+        let (source, syntax) = FULL[index % FULL.len()];
         exercise(source.as_bytes().to_vec(), syntax, &[Override::from(argument), Override::from("camera.fov=50")]);
     }
 }
@@ -180,7 +181,7 @@ fn hostile_files_take_no_longer_than_others() {
     let pieces = [
         "(", "[", "{", ")", "]", "}", ",", "\"", "'", "#", "/*", "//\n", "a", "a,", "a ", "a:", "a=", "a.", "1,", "-",
         "[1],", "(a:", "[[a]]\n", "[a.b]\n", "a=1\n", "{a=", "a.b.", "\\", "\n", "\r", "é", "\"\"\"", "r#", "(]", "[)",
-        "\"a\":1,", "Sphere(", "x: 1, ", "[a]\n",
+        "\"a\":1,", "Sphere(", "x: 1, ", "[a]\n", "\"a\": {", "{\"a\":[", "\\u0", "\u{a0}",
     ];
     for (syntax, head) in [
         (Syntax::Ron, ""),
@@ -191,6 +192,10 @@ fn hostile_files_take_no_longer_than_others() {
         (Syntax::Toml, "objects = ["),
         (Syntax::Toml, "materials = {"),
         (Syntax::Toml, "[camera]\n"),
+        (Syntax::Json, ""),
+        (Syntax::Json, "{\"objects\": ["),
+        (Syntax::Json, "{\"materials\": {"),
+        (Syntax::Json, "{\"a\": "),
     ] {
         for piece in pieces {
             let text = format!("{head}{}", piece.repeat(SIZE / piece.len()));

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FULL_RON, FULL_TOML, errors};
+use common::{FULL_JSON, FULL_RON, FULL_TOML, errors};
 use scene_format::Syntax;
 
 fn check(text: &str, syntax: Syntax, faults: &[(&str, &str, &str)]) {
@@ -204,6 +204,122 @@ fn one_fault_in_toml_is_one_error() {
             ("{ Scale = 2 }", "{ Scale = 0 }", "E0540"),
             // Names.
             ("material = \"glass\"", "material = \"gloss2\"", "E0401"),
+        ],
+    );
+}
+
+#[test]
+fn one_fault_in_json_is_one_error() {
+    check(
+        FULL_JSON,
+        Syntax::Json,
+        &[
+            // Syntax.
+            ("[0, 1, 55]", "[0, 1, 55", "E0102"),
+            ("[0, 1, 55]", "[0, 1, 55}", "E0103"),
+            ("[0, 1, 55]", "[0, 1 55]", "E0104"),
+            ("[0, 1, 55]", "(0, 1, 55)", "E0101"),
+            ("[0, 1, 55]", "<0, 1, 55>", "E0101"),
+            ("[0, 1, 55]", "0, 1, 55", "E0121"),
+            ("[0, 1, 55]", "[0, 1, 55,]", "E0101"),
+            ("[0, 1, 55]", "[0, 1, \u{a0}55]", "E0101"),
+            ("\"radius\": 10, ", "\"radius\": 10 ", "E0104"),
+            ("\"fov\": 60", "\"fov\" = 60", "E0105"),
+            ("\"fov\": 60", "\"fov\" => 60", "E0105"),
+            ("\"fov\": 60", "\"fov\" 60", "E0105"),
+            ("\"fov\": 60", "\"fov\"", "E0105"),
+            ("\"fov\": 60", "\"fov\":", "E0106"),
+            ("\"fov\": 60", "\"fov\":: 60", "E0101"),
+            ("\"fov\": 60", "\"fov\": 60,", "E0101"),
+            ("\"width\": 320,", "\"width\": 320,,", "E0106"),
+            ("\"fov\": 60", "fov: 60", "E0111"),
+            ("\"fov\": 60", "'fov': 60", "E0101"),
+            ("\"fov\": 60", "“fov”: 60", "E0101"),
+            ("\"fov\": 60", ": 60", "E0101"),
+            ("\"fov\": 60", "60", "E0119"),
+            ("\"fov\": 60", "\"fov\": 60°", "E0109"),
+            ("\"fov\": 60", "\"fov\": 60 deg", "E0109"),
+            ("\"fov\": 60", "\"fov\": 6_0", "E0109"),
+            ("\"fov\": 60", "\"fov\": 060", "E0109"),
+            ("\"fov\": 60", "\"fov\": +60", "E0109"),
+            ("\"fov\": 60", "\"fov\": .5", "E0109"),
+            ("\"fov\": 60", "\"fov\": 60.", "E0109"),
+            ("\"fov\": 60", "\"fov\": 0x3c", "E0109"),
+            ("\"fov\": 60", "\"fov\": 60.5.1", "E0109"),
+            ("\"fov\": 60", "\"fov\": NaN", "E0109"),
+            ("\"fov\": 60", "\"fov\": -Infinity", "E0109"),
+            ("\"fov\": 60", "\"fov\": 180/3", "E0607"),
+            ("\"fov\": 60", "\"fov\": @", "E0101"),
+            ("\"exponent\": 1000", "\"exponent\": 1e999", "E0304"),
+            ("\"energy_conserving\": true", "\"energy_conserving\": True", "E0118"),
+            ("\"Filmic\"", "Filmic", "E0118"),
+            ("\"Filmic\"", "'Filmic'", "E0101"),
+            ("\"Filmic\"", "'Filmic", "E0107"),
+            ("\"cat.obj\"", "\"cat.obj", "E0107"),
+            ("\"cat.obj\"", "cat.obj", "E0118"),
+            ("\"cat.obj\"", "cat.obj\"", "E0118"),
+            ("\"cat.obj\"", "\"models\\cat.obj\"", "E0108"),
+            ("\"cat.obj\"", "\"cat\\x41.obj\"", "E0108"),
+            ("\"cat.obj\"", "\"cat\\ud83d.obj\"", "E0108"),
+            ("\"cat.obj\"", "\"cat\t.obj\"", "E0101"),
+            ("\"#3344dd\"", "#3344dd", "E0118"),
+            ("\"version\": 1,", "\"version\": 1, // of the language", "E0101"),
+            ("\"version\": 1,", "\"version\": 1, # of the language", "E0101"),
+            ("\"version\": 1,", "/* all */ \"version\": 1,", "E0101"),
+            ("\"version\": 1,", "/* all \"version\": 1,", "E0107"),
+            ("{ \"DropTo\": { \"y\": -20 } }", "{ \"DropTo\": { \"y\": -20 }", "E0102"),
+            ("{ \"DropTo\": { \"y\": -20 } }", "{ \"DropTo\": { \"y\": -20 } }}", "E0103"),
+            ("{ \"DropTo\": { \"y\": -20 } }", "{ DropTo(y: -20) }", "E0101"),
+            ("            ],\n            \"placements\"", "            \"placements\"", "E0102"),
+            ("{ \"Diffuse\": { \"albedo\": 1 } }", "Diffuse(albedo: 1)", "E0101"),
+            ("[{ \"Translate\": [1, 0, 0] }]", "{{ \"Translate\": [1, 0, 0] }}", "E0203"),
+            // Structure.
+            ("\"camera\"", "\"camra\"", "E0201"),
+            ("\"position\"", "\"positoin\"", "E0201"),
+            ("\"radius\": 10, ", "", "E0202"),
+            ("\"file\": \"cat.obj\",", "", "E0209"),
+            ("\"ior\": 1.52, ", "", "E0202"),
+            ("\"power\": 100", "\"power\": 100, \"radiance\": 1", "E0209"),
+            ("\"radius\": 10", "\"radius\": \"10\"", "E0203"),
+            ("\"radius\": 10", "\"radius\": null", "E0203"),
+            ("\"radius\": 10", "\"radius\": [10, 1]", "E0203"),
+            ("\"fov\": 60", "\"fov\": null", "E0203"),
+            ("\"fov\": 60", "\"fov\": true", "E0203"),
+            ("\"material\": \"glass\"", "\"material\": null", "E0203"),
+            ("\"samples\": 16", "\"samples\": 16.5", "E0305"),
+            ("\"Sphere\"", "\"Ball\"", "E0204"),
+            ("\"Gaussian\"", "\"Gauss\"", "E0204"),
+            ("{ \"Gaussian\": { \"sigma\": 0.4 } }", "\"Gaussian\"", "E0203"),
+            ("\"Filmic\"", "\"Filmik\"", "E0204"),
+            ("\"Filmic\"", "{ \"Filmic\": {} }", "E0203"),
+            ("{ \"Diffuse\": { \"albedo\": 1 } }", "{ \"albedo\": 1 }", "E0203"),
+            ("{ \"Diffuse\": { \"albedo\": 1 } }", "null", "E0203"),
+            ("\"radius\": 10,", "\"radius\": 10, \"radius\": 10,", "E0205"),
+            ("[20, 30, -20]", "[20, 30]", "E0206"),
+            ("[20, 30, -20]", "[20, null, -20]", "E0203"),
+            ("\"version\": 1", "\"version\": 2", "E0208"),
+            ("\"version\": 1", "\"let\": 1", "E0210"),
+            // Values.
+            ("\"radius\": 10", "\"radius\": -10", "E0301"),
+            ("\"sigma\": 0.4", "\"sigma\": -0.4", "E0302"),
+            ("\"fov\": 60", "\"fov\": 180", "E0303"),
+            ("\"#3344dd\"", "\"3344dd\"", "E0306"),
+            ("\"axis\": [0, 1, 0]", "\"axis\": [0, 0, 0]", "E0307"),
+            ("\"cat.png\"", "\"\"", "E0310"),
+            ("{ \"Scale\": 2 }", "{ \"Scale\": 0 }", "E0540"),
+            // Expressions.
+            ("\"radius\": 10", "\"radius\": \"=10*\"", "E0601"),
+            ("\"radius\": 10", "\"radius\": \"=1/0\"", "E0604"),
+            ("\"radius\": 10", "\"radius\": =2*5", "E0607"),
+            ("\"version\": 1,", "\"vars\": { \"a\": \"=b\", \"b\": \"=a\" },", "E0407"),
+            (
+                "{ \"Sphere\": { \"center\": [20",
+                "{ \"Repeat\": { \"count\": 2 } }, { \"Sphere\": { \"center\": [20",
+                "E0202",
+            ),
+            // Names.
+            ("\"material\": \"glass\"", "\"material\": \"gloss2\"", "E0401"),
+            ("\"white\": {", "\"white\": { \"Mirror\": {} }, \"white\": {", "E0402"),
         ],
     );
 }

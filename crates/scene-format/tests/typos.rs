@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FULL_RON, FULL_TOML, Random, errors, load};
+use common::{FULL, Random, errors, load};
 use scene_format::Syntax;
 use scene_format::render::apply_edits;
 use std::ops::Range;
@@ -14,7 +14,7 @@ fn words(text: &str, syntax: Syntax) -> Vec<Range<usize>> {
     let mut at = 0;
     let mut quoted = false;
     while at < bytes.len() {
-        let comment = text[at..].starts_with("//") || bytes[at] == b'#' && !quoted;
+        let comment = text[at..].starts_with("//") || syntax != Syntax::Json && bytes[at] == b'#' && !quoted;
         if comment {
             at += text[at..].find('\n').unwrap_or(text.len() - at);
             continue;
@@ -26,8 +26,10 @@ fn words(text: &str, syntax: Syntax) -> Vec<Range<usize>> {
             let word = &text[at..at + length];
             // In TOML kinds without fields are texts, and names of materials stand bare.
             let kind = word.starts_with(|c: char| c.is_ascii_uppercase());
+            // In JSON all names are texts.
+            let name = syntax == Syntax::Json && text[at + length..].starts_with("\":");
             let material = ["white", "chrome", "glass", "gloss", "fur"].contains(&word);
-            if !matches!(word, "true" | "false") && !material && (!quoted || syntax == Syntax::Toml && kind) {
+            if !matches!(word, "true" | "false") && !material && (!quoted || syntax != Syntax::Ron && kind || name) {
                 found.push(at..at + length);
             }
             at += length;
@@ -89,7 +91,7 @@ fn suggested(text: &str, syntax: Syntax, edits: usize, random: &mut Random) -> (
 
 #[test]
 fn at_least_95_percent_of_typos_get_the_right_word() {
-    for (text, syntax) in [(FULL_RON, Syntax::Ron), (FULL_TOML, Syntax::Toml)] {
+    for (text, syntax) in FULL {
         assert!(load(text, syntax).is_ok());
         for edits in [1, 2] {
             let (typos, right) = suggested(text, syntax, edits, &mut Random(edits as u64));
@@ -102,7 +104,7 @@ fn at_least_95_percent_of_typos_get_the_right_word() {
 
 #[test]
 fn all_edits_of_a_file_full_of_typos_mend_it() {
-    for (text, syntax) in [(FULL_RON, Syntax::Ron), (FULL_TOML, Syntax::Toml)] {
+    for (text, syntax) in FULL {
         let mut random = Random(11);
         for _ in 0..200 {
             // One typo in three words in different places, all in one file.

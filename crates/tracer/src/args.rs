@@ -66,7 +66,7 @@ pub enum Command {
     Check(CheckArgs),
     /// Tell what is in a scene or a checkpoint
     Info(InfoArgs),
-    /// Translate a scene between RON and TOML
+    /// Translate a scene between RON, TOML and JSON
     Convert(ConvertArgs),
     /// Lay out scenes as everybody's are, comments kept
     Fmt(FmtArgs),
@@ -121,6 +121,8 @@ pub enum SyntaxName {
     Ron,
     /// Tom's Obvious Minimal Language.
     Toml,
+    /// JavaScript Object Notation.
+    Json,
 }
 
 impl From<SyntaxName> for Syntax {
@@ -128,6 +130,7 @@ impl From<SyntaxName> for Syntax {
         match name {
             SyntaxName::Ron => Syntax::Ron,
             SyntaxName::Toml => Syntax::Toml,
+            SyntaxName::Json => Syntax::Json,
         }
     }
 }
@@ -153,14 +156,14 @@ impl From<SplitName> for Split {
 /// The scene, and how faults of it are told.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
-    /// Scene file (.ron, .toml), or - for standard input
+    /// Scene file (.ron, .toml, .json), or - for standard input
     pub scene: PathBuf,
     /// Set a field of the scene: camera.fov=40 (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
@@ -282,7 +285,7 @@ pub struct CheckArgs {
     pub set: Vec<String>,
     /// Syntax of the scenes [default: by their names]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
@@ -334,7 +337,7 @@ Examples:
 pub struct ConvertArgs {
     /// Scene file, or - for standard input
     pub scene: PathBuf,
-    /// Syntax of the scene: ron or toml [default: by its name]
+    /// Syntax of the scene: ron, toml or json [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     pub syntax: Option<SyntaxName>,
     /// Syntax to write [default: by -o, else the other one]
@@ -361,7 +364,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = NEW_EXAMPLES)]
 pub struct NewArgs {
-    /// Scene file to make (.ron, .toml)
+    /// Scene file to make (.ron, .toml, .json)
     pub scene: PathBuf,
     /// What to start from: ball, materials or room
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball, hide_possible_values = true)]

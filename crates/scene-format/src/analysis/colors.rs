@@ -54,7 +54,7 @@ pub fn color_texts(linear: [f64; 3], syntax: Syntax) -> [String; 2] {
     let [x, y, z] = linear.map(digits);
     let numbers = match syntax {
         Syntax::Ron => format!("({x}, {y}, {z})"),
-        Syntax::Toml => format!("[{x}, {y}, {z}]"),
+        Syntax::Toml | Syntax::Json => format!("[{x}, {y}, {z}]"),
     };
     [format!("\"#{r:02x}{g:02x}{b:02x}\""), numbers]
 }

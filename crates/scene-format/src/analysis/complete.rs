@@ -64,14 +64,29 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
     }
     let Some(expected) = expected(&way, syntax) else { return out };
     match expected {
-        Expected::Field(_) if way.quoted.is_some() => {}
+        Expected::Field(_) if way.quoted.is_some() && syntax != Syntax::Json => {}
+        Expected::Field(def) if way.quoted.is_some() => {
+            // The closing quote is there already, where the editor has written it.
+            let closed = text[byte..].starts_with('"');
+            for field in def.fields.iter().filter(|field| !way.written.iter().any(|written| written == field.name)) {
+                let whole = of_name(field, syntax);
+                let snippet = if closed { field.name.to_owned() } else { whole.snippet[1..].to_owned() };
+                out.items.push(Completion { snippet, ..whole });
+            }
+        }
         Expected::Field(def) => {
             let fields = def.fields.iter().filter(|field| !way.written.iter().any(|written| written == field.name));
             out.items.extend(fields.map(|field| of_name(field, syntax)));
         }
         Expected::KindAsKey(kind) => kinds(kind, &mut |def| {
             for variant in def.variants.iter().filter(|variant| !matches!(variant.content, Content::Unit)) {
-                out.items.push(of_variant(variant.name, prose(variant.doc), format!("{} = {{ $0 }}", variant.name)));
+                let whole = format!("{}{{ $0 }}", joined(variant.name, syntax));
+                let snippet = match (syntax, way.quoted) {
+                    (Syntax::Json, Some(_)) if text[byte..].starts_with('"') => variant.name.to_owned(),
+                    (Syntax::Json, Some(_)) => whole[1..].to_owned(),
+                    _ => whole,
+                };
+                out.items.push(of_variant(variant.name, prose(variant.doc), snippet));
             }
         }),
         Expected::Value(kind, field) => value(text, syntax, kind, field, &way, &mut out),
@@ -81,13 +96,21 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
 
 /// The proposal of a field's name.
 fn of_name(field: &'static FieldDef, syntax: Syntax) -> Completion {
-    let sign = if syntax == Syntax::Ron { ": " } else { " = " };
     Completion {
         label: field.name.to_owned(),
         kind: CompletionKind::Field,
         detail: takes(field),
         documentation: of_field(field, syntax),
-        snippet: format!("{}{sign}{}", field.name, place(field, syntax, 0)),
+        snippet: format!("{}{}", joined(field.name, syntax), place(field, syntax, 0)),
+    }
+}
+
+/// A name and what stands between it and its value.
+fn joined(name: &str, syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => format!("{name}: "),
+        Syntax::Toml => format!("{name} = "),
+        Syntax::Json => format!("\"{name}\": "),
     }
 }
 
@@ -104,7 +127,7 @@ fn place(field: &FieldDef, syntax: Syntax, number: usize) -> String {
     match field.kind {
         Type::Vector if inner == format!("${number}") => match syntax {
             Syntax::Ron => format!("({inner})"),
-            Syntax::Toml => format!("[{inner}]"),
+            Syntax::Toml | Syntax::Json => format!("[{inner}]"),
         },
         Type::List(_) => format!("[{}]", if inner.contains('[') { format!("${number}") } else { inner }),
         Type::Text | Type::File => format!("\"${number}\""),
@@ -147,8 +170,7 @@ fn value(
     match kind {
         Type::Optional(inner) => {
             if !quoted {
-                let none = if syntax == Syntax::Ron { "None" } else { "\"None\"" };
-                out.items.push(plain(none, "nothing"));
+                out.items.push(plain(crate::read::none(syntax), "nothing"));
             }
             return value(text, syntax, *inner, field, way, out);
         }
@@ -170,24 +192,24 @@ fn value(
                 .for_each(|kind| value(text, syntax, *kind, field, way, out));
             return;
         }
-        Type::Enum(def) if !quoted || syntax == Syntax::Toml => {
+        Type::Enum(def) if !quoted || syntax != Syntax::Ron => {
             for variant in def.variants {
                 let (name, doc) = (variant.name, prose(variant.doc));
                 match (&variant.content, syntax) {
                     (Content::Unit, Syntax::Ron) => out.items.push(of_variant(name, doc, name.to_owned())),
-                    (Content::Unit, Syntax::Toml) if quoted => out.items.push(of_variant(name, doc, name.to_owned())),
-                    (Content::Unit, Syntax::Toml) => out.items.push(of_variant(name, doc, format!("\"{name}\""))),
-                    (_, Syntax::Toml) if quoted => {}
+                    (Content::Unit, _) if quoted => out.items.push(of_variant(name, doc, name.to_owned())),
+                    (Content::Unit, _) => out.items.push(of_variant(name, doc, format!("\"{name}\""))),
+                    _ if quoted => {}
                     (Content::Value(_), Syntax::Ron) => out.items.push(of_variant(name, doc, format!("{name}($0)"))),
-                    (Content::Value(_), Syntax::Toml) => {
-                        out.items.push(of_variant(name, doc, format!("{{ {name} = $0 }}")));
+                    (Content::Value(_), _) => {
+                        out.items.push(of_variant(name, doc, format!("{{ {}$0 }}", joined(name, syntax))));
                     }
                     (Content::Struct(fields), syntax) => {
                         out.items.push(of_variant(name, doc, with_fields(name, fields, syntax)));
                     }
                 }
             }
-            if in_list && syntax == Syntax::Ron {
+            if in_list && !quoted && syntax != Syntax::Toml {
                 out.items.push(of_variant(REPEAT.name, prose(REPEAT.doc), with_fields(REPEAT.name, &REPEAT, syntax)));
             }
         }
@@ -224,13 +246,12 @@ fn plain(label: &str, detail: &str) -> Completion {
 /// A kind with the fields that must be written.
 fn with_fields(name: &str, def: &StructDef, syntax: Syntax) -> String {
     let must = def.fields.iter().filter(|field| field.default.is_none());
-    let sign = if syntax == Syntax::Ron { ": " } else { " = " };
-    let fields: Vec<String> =
-        must.enumerate().map(|(k, field)| format!("{}{sign}{}", field.name, place(field, syntax, k + 1))).collect();
+    let of_field = |(k, field): (usize, &FieldDef)| joined(field.name, syntax) + &place(field, syntax, k + 1);
+    let fields: Vec<String> = must.enumerate().map(of_field).collect();
     let inner = if fields.is_empty() { "$0".to_owned() } else { fields.join(", ") };
     match syntax {
         Syntax::Ron => format!("{name}({inner})"),
-        Syntax::Toml => format!("{{ {name} = {{ {inner} }} }}"),
+        syntax => format!("{{ {}{{ {inner} }} }}", joined(name, syntax)),
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a word means, where it stands.
 
 use super::visit::{tree, visit};
-use crate::print::{ron_value, toml_value};
 use crate::read::expected;
 use crate::schema::{Content, FieldDef, StructDef, prose};
 use crate::syntax::Syntax;
@@ -53,10 +52,7 @@ pub(super) fn of_field(field: &FieldDef, syntax: Syntax) -> String {
 /// A field's default as it would be written; `None` where it must be, or where it is nothing that has words.
 pub(super) fn default_text(field: &FieldDef, syntax: Syntax) -> Option<String> {
     let form = field.default?();
-    let text = match syntax {
-        Syntax::Ron => ron_value(&form),
-        Syntax::Toml => toml_value(&form),
-    };
+    let text = crate::print::value(&form, syntax);
     (!text.is_empty() && text.len() <= 40).then_some(text)
 }
 

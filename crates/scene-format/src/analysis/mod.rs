@@ -8,6 +8,7 @@ mod complete;
 mod hover;
 mod names;
 mod place;
+mod place_json;
 mod place_ron;
 mod place_toml;
 mod symbols;

@@ -1,6 +1,6 @@
 //! Where a cursor stands: between which brackets, and what the schema expects there.
 
-use super::{place_ron, place_toml};
+use super::{place_json, place_ron, place_toml};
 use crate::desc::Scene;
 use crate::read::REPEAT;
 use crate::schema::{Content, FieldDef, StructDef, Type};
@@ -13,7 +13,7 @@ use std::ops::Range;
 pub(super) enum Step {
     /// Into the value of a field or of a name.
     Key(String),
-    /// Into what stands in the brackets of a kind: `Sphere(`, and in TOML the table of its name.
+    /// Into what stands in the brackets of a kind: `Sphere(`, and in TOML and JSON the table of its name.
     Kind(String),
     /// Into an item of a list.
     Item,
@@ -42,7 +42,7 @@ pub(super) enum Expected {
     Field(&'static StructDef),
     /// A value of this type; of this field, if it is one's own.
     Value(Type, Option<&'static FieldDef>),
-    /// In TOML: the name of a kind as the key of a table.
+    /// In TOML and JSON: the name of a kind as the key of a table.
     KindAsKey(Type),
 }
 
@@ -63,13 +63,14 @@ pub(super) fn way(text: &str, syntax: Syntax, cursor: usize) -> Way {
     match syntax {
         Syntax::Ron => place_ron::way(text, cursor),
         Syntax::Toml => place_toml::way(text, cursor),
+        Syntax::Json => place_json::way(text, cursor),
     }
 }
 
 /// What the schema expects at the end of a way; `None` where it knows nothing.
 pub(super) fn expected(way: &Way, syntax: Syntax) -> Option<Expected> {
     let mut inside = match syntax {
-        Syntax::Ron => Inside::Value(Scene::TYPE, None),
+        Syntax::Ron | Syntax::Json => Inside::Value(Scene::TYPE, None),
         Syntax::Toml => Inside::Struct(&Scene::DEF),
     };
     for step in &way.steps {
@@ -88,7 +89,7 @@ pub(super) fn expected(way: &Way, syntax: Syntax) -> Option<Expected> {
             None => Expected::Field(def),
         },
         (Inside::Value(kind, field), true) => Expected::Value(kind, field),
-        (Inside::Items(kind) | Inside::Value(kind, _), false) if syntax == Syntax::Toml => match kind {
+        (Inside::Items(kind) | Inside::Value(kind, _), false) if syntax != Syntax::Ron => match kind {
             Type::Struct(def) => Expected::Field(def),
             kind => Expected::KindAsKey(kind),
         },
@@ -136,7 +137,7 @@ fn into_value(kind: Type, step: &Step) -> Option<Inside> {
             let field = def.field(key)?;
             Some(Inside::Value(field.kind, Some(field)))
         }
-        // In TOML a kind is the key of its table.
+        // In TOML and JSON a kind is the key of its table.
         (Type::Enum(def), Step::Kind(name) | Step::Key(name)) => match &def.variant(name)?.content {
             Content::Struct(def) => Some(Inside::Struct(def)),
             Content::Value(field) => Some(Inside::Value(field.kind, Some(field))),

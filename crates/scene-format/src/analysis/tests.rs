@@ -3,7 +3,7 @@
 use super::*;
 use crate::diagnostic::Edit;
 use crate::files::FileKind;
-use crate::syntax::Syntax::{Ron, Toml};
+use crate::syntax::Syntax::{Json, Ron, Toml};
 use crate::{Syntax, examples, load_str};
 use std::path::Path;
 
@@ -50,6 +50,27 @@ fn fields_are_offered_where_their_names_stand() {
     offers("[materials.red.Diffuse]\n|", Toml, &["albedo"], &[]);
     offers("[cam|", Toml, &["camera"], &["fov"]);
     offers("effects.|", Toml, &["exposure"], &[]);
+    offers("{ |", Json, &["camera", "objects"], &["radius"]);
+    offers("{ \"background\": 1, \"cam|\" }", Json, &["camera"], &["background"]);
+    offers("{ \"objects\": [{ |", Json, &["Sphere"], &["radius"]);
+    offers("{ \"objects\": [{ \"Sphere\": { \"center\": [0, 0, 0], \"|", Json, &["radius"], &["center", "fov"]);
+    offers("{ \"objects\": [{ \"Repeat\": { \"count\": 2, \"items\": [{ \"Box\": { |", Json, &["size"], &["count"]);
+    offers("{ \"materials\": { \"red\": { \"Diffuse\": { |", Json, &["albedo"], &["ior"]);
+}
+
+#[test]
+fn what_is_offered_in_json_has_its_quotes_once() {
+    let snippet = |text: &str, label: &str| {
+        let (text, at) = cursor(text);
+        let found = complete(&text, Json, at);
+        let item = found.items.iter().find(|item| item.label == label).unwrap_or_else(|| panic!("{label} in {text}"));
+        format!("{}{}{}", &text[..found.range.start], item.snippet, &text[found.range.end..])
+    };
+    assert_eq!(snippet("{ ima|", "image"), "{ \"image\": $0");
+    assert_eq!(snippet("{ \"ima|", "image"), "{ \"image\": $0");
+    assert_eq!(snippet("{ \"ima|\" }", "image"), "{ \"image\" }");
+    assert_eq!(snippet("{ \"objects\": [{ \"Bo|\" }", "Box"), "{ \"objects\": [{ \"Box\" }");
+    assert_eq!(snippet("{ \"objects\": [|", "Mesh"), "{ \"objects\": [{ \"Mesh\": { $0 } }");
 }
 
 #[test]
@@ -67,6 +88,16 @@ fn values_are_offered_where_values_stand() {
         &["Texture", "Checkerboard", "(0.8, 0.8, 0.8)"],
         &["Diffuse"],
     );
+    offers("{ \"effects\": { \"tone_map\": |", Json, &["Filmic"], &[]);
+    offers("{ \"effects\": { \"tone_map\": \"|", Json, &["Filmic"], &[]);
+    offers("{ \"render\": { \"clamp\": |", Json, &["null"], &["None"]);
+    offers(
+        "{ \"materials\": { \"a\": { \"Mirror\": {} } }, \"objects\": [{ \"Box\": { \"material\": \"|\"",
+        Json,
+        &["a"],
+        &["Mirror"],
+    );
+    offers("{ \"objects\": [|", Json, &["Sphere", "Repeat"], &["Diffuse"]);
     offers("[effects]\ntone_map = |", Toml, &["Filmic"], &[]);
     offers("[effects]\ntone_map = \"|", Toml, &["Filmic"], &[]);
     offers("[materials]\nred = |", Toml, &["Diffuse"], &["red"]);
@@ -175,7 +206,8 @@ fn the_outline_names_what_is_there() {
 fn half_written_texts_are_looked_at() {
     for example in examples().into_iter().step_by(5) {
         let toml = crate::convert("s", &example.ron, Ron, Toml).expect("right");
-        for (text, syntax) in [(example.ron, Ron), (toml, Toml)] {
+        let json = crate::convert("s", &example.ron, Ron, Json).expect("right");
+        for (text, syntax) in [(example.ron, Ron), (toml, Toml), (json, Json)] {
             for at in (0..text.len()).filter(|at| text.is_char_boundary(*at)).step_by(7) {
                 for half in [&text[..at], &text[at..]] {
                     let end = half.len();

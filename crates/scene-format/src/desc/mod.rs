@@ -1,7 +1,8 @@
 //! `SceneDesc`: what the person wrote, complete (every default filled in) and valid; every item knows its position.
 //!
-//! Lengths are in the scene's own unit; angles in degrees; colours are linear RGB (sRGB primaries); radiometric values per
-//! channel. `serde` is not derived here on purpose: reading goes through the spanned tree, so that faults have positions.
+//! Lengths are in the scene's own unit; angles in degrees; colours are linear RGB (sRGB primaries); radiometric
+//! values per channel. All of it is serde's (`serde_types`): nothing is derived, since what is read goes through the
+//! spanned tree and its checks, whoever reads.
 //!
 //! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones that the
 //! reader goes by and that the reference and the JSON Schema show.

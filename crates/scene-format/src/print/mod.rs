@@ -1,17 +1,38 @@
-//! Forms as text, in either syntax: short values on one line, long ones one entry a line, comments where they belong.
+//! Forms as text, in any syntax: short values on one line, long ones one entry a line, comments where they belong.
 
+mod json;
 mod ron;
 mod toml;
 
+pub(crate) use json::{json, json_value};
 pub(crate) use ron::{ron, ron_value};
 pub(crate) use toml::{toml, toml_value};
 
 use crate::form::{BLANK_LINE, Entry, Form};
+use crate::syntax::Syntax;
 
 /// Lines are filled up to this many characters.
 const WIDTH: usize = 100;
 
-/// A number as both syntaxes read it: the shortest digits that give the same value.
+/// A whole scene, with the comments that stand before and after it, where the syntax has comments.
+pub(crate) fn scene(scene: &Form, syntax: Syntax, before: &[String], after: &[String]) -> String {
+    match syntax {
+        Syntax::Ron => ron(scene, before, after),
+        Syntax::Toml => toml(scene, before, after),
+        Syntax::Json => json(scene),
+    }
+}
+
+/// A value on one line.
+pub(crate) fn value(form: &Form, syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => ron_value(form),
+        Syntax::Toml => toml_value(form),
+        Syntax::Json => json_value(form),
+    }
+}
+
+/// A number as all syntaxes read it: the shortest digits that give the same value.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-5..1e16).contains(&size) { format!("{value:e}") } else { format!("{value}") }

@@ -21,7 +21,8 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         if syntax_errors > 0 {
             return None;
         }
-        sink.push(no_objects(Span { source: 0, start: 0, end: 0 }, "the file is empty", Syntax::Ron));
+        let syntax = tree.texts.first().map_or(Syntax::Ron, |text| text.syntax);
+        sink.push(no_objects(Span { source: 0, start: 0, end: 0 }, "the file is empty", syntax));
         return None;
     };
     if newer_version(root, sink) {
@@ -88,6 +89,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
                         "add `lights: [SphereLight(center: (0, 10, 0), radius: 1, radiance: 50)]` or `background: 1`"
                     }
                     Syntax::Toml => "add a [[lights]] table, or `background = 1`",
+                    Syntax::Json => "add `\"lights\": [..]`, or `\"background\": 1`",
                 }),
             );
             reader.path.pop();
@@ -104,6 +106,7 @@ fn no_objects(span: Span, message: &str, syntax: Syntax) -> Diagnostic {
         .hint(match syntax {
             Syntax::Ron => "add `objects: [Sphere(center: (0, 0, 0), radius: 1)]`",
             Syntax::Toml => "add a [[objects]] table with `Sphere = { center = [0, 0, 0], radius = 1 }`",
+            Syntax::Json => r#"add `"objects": [{ "Sphere": { "center": [0, 0, 0], "radius": 1 } }]`"#,
         })
         .at_path("objects")
 }
@@ -177,6 +180,7 @@ impl Reader<'_> {
                 let other = match syntax {
                     Syntax::Ron => format!("up: ({other})"),
                     Syntax::Toml => format!("up = [{other}]"),
+                    Syntax::Json => format!("\"up\": [{other}]"),
                 };
                 self.report(fault.hint(format!("write `{other}`")));
             }

@@ -47,7 +47,7 @@ pub(super) fn named_color(name: &str) -> Option<&'static str> {
 fn vector(item: Item<'_, '_>, numbers: &[&str]) -> String {
     match item.syntax() {
         Syntax::Ron => format!("({})", numbers.join(", ")),
-        Syntax::Toml => format!("[{}]", numbers.join(", ")),
+        Syntax::Toml | Syntax::Json => format!("[{}]", numbers.join(", ")),
     }
 }
 
@@ -142,9 +142,13 @@ pub(super) fn field_elsewhere(
     value: Item<'_, '_>,
     def: &'static StructDef,
 ) -> Option<(Option<&'static str>, String)> {
-    let sign = if value.syntax() == Syntax::Ron { ": " } else { " = " };
+    let name_of = |field: &str| match value.syntax() {
+        Syntax::Ron => format!("{field}: "),
+        Syntax::Toml => format!("{field} = "),
+        Syntax::Json => format!("\"{field}\": "),
+    };
     let convert = |field: &'static str, by: fn(f64) -> f64| {
-        let mended = value.number().map(|number| format!("{field}{sign}{}", rounded(by(number))));
+        let mended = value.number().map(|number| format!("{}{}", name_of(field), rounded(by(number))));
         def.field(field).and(mended).map(|mended| (Some(field), mended))
     };
     match name {
@@ -152,9 +156,9 @@ pub(super) fn field_elsewhere(
         "radians" => convert("degrees", f64::to_degrees),
         "resolution" | "size" | "dimensions" if def.name == "Image" => {
             let [width, height] = sides(value)?;
-            Some((None, format!("width{sign}{width}, height{sign}{height}")))
+            Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))
         }
-        "resolution" | "size" if def.name == "Scene" => Some((None, format!("image{sign}{}", image(value)?))),
+        "resolution" | "size" if def.name == "Scene" => Some((None, format!("{}{}", name_of("image"), image(value)?))),
         _ => None,
     }
 }
@@ -177,7 +181,7 @@ pub(super) fn image(item: Item<'_, '_>) -> Option<String> {
     let [width, height] = sides(item)?;
     Some(match item.syntax() {
         Syntax::Ron => format!("Image(width: {width}, height: {height})"),
-        Syntax::Toml => format!("{{ width = {width}, height = {height} }}"),
+        syntax => syntax.of_toml(format!("{{ width = {width}, height = {height} }}")).into_owned(),
     })
 }
 
@@ -188,6 +192,7 @@ impl Reader<'_> {
         let diffuse = match item.syntax() {
             Syntax::Ron => format!("Diffuse(albedo: {lexeme})"),
             Syntax::Toml => format!("{{ Diffuse = {{ albedo = {lexeme} }} }}"),
+            Syntax::Json => format!("{{ \"Diffuse\": {{ \"albedo\": {lexeme} }} }}"),
         };
         let albedo = match item.kind() {
             Kind::Tuple | Kind::Struct if matches!(item.name(), Some("Texture" | "Checkerboard")) => true,
@@ -213,7 +218,7 @@ impl Reader<'_> {
             return true;
         }
         let bare = match item.kind() {
-            Kind::Word => lexeme.starts_with(char::is_lowercase),
+            Kind::Word => lexeme.starts_with(char::is_lowercase) && !item.is_null(),
             Kind::Char => true,
             Kind::Integer | Kind::Float => self.knows_material(lexeme),
             _ => false,
@@ -246,13 +251,13 @@ impl Reader<'_> {
         let Some(steps) = meant_transform(&name, body) else { return false };
         let mended = match item.syntax() {
             Syntax::Ron => format!("{}({})", steps.kind, steps.ron),
-            Syntax::Toml => format!("{{ {} = {} }}", steps.kind, steps.toml),
+            syntax => syntax.of_toml(format!("{{ {} = {} }}", steps.kind, steps.toml)).into_owned(),
         };
         let mut fault =
             Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("a {} is not written so", steps.noun)).expected(
                 match item.syntax() {
                     Syntax::Ron => steps.form.to_owned(),
-                    Syntax::Toml => steps.form_of_toml.to_owned(),
+                    syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
                 },
             );
         if steps.certain {
@@ -269,14 +274,16 @@ impl Reader<'_> {
     pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
         let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
         let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
-        let (ron, toml) = ("[Translate((x, y, z))]", "[{ Translate = [x, y, z] }]");
-        let expected = if item.syntax() == Syntax::Ron { ron } else { toml };
+        let expected = match item.syntax() {
+            Syntax::Ron => "[Translate((x, y, z))]".into(),
+            syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
+        };
         let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
         if let [x, y, z] = numbers[..] {
             let mended = match item.syntax() {
                 Syntax::Ron => format!("[Translate(({x}, {y}, {z}))]"),
-                Syntax::Toml => format!("[{{ Translate = [{x}, {y}, {z}] }}]"),
+                syntax => syntax.of_toml(format!("[{{ Translate = [{x}, {y}, {z}] }}]")).into_owned(),
             };
             fault = fault.hint(format!("write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });

@@ -4,12 +4,13 @@ use crate::desc::{Material, Scene};
 use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
 use crate::tree::Item;
+use std::borrow::Cow;
 
 /// How the language says what other programs have a field for.
-pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
+pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<Cow<'static, str>> {
     let ron = syntax == Syntax::Ron;
     let has = |field| def.field(field).is_some();
-    match name.to_ascii_lowercase().as_str() {
+    let words = match name.to_ascii_lowercase().as_str() {
         "color" | "colour" | "albedo" | "texture" if has("material") && ron => {
             Some("colours belong to a material: `material: Diffuse(albedo: ..)`")
         }
@@ -31,7 +32,8 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
             Some("write it as a transform: `transform = [{ Rotate = { axis = [0, 1, 0], degrees = 90 } }]`")
         }
         _ => None,
-    }
+    };
+    words.map(|words| syntax.of_toml(words))
 }
 
 /// Where a field belongs that stands in the wrong group: `samples` in the image.

@@ -140,7 +140,12 @@ impl Reader<'_> {
         let shown = shortened(text);
         let fault = |message: String, code| Diagnostic::error(code, name.span(), message);
         let Some(file) = name.included(&path) else {
-            let fault = fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer");
+            let fault = match name.span() {
+                // A description that serde gives.
+                Span::NONE => fault(format!("cannot include {shown}: no file is looked at here"), codes::INCLUDE)
+                    .expected("a scene that stands alone; `load` reads one with what it includes"),
+                _ => fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer"),
+            };
             self.report(fault);
             return None;
         };

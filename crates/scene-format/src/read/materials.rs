@@ -179,6 +179,7 @@ impl Reader<'_> {
                 let expected = match item.syntax() {
                     Syntax::Ron => "names with their materials: { \"white\": Diffuse(albedo: 1) }",
                     Syntax::Toml => "a table [materials], with a line for each: white = { Diffuse = { albedo = 1 } }",
+                    Syntax::Json => "names with their materials: { \"white\": { \"Diffuse\": { \"albedo\": 1 } } }",
                 };
                 return self.wrong_type(item, at, expected);
             }
@@ -276,12 +277,18 @@ impl Reader<'_> {
         if nearest.is_none() {
             fault.hint = match (kind, item.syntax()) {
                 (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {name}(..)"),
-                (Some(_), Syntax::Toml) => format!("for a material written here: {{ {name} = {{ .. }} }}"),
+                (Some(_), syntax) => {
+                    syntax.of_toml(format!("for a material written here: {{ {name} = {{ .. }} }}")).into_owned()
+                }
                 (None, Syntax::Ron) => {
                     "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()
                 }
                 (None, Syntax::Toml) => {
                     "add it to [materials], or write the material here: { Diffuse = { albedo = 0.5 } }".to_owned()
+                }
+                (None, Syntax::Json) => {
+                    "add it to \"materials\", or write the material here: { \"Diffuse\": { \"albedo\": 0.5 } }"
+                        .to_owned()
                 }
             };
         }

@@ -8,6 +8,7 @@ mod elsewhere;
 mod hints;
 mod include;
 mod materials;
+mod part;
 mod pick;
 mod repeat;
 mod told;
@@ -18,12 +19,13 @@ mod vector;
 
 pub(crate) use check::scene;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
 use told::SHOWN;
 pub(crate) use told::{describe, plain, shortened};
-pub(crate) use value::{expected, hex_color, linear_from_srgb};
+pub(crate) use value::{expected, hex_color, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
@@ -240,7 +242,10 @@ impl<'r> Reader<'r> {
                 let expected = match item.syntax() {
                     _ if header => "a table".to_owned(),
                     Syntax::Ron => format!("{}({})", def.name, field_words(def)),
-                    Syntax::Toml => format!("{{ {} }}", field_words(def).replace(": ..", " = ..")),
+                    syntax => {
+                        let words = format!("{{ {} }}", field_words(def).replace(": ", " = "));
+                        syntax.of_toml(words).into_owned()
+                    }
                 };
                 return self.wrong_kind(item, def.noun, &expected, edit);
             }
@@ -303,8 +308,10 @@ impl<'r> Reader<'r> {
                     format!("{} needs the field `{}`", def.noun, field.name),
                 )
                 .expected(value::expected_for(field, item));
-                let sign = if item.syntax() == Syntax::Ron { ": .." } else { " = .." };
-                fault.hint = format!("add `{}{sign}`", field.name);
+                fault.hint = match item.syntax() {
+                    Syntax::Ron => format!("add `{}: ..`", field.name),
+                    syntax => syntax.of_toml(format!("add `{} = ..`", field.name)).into_owned(),
+                };
                 self.path.push(Step::Field(field.name));
                 self.report(fault);
                 self.path.pop();
@@ -388,7 +395,7 @@ impl<'r> Reader<'r> {
         if fault.hint.is_empty()
             && let Some(way) = other_way(name, def, item.syntax())
         {
-            fault.hint = way.to_owned();
+            fault.hint = way.into_owned();
         }
         if fault.hint.is_empty()
             && let Some(hint) = of_others
@@ -421,7 +428,10 @@ impl<'r> Reader<'r> {
             Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),
             Some(item) => {
                 self.path.push(Step::Field(at.name));
-                let value = self.picked(item).and_then(|item| T::read(self, item, at));
+                let value = match item.is_null() && !at.kind.takes_none() {
+                    true => self.null(item, at),
+                    false => self.picked(item).and_then(|item| T::read(self, item, at)),
+                };
                 self.path.pop();
                 // What is wrong has been said: go on with the default, to see the rest.
                 value.or_else(|| default.map(|default| default()))

@@ -45,7 +45,7 @@ pub(crate) fn pick_body<'t, 's>(item: Item<'t, 's>) -> Option<Item<'t, 's>> {
         Kind::Map => {
             let mut fields = item.fields();
             let (key, value) = fields.next()?;
-            (key.lexeme() == PICK.name && fields.next().is_none()).then_some(value)
+            (key.lexeme().trim_matches('"') == PICK.name && fields.next().is_none()).then_some(value)
         }
         _ => None,
     }

@@ -1,5 +1,6 @@
 //! Values and names in words, for messages.
 
+use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 
 /// A value in words, for "cannot be ..".
@@ -10,6 +11,7 @@ pub(crate) fn describe(item: Item<'_, '_>) -> String {
         Kind::Text => format!("the text {}", shortened(item.lexeme())),
         Kind::Char => "a single character".to_owned(),
         Kind::Date => "a date or time".to_owned(),
+        Kind::Word if item.is_null() => "null".to_owned(),
         Kind::Word => format!("the word `{}`", shortened(item.lexeme())),
         Kind::Key => "a name".to_owned(),
         Kind::List => match item.children().count() {
@@ -26,6 +28,7 @@ pub(crate) fn describe(item: Item<'_, '_>) -> String {
             count => format!("{count} values in brackets"),
         },
         Kind::Struct => "a group of fields".to_owned(),
+        Kind::Map if item.syntax() == Syntax::Json => "an object of fields".to_owned(),
         Kind::Map => "a table of fields".to_owned(),
         // The rest is syntax that readers do not see.
         _ => "this".to_owned(),

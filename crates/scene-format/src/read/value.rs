@@ -20,12 +20,12 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
     let words = expected(at);
     match item.syntax() {
         Syntax::Ron => words,
-        Syntax::Toml => words
+        syntax => words
             .replace("(x, y, z)", "[x, y, z]")
             .replace("(x, y)", "[x, y]")
             .replace("(r, g, b)", "[r, g, b]")
-            .replace("Texture(..)", "{ Texture = .. }")
-            .replace("or None", "or \"None\""),
+            .replace("Texture(..)", &syntax.of_toml("{ Texture = .. }"))
+            .replace("or None", &format!("or {}", none(syntax))),
     }
 }
 
@@ -65,6 +65,7 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         }
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
+        (Type::OneOf([Type::Text, ..]), _) => "the name of a material, or a material written here".to_owned(),
         (Type::OneOf(_), _) => "a value".to_owned(),
         (Type::Optional(Type::Text), _) => "a name between quotes".to_owned(),
         (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
@@ -74,9 +75,13 @@ pub(crate) fn expected(at: &FieldDef) -> String {
     with_unit(out, at)
 }
 
-/// How nothing is written in the item's syntax.
-fn none(item: Item<'_, '_>) -> &'static str {
-    if item.syntax() == Syntax::Toml { "\"None\"" } else { "None" }
+/// How nothing is written in a syntax.
+pub(crate) fn none(syntax: Syntax) -> &'static str {
+    match syntax {
+        Syntax::Ron => "None",
+        Syntax::Toml => "\"None\"",
+        Syntax::Json => "null",
+    }
 }
 
 fn with_unit(words: String, at: &FieldDef) -> String {
@@ -84,6 +89,22 @@ fn with_unit(words: String, at: &FieldDef) -> String {
 }
 
 impl Reader<'_> {
+    /// `null`, as JSON has it, for a field that cannot be `None`.
+    pub(super) fn null<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
+        let message = format!("{} cannot be null", plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message).expected(expected_for(at, item));
+        if let Some(default) = at.default {
+            fault.hint = "leave it out to get its default".to_owned();
+            let replacement = crate::print::json_value(&default());
+            if !replacement.is_empty() && replacement.len() <= super::told::SHOWN {
+                fault.hint = format!("leave it out to get its default, {replacement}");
+                fault.edit = Some(Edit { span: item.span(), replacement });
+            }
+        }
+        self.report(fault);
+        None
+    }
+
     /// A number, in range or not.
     pub(crate) fn number(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<f64> {
         if let Some(value) = item.number() {
@@ -99,7 +120,7 @@ impl Reader<'_> {
             edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|_| trimmed.to_owned());
             let off = ["none", "off", "no", "never"].iter().any(|word| trimmed.eq_ignore_ascii_case(word));
             if off && matches!(at.kind, Type::Optional(Type::Number)) {
-                edit = Some(none(item).to_owned());
+                edit = Some(none(item.syntax()).to_owned());
             }
             // A name of `vars` without its quotes.
             if item.kind() == Kind::Word && self.knows_var(&text) {
@@ -155,8 +176,8 @@ impl Reader<'_> {
         }
         // Zero and infinity are what other programs write for "no limit".
         if matches!(at.kind, Type::Optional(Type::Number)) && (value == 0.0 || value == f64::INFINITY) {
-            fault.hint = format!("{} turns it off", none(item));
-            fault.edit = Some(Edit { span: item.span(), replacement: none(item).to_owned() });
+            fault.hint = format!("{} turns it off", none(item.syntax()));
+            fault.edit = Some(Edit { span: item.span(), replacement: none(item.syntax()).to_owned() });
         }
         self.report(fault);
         None
@@ -236,8 +257,8 @@ impl Reader<'_> {
     /// A text that is not empty.
     pub(crate) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {
-            let word =
-                matches!(item.kind(), Kind::Word | Kind::Char).then(|| format!("\"{}\"", item.text().escape_default()));
+            let word = (matches!(item.kind(), Kind::Word | Kind::Char) && !item.is_null())
+                .then(|| format!("\"{}\"", item.text().escape_default()));
             return self.wrong_kind(item, at.noun, &expected_for(at, item), word);
         }
         let text = item.text();
@@ -403,14 +424,14 @@ impl Reader<'_> {
         } else if is_picture(&text) && expected_for(at, item).contains("Texture") {
             let replacement = match item.syntax() {
                 Syntax::Ron => format!("Texture(file: {})", item.lexeme()),
-                Syntax::Toml => format!("{{ Texture = {{ file = {} }} }}", item.lexeme()),
+                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
             };
             fault.hint = format!("a picture is written {}", shortened(&replacement));
             fault.edit = Some(Edit { span: item.span(), replacement });
         } else {
             fault.hint = match item.syntax() {
                 Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),
-                Syntax::Toml => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
+                _ => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
             };
         }
         self.report(fault);

@@ -1,4 +1,4 @@
-//! Choices: `Name`, `Name(..)` in RON; `"Name"`, `{ Name = .. }` in TOML.
+//! Choices: `Name`, `Name(..)` in RON; `"Name"`, `{ Name = .. }` in TOML, and in JSON with `"Name": ..`.
 
 use super::hints::{kind_elsewhere, other_kind};
 use super::{Fields, Reader, describe, plain};
@@ -31,6 +31,10 @@ impl Reader<'_> {
     pub fn variant<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static EnumDef) -> Option<Chosen<'t, 's>> {
         let (name, span, body) = match item.kind() {
             Kind::Broken => return None,
+            Kind::Word if item.is_null() => match def.variant("None") {
+                Some(_) => ("None".into(), item.span(), Body::None),
+                None => return self.no_variant(item, def),
+            },
             Kind::Word => (item.lexeme().into(), item.span(), Body::None),
             Kind::Text => {
                 let name = item.text();
@@ -125,8 +129,13 @@ impl Reader<'_> {
                     fault.edit =
                         Some(Edit { span: Span { end: start, ..item.span() }, replacement: (*only).to_owned() });
                 } else if lexeme.starts_with('{') {
-                    fault.hint = format!("write `{{ {only} = {{ .. }} }}`");
-                    fault.edit = Some(Edit { span: item.span(), replacement: format!("{{ {only} = {lexeme} }}") });
+                    let syntax = item.syntax();
+                    fault.hint = syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned();
+                    let replacement = match syntax {
+                        Syntax::Json => format!("{{ \"{only}\": {lexeme} }}"),
+                        Syntax::Ron | Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
+                    };
+                    fault.edit = Some(Edit { span: item.span(), replacement });
                 } else {
                     fault.hint = format!("put the fields into a table `{only}`");
                 }
@@ -151,7 +160,7 @@ impl Reader<'_> {
             format!("`{}` is not a kind of {}", super::shortened(name), def.noun),
         )
         .expected(choices(def, syntax));
-        let quoted = syntax == Syntax::Toml && span.end - span.start == name.len() as u32 + 2;
+        let quoted = syntax != Syntax::Ron && span.end - span.start == name.len() as u32 + 2;
         let names = def.variants.iter().map(|variant| variant.name);
         let elsewhere = kind_elsewhere(name, def);
         // The nearest kind of ours, with other fields than theirs: reading on would tell of every one of them.
@@ -261,22 +270,23 @@ impl Reader<'_> {
             (Content::Struct(def), Syntax::Ron) => {
                 (format!("{name}({})", super::field_words(def)), def.fields.iter().all(|f| f.default.is_some()))
             }
-            (Content::Struct(def), Syntax::Toml) => (
-                format!("{{ {name} = {{ {} }} }}", super::field_words(def).replace(": ..", " = ..")),
-                def.fields.iter().all(|f| f.default.is_some()),
-            ),
+            (Content::Struct(def), syntax) => {
+                let words = format!("{{ {name} = {{ {} }} }}", super::field_words(def).replace(": ..", " = .."));
+                (syntax.of_toml(words).into_owned(), def.fields.iter().all(|f| f.default.is_some()))
+            }
             (_, Syntax::Ron) => (format!("{name}(..)"), false),
-            (_, Syntax::Toml) => (format!("{{ {name} = .. }}"), false),
+            (_, syntax) => (syntax.of_toml(format!("{{ {name} = .. }}")).into_owned(), false),
         };
         let needs = match chosen.item.syntax() {
             Syntax::Ron => format!("`{name}` needs brackets after it"),
             Syntax::Toml => format!("`{name}` needs a table of its fields"),
+            Syntax::Json => format!("`{name}` needs its fields in braces"),
         };
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, chosen.item.span(), needs).expected(expected);
         if complete {
             let replacement = match chosen.item.syntax() {
                 Syntax::Ron => format!("{name}()"),
-                Syntax::Toml => format!("{{ {name} = {{}} }}"),
+                syntax => syntax.of_toml(format!("{{ {name} = {{}} }}")).into_owned(),
             };
             fault.hint = format!("write {replacement} for the defaults");
             fault.edit = Some(Edit { span: chosen.item.span(), replacement });
@@ -325,12 +335,15 @@ fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Synt
     words.extend(fields.exactly_one.last().map(|name| format!("{name}: ..")));
     Some(match syntax {
         Syntax::Ron => format!("`{}({})`", variant.name, words.join(", ")),
-        Syntax::Toml => format!("`{{ {} = {{ {} }} }}`", variant.name, words.join(", ").replace(": ..", " = ..")),
+        syntax => {
+            let words = words.join(", ").replace(": ..", " = ..");
+            syntax.of_toml(format!("`{{ {} = {{ {words} }} }}`", variant.name)).into_owned()
+        }
     })
 }
 
 /// Stands for the field of a value that is not in one.
-static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
+pub(super) static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
     name: "",
     noun: "this",
     doc: &[],
@@ -346,9 +359,9 @@ pub(crate) fn choices(def: &'static EnumDef, syntax: Syntax) -> String {
         .iter()
         .map(|variant| match (&variant.content, syntax) {
             (Content::Unit, Syntax::Ron) => variant.name.to_owned(),
-            (Content::Unit, Syntax::Toml) => format!("\"{}\"", variant.name),
+            (Content::Unit, _) => format!("\"{}\"", variant.name),
             (_, Syntax::Ron) => format!("{}(..)", variant.name),
-            (_, Syntax::Toml) => format!("{{ {} = .. }}", variant.name),
+            (_, syntax) => syntax.of_toml(format!("{{ {} = .. }}", variant.name)).into_owned(),
         })
         .collect();
     match words.split_last() {

@@ -40,7 +40,10 @@ pub(super) fn report(
             }
             let mended = format!("{whole}.{fraction}");
             let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{numbers}` is not a number"))
-                .expected("a number such as 3, -0.25, 1.5e3 or 1_000")
+                .expected(match syntax {
+                    Syntax::Json => "a number such as 3, -0.25 or 1.5e3",
+                    Syntax::Ron | Syntax::Toml => "a number such as 3, -0.25, 1.5e3 or 1_000",
+                })
                 .hint(format!("numbers have a decimal point: {mended}"));
             fault.edit = Some(Edit { span: found, replacement: mended });
             fault

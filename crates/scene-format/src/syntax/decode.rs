@@ -120,6 +120,56 @@ pub(crate) fn resolve_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) 
     out
 }
 
+/// A JSON text or key: without quotes and with escapes resolved.
+pub(crate) fn json_text(lexeme: &str) -> Cow<'_, str> {
+    let Some(inner) = lexeme.strip_prefix('"') else { return Cow::Borrowed(lexeme) };
+    let inner = inner.strip_suffix('"').unwrap_or(inner);
+    if inner.contains('\\') { Cow::Owned(resolve_json_escapes(inner, &mut |_, _| {})) } else { Cow::Borrowed(inner) }
+}
+
+/// Resolves the escapes of JSON; `fault(start, end)` hears of each one that means nothing, by bytes in `inner`. A
+/// character beyond U+FFFF is two of them, a surrogate pair (RFC 8259, section 7).
+pub(crate) fn resolve_json_escapes(inner: &str, fault: &mut dyn FnMut(usize, usize)) -> String {
+    let unit = |escape: &str| {
+        let digits = escape.strip_prefix('u')?.get(..4).filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()));
+        digits.and_then(|digits| u32::from_str_radix(digits, 16).ok())
+    };
+    let mut out = String::with_capacity(inner.len());
+    let mut rest = inner;
+    while let Some(at) = rest.find('\\') {
+        out.push_str(&rest[..at]);
+        let start = inner.len() - rest.len() + at;
+        let escape = &rest[at + 1..];
+        let (length, value) = match escape.bytes().next() {
+            Some(b'n') => (1, Some('\n')),
+            Some(b'r') => (1, Some('\r')),
+            Some(b't') => (1, Some('\t')),
+            Some(b'b') => (1, Some('\u{8}')),
+            Some(b'f') => (1, Some('\u{c}')),
+            Some(sign @ (b'\\' | b'"' | b'/')) => (1, Some(char::from(sign))),
+            Some(b'u') => match unit(escape) {
+                Some(high @ 0xd800..=0xdbff) => match escape[5..].strip_prefix('\\').and_then(unit) {
+                    Some(low @ 0xdc00..=0xdfff) => {
+                        (11, char::from_u32(0x1_0000 + ((high - 0xd800) << 10) + (low - 0xdc00)))
+                    }
+                    _ => (5, None),
+                },
+                Some(unit) => (5, char::from_u32(unit)),
+                None => (1, None),
+            },
+            Some(_) => (escape.chars().next().map_or(0, char::len_utf8), None),
+            None => (0, None),
+        };
+        match value {
+            Some(value) => out.push(value),
+            None => fault(start, start + 1 + length),
+        }
+        rest = escape.get(length..).unwrap_or("");
+    }
+    out.push_str(rest);
+    out
+}
+
 /// What looks like the name of a file with backslashes between folders, with slashes.
 pub(crate) fn with_slashes(inner: &str) -> Option<String> {
     let (stem, extension) = inner.rsplit_once('.')?;
@@ -187,6 +237,49 @@ fn simple(lexeme: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn escapes_of_json_are_those_of_serde_json() {
+        const PIECES: [&str; 20] = [
+            "a",
+            "é",
+            "🐈",
+            "\\n",
+            "\\r",
+            "\\t",
+            "\\b",
+            "\\f",
+            "\\/",
+            "\\\\",
+            "\\\"",
+            "\\u00e9",
+            "\\ud83d",
+            "\\udc08",
+            "\\uD83D\\uDC08",
+            "\\u12",
+            "\\x41",
+            "\\'",
+            "\\é",
+            "u",
+        ];
+        let mut state = 5u64;
+        let mut below = |count: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % count as u64) as usize
+        };
+        for _ in 0..20_000 {
+            let inner: String = (0..below(6)).map(|_| PIECES[below(PIECES.len())]).collect();
+            let mut faults = 0;
+            let text = resolve_json_escapes(&inner, &mut |from, to| {
+                assert!(inner.get(from..to).is_some_and(|escape| escape.starts_with('\\')), "{inner:?}");
+                faults += 1;
+            });
+            match serde_json::from_str::<String>(&format!("\"{inner}\"")) {
+                Ok(wanted) => assert_eq!((text, faults), (wanted, 0), "{inner:?}"),
+                Err(_) => assert!(faults > 0, "{inner:?}"),
+            }
+        }
+    }
 
     #[test]
     fn short_numbers_have_the_bits_of_long_ones() {

@@ -51,14 +51,16 @@ fn language(text: &str, syntax: Syntax) -> Option<Diagnostic> {
     let (name, hint) = match syntax {
         Syntax::Ron if is_toml(first) => ("TOML", Some("name the file .toml, or give `--syntax toml`")),
         Syntax::Toml if is_ron(first) => ("RON", Some("name the file .ron, or give `--syntax ron`")),
-        Syntax::Toml if first.starts_with('{') => ("JSON", Some("name the file .json, or give `--syntax ron`")),
+        Syntax::Toml if first.starts_with('{') => ("JSON", Some("name the file .json, or give `--syntax json`")),
+        Syntax::Json if is_toml(first) => ("TOML", Some("name the file .toml, or give `--syntax toml`")),
+        Syntax::Json if is_ron(first) => ("RON", Some("name the file .ron, or give `--syntax ron`")),
         _ => (of_others(first, rest)?, None),
     };
     let span = Span { source: 0, start: at as u32, end: (at + first.len()) as u32 };
     let hint = hint.unwrap_or("scenes of other programs are not read; `tracer new scene.ron` starts one");
     Some(
         Diagnostic::error(codes::OTHER_LANGUAGE, span, format!("this looks like {name}, not {}", syntax.name()))
-            .expected("a scene in RON (.ron) or TOML (.toml)")
+            .expected("a scene in RON (.ron), TOML (.toml) or JSON (.json)")
             .hint(hint),
     )
 }

@@ -152,6 +152,10 @@ impl<'p> Parser<'p> {
             Some(b'\'') => self.char_literal(),
             Some(b'0'..=b'9' | b'+' | b'-' | b'.') => self.number_literal(),
             Some(b'r') if self.is_raw_text() => self.raw_text_literal(),
+            Some(b'r') if self.is_raw_word() => {
+                self.at += 2;
+                self.value();
+            }
             _ => {
                 let length = self.word_length();
                 if length == 0 {

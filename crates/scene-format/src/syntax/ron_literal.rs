@@ -146,6 +146,14 @@ impl Parser<'_> {
         })
     }
 
+    /// `r#None`, as the `ron` crate writes a kind that is called like a word of RON.
+    pub(super) fn is_raw_word(&self) -> bool {
+        self.rest().strip_prefix("r#").is_some_and(|word| {
+            // Not of itself: a file of nothing else must not fill the stack.
+            word.starts_with(|c: char| c.is_ascii_alphabetic()) && !word.starts_with("r#")
+        })
+    }
+
     pub(super) fn raw_text_literal(&mut self) {
         let start = self.at;
         let raw = &self.rest()[1..];

@@ -1,6 +1,8 @@
 //! What the tests of this crate share: scenes that use every word of the language, and a small generator of random numbers.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod generated;
+
 use scene_format::{Diagnostic, LoadError, Loaded, Severity, Syntax, load_str};
 use std::path::Path;
 
@@ -8,6 +10,11 @@ use std::path::Path;
 pub const FULL_RON: &str = include_str!("full.ron");
 /// The same scene in TOML.
 pub const FULL_TOML: &str = include_str!("full.toml");
+
+/// The same scene in JSON.
+pub const FULL_JSON: &str = include_str!("full.json");
+/// All three.
+pub const FULL: [(&str, Syntax); 3] = [(FULL_RON, Syntax::Ron), (FULL_TOML, Syntax::Toml), (FULL_JSON, Syntax::Json)];
 
 /// Where the files lie that examples include.
 pub fn base_dir() -> &'static Path {

@@ -23,7 +23,7 @@ pub struct FmtArgs {
     pub check: bool,
     /// Syntax of the scenes [default: by their names]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
     #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]

@@ -16,7 +16,7 @@ Prints the address of the page; docs/preview.md tells the rest.";
 #[derive(Debug, Args)]
 #[command(after_help = PREVIEW_EXAMPLES)]
 pub struct PreviewArgs {
-    /// Scene file (.ron, .toml)
+    /// Scene file (.ron, .toml, .json)
     pub scene: PathBuf,
     /// Open the page in the browser
     #[arg(long)]
@@ -36,7 +36,7 @@ pub struct PreviewArgs {
     pub set: Vec<String>,
     /// Syntax of the scene [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron or toml [default: by the file's name]")]
+    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// Samples per pixel
     #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]

@@ -1,9 +1,9 @@
-//! `tracer convert`: a scene in the other syntax, comments and all.
+//! `tracer convert`: a scene in another syntax, comments and all where that has comments.
 
 use crate::args::ConvertArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, is_dash, read, told};
-use crate::shell::Shell;
+use crate::shell::{Shell, counted};
 use crate::write::{is_one_file, save, spare};
 use scene_format::{LoadError, Syntax};
 use std::io::Write;
@@ -14,7 +14,7 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
     let output = args.output.as_deref().filter(|path| !is_dash(path));
     let by_name = match output {
         Some(path) => Some(Syntax::from_path(path).ok_or_else(|| {
-            Failure::wrong(format!("-o {} is no name for a scene file; expected .ron or .toml", path.display()))
+            Failure::wrong(format!("-o {} is no name for a scene file; expected .ron, .toml or .json", path.display()))
         })?),
         None => None,
     };
@@ -43,7 +43,7 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
     let from = syntax.unwrap_or_else(|| Syntax::guess(&text));
     let to = asked.or(by_name).unwrap_or(match from {
         Syntax::Ron => Syntax::Toml,
-        Syntax::Toml => Syntax::Ron,
+        Syntax::Toml | Syntax::Json => Syntax::Ron,
     });
     let converted = scene_format::convert(&name, &text, from, to)
         .map_err(|error: LoadError| told(error, args.diagnostics, shell))?;
@@ -60,6 +60,10 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
             out.write_all(converted.as_bytes())?;
             out.flush()?;
         }
+    }
+    let comments = if to == Syntax::Json { scene_format::comments(&text, from) } else { 0 };
+    if comments > 0 {
+        shell.say(&format!("warning: JSON has no comments, so {} is left out", counted(comments, "comment")));
     }
     Ok(ExitCode::from(exit::DONE))
 }

@@ -43,12 +43,12 @@ pub(super) fn run(args: &NewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::from(exit::DONE));
     }
     let syntax = Syntax::from_path(path).ok_or_else(|| {
-        Failure::wrong(format!("{shown} is no name for a scene file; expected .ron or .toml at its end"))
+        Failure::wrong(format!("{shown} is no name for a scene file; expected .ron, .toml or .json at its end"))
     })?;
     spare(path, args.force)?;
     let text = match syntax {
         Syntax::Ron => args.template.text().to_owned(),
-        Syntax::Toml => scene_format::convert("template", args.template.text(), Syntax::Ron, Syntax::Toml)
+        Syntax::Toml | Syntax::Json => scene_format::convert("template", args.template.text(), Syntax::Ron, syntax)
             .map_err(|error| Failure::could_not(error.to_string()))?,
     };
     save(path, text.as_bytes())?;

@@ -24,7 +24,8 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(scenes)
 }
 
-/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` that has objects. Hidden folders are left out.
+/// The scenes in a folder and below, in order of their names: `.ron`, and `.toml` and `.json` that have objects.
+/// Hidden folders are left out.
 fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -40,11 +41,21 @@ fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
     }
 }
 
-/// TOML files are many things.
+/// TOML and JSON files are many things.
 fn is_scene(path: &Path) -> bool {
     match Syntax::from_path(path) {
         Some(Syntax::Ron) => true,
         Some(Syntax::Toml) => std::fs::read(path).is_ok_and(|bytes| bytes.windows(7).any(|word| word == b"objects")),
+        Some(Syntax::Json) => std::fs::read(path).is_ok_and(|bytes| has_list_of_objects(&bytes)),
         None => false,
     }
+}
+
+/// Whether `"objects": [` stands in a text: a report counts objects, and a schema describes them.
+fn has_list_of_objects(text: &[u8]) -> bool {
+    const NAME: &[u8] = b"\"objects\"";
+    text.windows(NAME.len()).enumerate().filter(|(_, word)| *word == NAME).any(|(at, _)| {
+        let mut signs = text[at + NAME.len()..].iter().filter(|byte| !byte.is_ascii_whitespace());
+        signs.next() == Some(&b':') && signs.next() == Some(&b'[')
+    })
 }

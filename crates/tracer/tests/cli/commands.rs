@@ -60,6 +60,7 @@ fn check_takes_many_scenes() {
     sandbox.write("scenes/a.ron", SCENE);
     sandbox.write("scenes/deep/b.toml", "background = 1\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1 }\n");
     sandbox.write("scenes/Cargo.toml", "[package]\nname = 1\n");
+    sandbox.write("scenes/report.json", "{ \"scene\": { \"objects\": 3 } }");
     let ran = sandbox.run(&["check", "scene.ron", "scenes"]).ends(0).silent().out_text();
     assert_eq!(ran.lines().count(), 3, "{ran}");
     sandbox.write("scenes/wrong.ron", "Scene(");
@@ -127,6 +128,26 @@ fn every_default_can_be_seen_and_rendered() {
 }
 
 #[test]
+fn convert_goes_to_json_and_back() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["convert", "scene.ron", "-o", "scene.json"]).ends(0).says(&["JSON has no comments", "left out"]);
+    sandbox.run(&["check", "scene.json", "--deny-warnings"]).ends(0).silent();
+    sandbox.run(&["fmt", "scene.json", "--check"]).ends(0).silent();
+    // RON is what comes of it when nothing else is asked for, and it is told by its looks.
+    let back = sandbox.shell(r#""$T" convert - < scene.json"#).ends(0).silent().out_text();
+    assert!(back.starts_with("Scene("), "{back}");
+    sandbox.run(&["convert", "scene.json", "-o", "scene.toml"]).ends(0).silent();
+    for scene in ["scene.ron", "scene.json", "scene.toml"] {
+        sandbox.run(&["render", scene, "-o", &format!("{scene}.pfm")]).ends(0);
+    }
+    assert_eq!(sandbox.read("scene.json.pfm"), sandbox.read("scene.ron.pfm"));
+    assert_eq!(sandbox.read("scene.toml.pfm"), sandbox.read("scene.ron.pfm"));
+    sandbox.write("bad.json", "{ \"objects\": [{ \"Sphere\": { \"radius\": -1, } }] }");
+    let ran = sandbox.run(&["check", "bad.json"]).ends(2);
+    ran.says(&["bad.json:1:", "JSON has no comma before `}`"]);
+}
+
+#[test]
 fn convert_goes_both_ways() {
     let sandbox = Sandbox::new();
     sandbox.run(&["convert", "scene.ron", "-o", "scene.toml"]).ends(0).silent();
@@ -141,7 +162,7 @@ fn convert_goes_both_ways() {
     };
     assert_eq!(hash("scene.ron"), hash("scene.toml"));
     assert_eq!(hash("scene.ron"), hash("back.ron"));
-    sandbox.run(&["convert", "scene.ron", "-o", "x.txt"]).ends(2).says(&[".ron or .toml"]);
+    sandbox.run(&["convert", "scene.ron", "-o", "x.txt"]).ends(2).says(&[".ron, .toml or .json"]);
     sandbox.run(&["convert", "scene.ron", "-o", "x.toml", "--to", "ron"]).ends(2).says(&["--to"]);
     sandbox.write("bad.ron", "Scene(objects: [Sphere(radius: -1)])");
     sandbox.run(&["convert", "bad.ron", "-o", "bad.toml"]).ends(2).says(&["bad.ron:1:"]);
@@ -167,7 +188,7 @@ fn convert_warns_of_paths_that_move() {
 fn templates_are_right_and_render() {
     let sandbox = Sandbox::new();
     for template in ["ball", "materials", "room"] {
-        for name in ["new.ron", "new.toml"] {
+        for name in ["new.ron", "new.toml", "new.json"] {
             sandbox.run(&["new", name, "--template", template, "--force"]).ends(0).says(&["tracer render", name]);
             sandbox.run(&["check", name]).ends(0).silent();
             sandbox.run(&["render", name, "-o", "new.png", "--size", "16x16", "--samples", "1"]).ends(0).silent();
@@ -176,7 +197,7 @@ fn templates_are_right_and_render() {
     sandbox.write("mine.ron", "mine");
     sandbox.run(&["new", "mine.ron"]).ends(1).says(&["mine.ron is there already", "--force"]);
     assert_eq!(sandbox.text("mine.ron"), "mine");
-    sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron or .toml"]);
+    sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron, .toml or .json"]);
     sandbox.run(&["new", "x.ron", "--template", "castle"]).ends(2).says(&["ball", "materials", "room"]);
     let out = sandbox.run(&["new", "-"]).ends(0).silent().out_text();
     assert!(out.contains("Scene("));

@@ -1,9 +1,10 @@
 //! Every example of `docs/scene-reference.md` is rendered: each kind of thing in the language, and each block of the page.
 
-use crate::support::repository;
+use crate::support::{Sandbox, repository};
 use scene_format::{Syntax, examples, load_str};
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use tracer_core::{RenderOptions, Unobserved, develop, render};
 
 /// Renders a scene with one sample in 16x16 pixels and says whether every pixel is a finite number.
@@ -18,6 +19,19 @@ fn picture(name: &str, text: &str, syntax: Syntax, folder: &Path) {
     assert!(image.linear.iter().all(|value| value.is_finite() && *value >= 0.0), "{name}");
     assert!(image.linear.iter().any(|value| *value > 0.0), "{name} is black");
     assert_eq!(film.counters.dropped, 0, "{name}");
+}
+
+/// Runs a script of the page, where there is a Python to run it; its picture is made of one sample.
+fn python(text: &str) {
+    if Command::new("python3").arg("--version").output().is_err() {
+        return;
+    }
+    let small = text.replace("\"-o\"", "\"--size\", \"16x16\", \"--samples\", \"1\", \"-o\"");
+    assert!(small != text, "{text}");
+    let sandbox = Sandbox::new();
+    sandbox.write("script.py", small);
+    sandbox.shell(r#"mkdir bin && ln -s "$T" bin/tracer && PATH="$PWD/bin:$PATH" python3 script.py"#).ends(0);
+    assert!(!sandbox.read("balls.png").is_empty());
 }
 
 /// The fenced blocks of a page: their language and their text.
@@ -72,6 +86,11 @@ fn every_example_of_the_reference_renders() {
                 assert!(found, "no example shows:\n{text}");
                 parts += 1;
             }
+            "json" => {
+                picture("the reference", &text, Syntax::Json, Path::new(""));
+                scenes += 1;
+            }
+            "python" => python(&text),
             // How an editor finds the schema.
             "toml" => assert!(text.starts_with("#:schema "), "{text}"),
             // A placements file, of all kinds of lines.
@@ -84,5 +103,5 @@ fn every_example_of_the_reference_renders() {
             other => panic!("a block in `{other}`"),
         }
     }
-    assert!(scenes == 5 && parts >= 30, "{scenes} scenes and {parts} parts");
+    assert!(scenes == 6 && parts >= 30, "{scenes} scenes and {parts} parts");
 }

@@ -166,6 +166,6 @@ impl Words for Vec<NamedMaterial> {
     }
 
     fn form(&self, all: bool) -> Form {
-        Form::Map(self.iter().map(|named| Entry::new(&*named.name.value, named.material.form(all))).collect())
+        Form::Map(self.iter().map(|named| Entry::new(named.name.value.to_string(), named.material.form(all))).collect())
     }
 }

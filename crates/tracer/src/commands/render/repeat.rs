@@ -27,6 +27,7 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
         let name = match syntax {
             SyntaxName::Ron => "ron",
             SyntaxName::Toml => "toml",
+            SyntaxName::Json => "json",
         };
         option("--syntax", name.to_owned());
     }

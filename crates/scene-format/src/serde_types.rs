@@ -1,0 +1,153 @@
+//! Which types are serde's: a scene, and every part of one that has words of its own.
+
+use crate::desc::*;
+use crate::diagnostic::Spanned;
+use crate::form::{Entry, Form};
+use crate::words::Words;
+use crate::{deserialize, load, serialize, write};
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::sync::Arc;
+
+macro_rules! of_words {
+    ($($ty:ty),+ $(,)?) => {$(
+        impl Serialize for $ty {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serialize::words(self, serializer)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $ty {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserialize::words(deserializer)
+            }
+        }
+    )+};
+}
+
+of_words![
+    Camera,
+    Image,
+    Render,
+    Acceleration,
+    Integrator,
+    Reuse,
+    Caustics,
+    Indirect,
+    Effects,
+    PixelFilter,
+    ThinLens,
+    ToneMap,
+    Output,
+    Layer,
+    Background,
+    Environment,
+    Light,
+    SphereLight,
+    Material,
+    Diffuse,
+    Mirror,
+    Transparent,
+    BlinnPhong,
+    Conductor,
+    Emissive,
+    Metal,
+    Albedo,
+    Texture,
+    TextureFilter,
+    TextureWrap,
+    Checkerboard,
+    Mapping,
+    Object,
+    Sphere,
+    Rectangle,
+    RectBox,
+    Disk,
+    Cylinder,
+    Cone,
+    Capsule,
+    Mesh,
+    Instances,
+    Shading,
+    Placements,
+    PlacementPattern,
+    Transform,
+    Name,
+    PerAxis<2>,
+    PerAxis<3>,
+];
+
+/// What it says, without what has its default; not where that was written, nor the folder that paths start from.
+impl Serialize for SceneDesc {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        write::form(self, write::Defaults::Hidden).serialize(serializer)
+    }
+}
+
+/// Defaults are filled in, and all is checked as in a file. Paths start from the current folder unless `base_dir` is
+/// set; no file is looked at, so that what names others (`include`, `Include`) is refused.
+impl<'de> Deserialize<'de> for SceneDesc {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = deserialize::json(deserializer, Scene::TYPE)?;
+        load::unseen(&text).map_err(|faults| D::Error::custom(deserialize::told(&faults)))
+    }
+}
+
+impl<T: Serialize> Serialize for Spanned<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.value.serialize(serializer)
+    }
+}
+
+/// The value, from nowhere.
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Spanned<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        T::deserialize(deserializer).map(Spanned::from)
+    }
+}
+
+/// No material is nothing.
+impl Serialize for MaterialRef {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serialize::words(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for MaterialRef {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize::optional(deserializer).map(Option::unwrap_or_default)
+    }
+}
+
+/// A map of one name, as it stands among the materials of a scene.
+impl Serialize for NamedMaterial {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let entry = Entry::new(self.name.value.to_string(), self.material.form(false));
+        Form::Map(vec![entry]).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedMaterial {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(OneNamed)
+    }
+}
+
+struct OneNamed;
+
+impl<'de> Visitor<'de> for OneNamed {
+    type Value = NamedMaterial;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("a name with its material")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<NamedMaterial, A::Error> {
+        let (name, material) =
+            entries.next_entry::<String, Material>()?.ok_or_else(|| A::Error::custom("there is no name"))?;
+        if entries.next_key::<String>()?.is_some() {
+            return Err(A::Error::custom("there is more than one name"));
+        }
+        Ok(NamedMaterial { name: Arc::<str>::from(name).into(), material })
+    }
+}
