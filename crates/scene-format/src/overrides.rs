@@ -189,7 +189,10 @@ impl Setter {
     fn set(self, tree: &mut Tree<'_>, steps: &[Step<'_>]) -> Result<(), Diagnostic> {
         let edited = {
             let Some(root) = tree.root() else { return Ok(()) };
-            self.find(root, Scene::TYPE, steps, "the scene")?
+            match self.find_light_in_group(root, steps) {
+                Some(found) => found?,
+                None => self.find(root, Scene::TYPE, steps, "the scene")?,
+            }
         };
         let Some(edited) = edited else { return Ok(()) };
         match edited {

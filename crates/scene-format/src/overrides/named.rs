@@ -1,6 +1,7 @@
 //! Objects and lights by their names: `--set objects.lamp.radius=2`.
 
-use super::{Edited, Setter, Step};
+use super::{Edited, Setter, Step, What};
+use crate::desc::{ITEMS, Light};
 use crate::codes;
 use crate::diagnostic::Diagnostic;
 use crate::read::{repeat_body, shortened};
@@ -21,6 +22,15 @@ struct Named<'t, 's> {
     place: String,
     /// Whether it stands in a `Repeat`, which makes many of it.
     repeated: bool,
+}
+
+/// The items with names in one of the scene's lists, and in the groups within it.
+fn named_in<'t, 's>(root: Item<'t, 's>, list: &str, def: &'static EnumDef) -> Vec<Named<'t, 's>> {
+    let mut named = Vec::new();
+    for (_, items) in root.fields().filter(|(key, _)| key.text() == list) {
+        collect(items, def, list, false, &mut named);
+    }
+    named
 }
 
 /// Whether items of this type have names.
@@ -77,6 +87,24 @@ fn collect<'t, 's>(
 }
 
 impl Setter {
+    /// Goes on from the light of a group, where `lights.NAME` is none of the scene's own `lights`; `None`: it is for nobody here.
+    pub(super) fn find_light_in_group(
+        &self,
+        root: Item<'_, '_>,
+        steps: &[Step<'_>],
+    ) -> Option<Result<Option<Edited>, Diagnostic>> {
+        let [Step { what: What::Name("lights"), .. }, Step { what: What::Name(name), .. }, rest @ ..] = steps else {
+            return None;
+        };
+        if named_in(root, "lights", &Light::DEF).iter().any(|light| light.name == *name) {
+            return None;
+        }
+        let mut lights = named_in(root, "objects", &ITEMS);
+        lights.retain(|one| one.def.noun == Light::DEF.noun && one.name == *name && !one.repeated);
+        let [light] = lights.as_slice() else { return None };
+        Some(self.find(light.item, Type::Enum(light.def), rest, &format!("the light \"{name}\"")))
+    }
+
     /// Goes on from the item of a list that has this name.
     pub(super) fn find_named(
         &self,
