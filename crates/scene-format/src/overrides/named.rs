@@ -1,8 +1,8 @@
 //! Objects and lights by their names: `--set objects.lamp.radius=2`.
 
 use super::{Edited, Setter, Step, What};
-use crate::desc::{ITEMS, Light};
 use crate::codes;
+use crate::desc::{ITEMS, Light};
 use crate::diagnostic::Diagnostic;
 use crate::read::{repeat_body, shortened};
 use crate::schema::{Content, EnumDef, Type};
