@@ -7,9 +7,14 @@
 //! y = 16 b + j - g(16 a + i),  x = 16 a + i - h(y),
 //!
 //! with whole numbers g and h from 0 to 15 drawn anew for each sample index: each pixel lies in one block, and a block
-//! within two by two tiles of the sampler. All g are odd, or all are even, and so are all h: columns and rows that lie
-//! two apart in a block lie an even number of pixels apart in the picture, so that pixels that touch are never of one
-//! item.
+//! within two by two tiles of the sampler. All g are odd, or all are even, and so are all h: pairs of columns and of
+//! rows stay pairs.
+//!
+//! An item has one column of each pair and one row of each pair, a fourth of the block. Which one is drawn anew for each
+//! block, and so is the order of the pairs two by two ([`Deal`]). Were it always every other one, pixels an even number
+//! of pixels apart would err alike and those between would not: a screen over walls, seen at 400 % (correlations of 0.38
+//! at four pixels, 0.04 at two and none at one, three and five, in a lampshade's room). Pixels that touch are of one item
+//! with half the chance of those further on, so that what is left after a blur is no more than with every other one.
 
 use super::sampler::{hash3, z_order};
 
@@ -60,6 +65,24 @@ impl Cut {
     }
 }
 
+/// Which columns or rows of a block the quarters have: a bit for each pair says which of the two is the first quarter's,
+/// and a bit for each two pairs whether they change places.
+#[derive(Clone, Copy)]
+struct Deal {
+    swapped: u32,
+    turned: u32,
+}
+
+impl Deal {
+    /// The column or row of the first (`odd` is 0) or second quarter that has this place among its eight.
+    #[inline(always)]
+    fn line(self, place: u8, odd: u32) -> usize {
+        let place = u32::from(place);
+        let pair = place ^ (self.turned >> (place / 2) & 1);
+        (2 * pair + (odd ^ (self.swapped >> pair & 1))) as usize
+    }
+}
+
 /// A block: where it lies, in tiles, and how it is cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Block {
@@ -75,6 +98,16 @@ impl Block {
         Block { tile, cut: Cut::Straight }
     }
 
+    /// What its quarters have of its columns and of its rows.
+    #[inline(always)]
+    fn deals(&self) -> [Deal; 2] {
+        let bits = match self.cut {
+            Cut::Straight => 0,
+            Cut::Ragged { salt, .. } => hash3(!salt, self.tile[0] as u32, self.tile[1] as u32),
+        };
+        [bits as u32, (bits >> 32) as u32].map(|bits| Deal { swapped: bits & 0xff, turned: bits >> 8 & 0xf })
+    }
+
     /// The first and the last of the tiles that it may touch, along an axis.
     pub fn tiles(&self, axis: usize) -> std::ops::RangeInclusive<i32> {
         let last = self.tile[axis];
@@ -87,7 +120,7 @@ impl Block {
 pub struct Item {
     /// Its block.
     pub block: Block,
-    /// Every other column and row of the block: from the first or second column (bit 0) and row (bit 1) on.
+    /// One column (bit 0) and row (bit 1) of each pair of the block's.
     pub quarter: u32,
     /// Sample index; while glint chains are traced, their index (`engine::glints`).
     pub sample: u32,
@@ -144,9 +177,9 @@ impl Pixels {
                 of_rows = std::array::from_fn(|j| cut.at(0, first[1] + j as i32 - TILE as i32));
                 last = Some(item.block);
             }
-            let odd = [item.quarter & 1, item.quarter >> 1].map(|odd| odd as usize);
+            let [columns, rows] = item.block.deals();
             for (place, &[i, j]) in PLACES.iter().enumerate() {
-                let (i, j) = (2 * i as usize + odd[0], 2 * j as usize + odd[1]);
+                let (i, j) = (columns.line(i, item.quarter & 1), rows.line(j, item.quarter >> 1));
                 let of_block = j as i32 - of_columns[i];
                 let y = first[1] + of_block;
                 let x = first[0] + i as i32 - of_rows[(of_block + TILE as i32) as usize];
@@ -191,6 +224,40 @@ mod tests {
             assert!(other.iter().all(|&(_, &count)| count == 0.0));
             let chi2 = own.iter().map(|&(_, &count): &(usize, &f64)| (count - 512.0).powi(2) / 512.0).sum::<f64>();
             assert!(chi2 < 31.0, "{axis} {shift}: {chi2} {counts:?}");
+        }
+    }
+
+    /// Both quarters have one line of each pair, and lines of different pairs are of one quarter half the time, or stand at places of one
+    /// parity. With 4000 blocks the deviation of a frequency is 0.008.
+    #[test]
+    fn lines_are_dealt_by_pairs() {
+        const BLOCKS: i32 = 4000;
+        let mut together = [[0; TILE as usize]; TILE as usize];
+        let mut alternate = [0; TILE as usize];
+        for k in 0..BLOCKS {
+            let block = Block { tile: [k % 60, k / 60], cut: Cut::Ragged { salt: 9, shift: [0; 2] } };
+            for deal in block.deals() {
+                let quarters = [0, 1].map(|odd| (0..8).map(|place| deal.line(place, odd)).collect::<Vec<_>>());
+                for lines in &quarters {
+                    let mut pairs: Vec<_> = lines.iter().map(|line| line / 2).collect();
+                    pairs.sort_unstable();
+                    assert_eq!(pairs, (0..8).collect::<Vec<_>>());
+                    for (place, &line) in lines.iter().enumerate() {
+                        lines.iter().for_each(|&other| together[line][other] += 1);
+                        alternate[line] += place % 2;
+                    }
+                }
+                assert!((0..8).all(|place| quarters[0][place] / 2 == quarters[1][place] / 2));
+                assert!(quarters.concat().into_iter().collect::<std::collections::BTreeSet<_>>().len() == 16);
+            }
+        }
+        let frequency = |count: i32| f64::from(count) / f64::from(2 * BLOCKS);
+        for (line, row) in together.iter().enumerate() {
+            for (other, &count) in row.iter().enumerate().filter(|(other, _)| *other != line) {
+                let expected = if other / 2 == line / 2 { 0.0 } else { 0.5 };
+                assert!((frequency(count) - expected).abs() < 0.03, "{line}, {other}: {}", frequency(count));
+            }
+            assert!((frequency(alternate[line] as i32) - 0.5).abs() < 0.03, "{line}");
         }
     }
 }
