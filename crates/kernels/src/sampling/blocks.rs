@@ -178,8 +178,10 @@ impl Pixels {
                 last = Some(item.block);
             }
             let [columns, rows] = item.block.deals();
+            let columns: [_; SIDE / 2] = std::array::from_fn(|i| columns.line(i as u8, item.quarter & 1));
+            let rows: [_; SIDE / 2] = std::array::from_fn(|j| rows.line(j as u8, item.quarter >> 1));
             for (place, &[i, j]) in PLACES.iter().enumerate() {
-                let (i, j) = (columns.line(i, item.quarter & 1), rows.line(j, item.quarter >> 1));
+                let (i, j) = (columns[usize::from(i & 7)] & 15, rows[usize::from(j & 7)]);
                 let of_block = j as i32 - of_columns[i];
                 let y = first[1] + of_block;
                 let x = first[0] + i as i32 - of_rows[(of_block + TILE as i32) as usize];

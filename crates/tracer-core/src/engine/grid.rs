@@ -69,7 +69,7 @@ impl Grid {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
-    use tracer_kernels::sampling::blocks::{BLOCK_PIXELS, ITEM_PIXELS, Item, Pixels, QUARTERS};
+    use tracer_kernels::sampling::blocks::{BLOCK_PIXELS, Item, Pixels, QUARTERS};
 
     /// Where the pixels of a block lie.
     fn pixels(block: Block) -> Vec<[i32; 2]> {

@@ -155,18 +155,20 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
     let mut candidates = [Candidate { flight: 0, reference: 0, mask: 0, passage: Passage::none(isa) }; IN_FLIGHT];
     // Flights that have a ray, or may still get one.
     let mut live = 0xFFFF;
+    // Apart from the counters, which would be read and written in every round.
+    let (mut nodes, mut triangle_leaves) = (0, 0);
     while live != 0 {
         // Nodes are 0…, triangles 10…, everything else 11… (see `Ref`).
         let (not_nodes, not_triangles) = isa.high_bits16(&next);
         let mut at_nodes = !not_nodes & 0xFFFF;
-        counters.nodes += u64::from(at_nodes.count_ones());
+        nodes += at_nodes.count_ones();
         while at_nodes != 0 {
             let at = first_of(&mut at_nodes);
             next.0[at] = visit_node::<I, G>(isa, tree, &mut flights[at], next.0[at]);
             prefetch(tree, next.0[at]);
         }
         let mut at_triangles = not_nodes & !not_triangles;
-        counters.triangle_leaves += u64::from(at_triangles.count_ones());
+        triangle_leaves += at_triangles.count_ones();
         let mut passed = 0;
         while at_triangles != 0 {
             let at = first_of(&mut at_triangles);
@@ -246,6 +248,8 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
             prefetch(tree, next.0[at]);
         }
     }
+    counters.nodes += u64::from(nodes);
+    counters.triangle_leaves += u64::from(triangle_leaves);
 }
 
 /// Takes the first lane out of a mask that is not empty.
