@@ -12,8 +12,24 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 9] =
-    ["rectangle", "box", "disk", "cylinder", "cone", "capsule", "emissive", "checkerboard", "conductor"];
+const FOLDERS: [&str; 16] = [
+    "rectangle",
+    "box",
+    "disk",
+    "cylinder",
+    "cone",
+    "capsule",
+    "emissive",
+    "checkerboard",
+    "lines",
+    "dots",
+    "gradient",
+    "noise",
+    "wood",
+    "marble",
+    "voronoi",
+    "conductor",
+];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
 pub fn check_coverage(scenes: &[PathBuf]) -> Result<(), Failed> {

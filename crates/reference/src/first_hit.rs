@@ -44,7 +44,7 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
     let light = world.light_of(&hit).map(|light| &scene.lights[light]);
     let albedo = match (light, scene.materials.get(s.material as usize)) {
         (Some(_), _) | (_, None) => DVec3::ZERO,
-        (None, Some(material)) => texture::albedo(scene, material.traits().color, s.uv),
+        (None, Some(material)) => texture::albedo(scene, material.traits().color, &s),
     };
     let shines = light.filter(|light| light.two_sided() || s.outside);
     let emission = shines.map_or(DVec3::ZERO, |light| DVec3::from(light.radiance()) * scene.radiance_unit);

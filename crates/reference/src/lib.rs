@@ -15,6 +15,7 @@ mod environment;
 mod first_hit;
 mod light;
 mod materials;
+mod pattern;
 mod random;
 mod shapes;
 pub mod statistics;

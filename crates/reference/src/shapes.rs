@@ -89,7 +89,7 @@ pub fn meet(ray: &Ray, shape: &Shape) -> Option<f64> {
 }
 
 /// The surface at a hit: that of the piece whose equation holds best there.
-pub fn surface(shape: &Shape, p: DVec3, direction: DVec3) -> Surface {
+pub fn surface(body: u32, shape: &Shape, p: DVec3, direction: DVec3) -> Surface {
     let inverse = shape.placement.matrix3.inverse();
     let q = inverse * (p - shape.placement.translation);
     let (sheets, flats) = pieces(&shape.unit);
@@ -111,7 +111,7 @@ pub fn surface(shape: &Shape, p: DVec3, direction: DVec3) -> Surface {
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
     let uv = uv(&shape.unit, q, flat);
-    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material }
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material, body }
 }
 
 /// Texture coordinates as the manual says them.

@@ -23,15 +23,17 @@ pub struct Surface {
     /// Texture coordinates, v upwards.
     pub uv: [f64; 2],
     pub material: u32,
+    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the copy of a mesh.
+    pub body: u32,
 }
 
 /// The normal is (p - c)/r; u is the longitude from -z over -x, z and x (the middle of the picture looks along +z), v the latitude.
-pub fn on_sphere(sphere: &Sphere, p: DVec3, direction: DVec3) -> Surface {
+pub fn on_sphere(body: u32, sphere: &Sphere, p: DVec3, direction: DVec3) -> Surface {
     let outward = (p - sphere.center).normalize();
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
     let uv = [0.5 + outward.x.atan2(outward.z) / TAU, 1.0 - outward.y.clamp(-1.0, 1.0).acos() / PI];
-    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: sphere.material }
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: sphere.material, body }
 }
 
 /// Counter-clockwise is outside. The shading normal is the vertex normals', weighted by the barycentric coordinates (Phong 1975).
@@ -53,6 +55,7 @@ pub fn on_triangle(triangle: &Triangle, p: DVec3, direction: DVec3, smoothing: S
         outside,
         uv: triangle.uvs.map_or([0.0; 2], |uvs| [0, 1].map(|axis| (0..3).map(|k| weights[k] * uvs[k][axis]).sum())),
         material: triangle.material,
+        body: triangle.body,
     };
     let Some(normals) = triangle.normals else { return surface };
     let interpolated: DVec3 = (0..3).map(|k| weights[k] * normals[k]).sum();

@@ -1,16 +1,20 @@
 //! Colours of surfaces, constant or from a picture.
 
+use crate::pattern;
+use crate::surface::Surface;
 use glam::DVec3;
 use tracer_core::Scene;
 use tracer_core::scene::{Albedo, Texel, TextureView};
 use tracer_core::scene::{TextureFilter, TextureWrap};
 
-/// The albedo at texture coordinates (u, v), v upwards.
-pub fn albedo(scene: &Scene, albedo: Albedo, [u, v]: [f64; 2]) -> DVec3 {
+/// The albedo at a surface.
+pub fn albedo(scene: &Scene, albedo: Albedo, s: &Surface) -> DVec3 {
     let index = match albedo {
         Albedo::Color(color) => return DVec3::from(color),
         Albedo::Texture(index) => index,
+        Albedo::Pattern(index) => return pattern::color(scene, index, s),
     };
+    let [u, v] = s.uv;
     let texture = scene.texture(index).expect("a texture of the scene");
     let [x, y] = texture.mapping;
     let (u, v) = (x[0] * u + x[1] * v + x[2], y[0] * u + y[1] * v + y[2]);

@@ -19,6 +19,8 @@ pub struct Triangle {
     pub light: u32,
     /// The object that it is of.
     pub object: u32,
+    /// See [`surface::Surface::body`].
+    pub body: u32,
 }
 
 /// What a ray hit.
@@ -45,9 +47,11 @@ pub struct World {
 
 impl World {
     pub fn new(scene: &Scene) -> Self {
-        let triangles = scene.instances.iter().flat_map(|instance| {
+        let loose = (scene.spheres.len() + scene.shapes.len()) as u32;
+        let triangles = (loose..).zip(&scene.instances).flat_map(|(body, instance)| {
             let mesh = scene.meshes[instance.mesh as usize];
-            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).map(move |k| triangle(scene, instance, k))
+            (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count)
+                .map(move |k| triangle(scene, body, instance, k))
         });
         World { spheres: scene.spheres.clone(), curved: scene.shapes.clone(), triangles: triangles.collect() }
     }
@@ -96,15 +100,15 @@ impl World {
     pub fn surface(&self, ray: &Ray, hit: &Hit, smoothing: Smoothing) -> surface::Surface {
         let p = ray.origin + hit.t * ray.direction;
         match hit.shape {
-            Shape::Sphere(k) => surface::on_sphere(&self.spheres[k], p, ray.direction),
-            Shape::Curved(k) => shapes::surface(&self.curved[k], p, ray.direction),
+            Shape::Sphere(k) => surface::on_sphere(k as u32, &self.spheres[k], p, ray.direction),
+            Shape::Curved(k) => shapes::surface((self.spheres.len() + k) as u32, &self.curved[k], p, ray.direction),
             Shape::Triangle(k) => surface::on_triangle(&self.triangles[k], p, ray.direction, smoothing),
         }
     }
 }
 
 /// A triangle of a copy, brought to render space: points by the matrix, normals by its inverse transpose.
-fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
+fn triangle(scene: &Scene, body: u32, instance: &Instance, k: u32) -> Triangle {
     let [x, y, z] =
         instance.placement.map_or([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], |rows| {
             rows.map(|row| row.map(f64::from))
@@ -124,6 +128,7 @@ fn triangle(scene: &Scene, instance: &Instance, k: u32) -> Triangle {
         material: if instance.material == NONE { triangles.material[k as usize] } else { instance.material },
         light: triangles.light.get(k as usize).copied().unwrap_or(NONE),
         object: instance.object,
+        body,
     }
 }
 

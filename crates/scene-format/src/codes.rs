@@ -591,8 +591,8 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
     /// A texture has transparent pixels. Its colours are used, its transparency is not.
     TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
-    /// A mesh has a material with a picture or a checkerboard, and its file no texture coordinates: every point of it has the colour of
-    /// one corner of the picture.
+    /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every point of it has the
+    /// colour of one corner. A pattern with `mapping: Object()` needs none.
     NO_COORDINATES "W0521" "a texture on a mesh without texture coordinates";
     /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as the largest number of a
     /// half, 65504.

@@ -1,10 +1,10 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, Indirect, Instances, Integrator, Layer, Light, Material, Metal, PixelFilter, Reuse,
-    Shading, TextureFilter, TextureWrap, ToneMap,
+    Acceleration, Caustics, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material, Metal,
+    NoiseKind, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap, VoronoiFeature,
 };
-use crate::desc::{BackgroundWords, DepthOfField, ITEMS, MappingWords, Pattern, PlacementPattern, TransformWords};
+use crate::desc::{BackgroundWords, DepthOfField, ITEMS, MappingWords, PatternWords, PlacementPattern, TransformWords};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -43,7 +43,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 22] = [
+pub(crate) const CHOICES: [&EnumDef; 27] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -57,11 +57,16 @@ pub(crate) const CHOICES: [&EnumDef; 22] = [
     &BackgroundWords::DEF,
     &Material::DEF,
     &Metal::DEF,
-    &Pattern::DEF,
+    &PatternWords::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
     &MappingWords::DEF,
     &ITEMS,
+    &SolidMapping::DEF,
+    &GradientAxis::DEF,
+    &LinesAlong::DEF,
+    &NoiseKind::DEF,
+    &VoronoiFeature::DEF,
     &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
@@ -70,7 +75,7 @@ pub(crate) const CHOICES: [&EnumDef; 22] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
 /// materials' own words.
-const SNIPPETS: [(&str, &str, &str); 74] = [
+const SNIPPETS: [(&str, &str, &str); 97] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -113,11 +118,30 @@ const SNIPPETS: [(&str, &str, &str); 74] = [
     ("Metal", "Brass", "Conductor(metal: Brass, roughness: 0.25)"),
     ("Metal", "Platinum", "Conductor(metal: Platinum, roughness: 0.15)"),
     ("Metal", "Steel", "Conductor(metal: Steel, roughness: 0.35)"),
-    ("Pattern", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
+    ("PatternWords", "Texture", "Diffuse(albedo: Texture(file: \"checker.png\"))"),
     (
-        "Pattern",
+        "PatternWords",
         "Checkerboard",
         "Diffuse(albedo: Checkerboard(a: 0.2, b: (0.8, 0.7, 0.6), mapping: Uv(scale: (16, 8))))",
+    ),
+    ("PatternWords", "Lines", "Diffuse(albedo: Lines(a: 0.3, b: 0.8, width: 0.1, mapping: Uv(scale: (16, 8))))"),
+    (
+        "PatternWords",
+        "Dots",
+        "Diffuse(albedo: Dots(a: 0.7, b: \"#c03020\", radius: 0.35, mapping: Uv(scale: (16, 8))))",
+    ),
+    ("PatternWords", "Gradient", "Diffuse(albedo: Gradient(a: (0.1, 0.2, 0.5), b: (0.9, 0.7, 0.5)))"),
+    ("PatternWords", "Noise", "Diffuse(albedo: Noise(a: 0.1, b: 0.8, mapping: Object(scale: 3)))"),
+    (
+        "PatternWords",
+        "Wood",
+        "Diffuse(albedo: Wood(a: (0.5, 0.28, 0.13), b: (0.2, 0.09, 0.04), mapping: Object(scale: 6)))",
+    ),
+    ("PatternWords", "Marble", "Diffuse(albedo: Marble(a: 0.2, b: 0.8, mapping: Object(scale: 2)))"),
+    (
+        "PatternWords",
+        "Voronoi",
+        "Diffuse(albedo: Voronoi(a: (0.2, 0.18, 0.15), b: 0.8, feature: Cell, mapping: Object(scale: 3)))",
     ),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
@@ -129,6 +153,22 @@ const SNIPPETS: [(&str, &str, &str); 74] = [
         "Uv",
         "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Uv(scale: (4, 2), rotation: 30, offset: (0.5, 0))))",
     ),
+    ("SolidMapping", "Uv", "Diffuse(albedo: Checkerboard(mapping: Uv(scale: (16, 8))))"),
+    ("SolidMapping", "Object", "Diffuse(albedo: Checkerboard(mapping: Object(scale: 4)))"),
+    ("SolidMapping", "World", "Diffuse(albedo: Noise(mapping: World(scale: (1, 8, 1), offset: (0, 0.5, 0))))"),
+    ("GradientAxis", "X", "Diffuse(albedo: Gradient(axis: X))"),
+    ("GradientAxis", "Y", "Diffuse(albedo: Gradient(axis: Y, mapping: Object(scale: 0.5, offset: (0, 0.5, 0))))"),
+    ("GradientAxis", "Z", "Diffuse(albedo: Gradient(axis: Z, mapping: Object(scale: 0.5, offset: (0, 0, 0.5))))"),
+    ("GradientAxis", "Radial", "Diffuse(albedo: Gradient(axis: Radial, mapping: Object(offset: (0, -1, 0))))"),
+    ("LinesAlong", "Both", "Diffuse(albedo: Lines(along: Both, mapping: Uv(scale: (16, 8))))"),
+    ("LinesAlong", "U", "Diffuse(albedo: Lines(along: U, width: 0.5, mapping: Uv(scale: (16, 8))))"),
+    ("LinesAlong", "V", "Diffuse(albedo: Lines(along: V, width: 0.5, mapping: Uv(scale: (16, 8))))"),
+    ("NoiseKind", "Fbm", "Diffuse(albedo: Noise(kind: Fbm, octaves: 8, mapping: Object(scale: 3)))"),
+    ("NoiseKind", "Perlin", "Diffuse(albedo: Noise(kind: Perlin, mapping: Object(scale: 6)))"),
+    ("NoiseKind", "Turbulence", "Diffuse(albedo: Noise(kind: Turbulence, gain: 0.6, mapping: Object(scale: 3)))"),
+    ("VoronoiFeature", "F1", "Diffuse(albedo: Voronoi(feature: F1, mapping: Object(scale: 3)))"),
+    ("VoronoiFeature", "F2MinusF1", "Diffuse(albedo: Voronoi(feature: F2MinusF1, mapping: Object(scale: 3)))"),
+    ("VoronoiFeature", "Cell", "Diffuse(albedo: Voronoi(feature: Cell, jitter: 0.7, mapping: Object(scale: 3)))"),
     ("Object", "Sphere", "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))"),
     (
         "Object",
@@ -212,7 +252,8 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             files = &[SKY];
         }
         "Material" | "Metal" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
-        "Pattern" | "TextureFilter" | "TextureWrap" | "MappingWords" => {
+        "PatternWords" | "TextureFilter" | "TextureWrap" | "MappingWords" | "SolidMapping" | "GradientAxis"
+        | "LinesAlong" | "NoiseKind" | "VoronoiFeature" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
             files = &[CHECKER];
         }

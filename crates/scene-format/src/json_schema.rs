@@ -4,6 +4,7 @@
 //! beside `allOf`, since draft-07 ignores what stands beside a `$ref`.
 
 use crate::desc::Scene;
+use crate::examples::CHOICES;
 use crate::form::Form;
 use crate::read::{PICK, REPEAT};
 use crate::schema::{Content, EnumDef, FieldDef, Rule, StructDef, Type, VariantDef, prose};
@@ -117,7 +118,12 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
                 kinds.iter().map(|&kind| Value::Object(type_schema(kind, rule, definitions))).collect();
             json!({ "anyOf": kinds })
         }
-        Type::Struct(def) => reference(def.name, definitions, |definitions| struct_schema(def, definitions)),
+        Type::Struct(def) => {
+            // A kind may have the name of a choice, as a mapping by an object's coordinates has.
+            let choice = CHOICES.iter().any(|choice| choice.name == def.name);
+            let name = if choice { format!("{}Kind", def.name) } else { def.name.to_owned() };
+            reference(&name, definitions, |definitions| struct_schema(def, definitions))
+        }
         Type::Enum(def) => reference(def.name, definitions, |definitions| enum_schema(def, definitions)),
         Type::Later(kind) => return type_schema(kind(), rule, definitions),
     };

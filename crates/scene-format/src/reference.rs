@@ -230,7 +230,7 @@ and of the edit that mends it.
 /// `docs/scene-reference.md`: every field, kind, default, unit and range.
 pub fn reference() -> String {
     let mut out = INTRODUCTION.to_owned();
-    let mut done = Vec::new();
+    let mut done = Done::default();
     section(&mut out, &Scene::DEF, &mut done);
     out
 }
@@ -254,11 +254,18 @@ This file is generated from `crates/scene-format/src/codes.rs`; a test fails whe
     out
 }
 
-fn section(out: &mut String, def: &'static StructDef, done: &mut Vec<&'static str>) {
-    if done.contains(&def.name) {
+/// What has its section; a kind may have the name of a choice.
+#[derive(Default)]
+struct Done {
+    structs: Vec<&'static str>,
+    choices: Vec<&'static str>,
+}
+
+fn section(out: &mut String, def: &'static StructDef, done: &mut Done) {
+    if done.structs.contains(&def.name) {
         return;
     }
-    done.push(def.name);
+    done.structs.push(def.name);
     let _ = write!(out, "\n## {}\n\n{}\n", def.name, prose(def.doc));
     table(out, def);
     for field in def.fields {
@@ -267,7 +274,7 @@ fn section(out: &mut String, def: &'static StructDef, done: &mut Vec<&'static st
 }
 
 /// The sections of what a field's type is made of.
-fn parts(out: &mut String, kind: Type, done: &mut Vec<&'static str>) {
+fn parts(out: &mut String, kind: Type, done: &mut Done) {
     match kind.resolved() {
         Type::Struct(def) => section(out, def, done),
         Type::Enum(def) => choice(out, def, done),
@@ -277,11 +284,11 @@ fn parts(out: &mut String, kind: Type, done: &mut Vec<&'static str>) {
     }
 }
 
-fn choice(out: &mut String, def: &'static EnumDef, done: &mut Vec<&'static str>) {
-    if done.contains(&def.name) {
+fn choice(out: &mut String, def: &'static EnumDef, done: &mut Done) {
+    if done.choices.contains(&def.name) {
         return;
     }
-    done.push(def.name);
+    done.choices.push(def.name);
     let _ = write!(out, "\n## {}\n\n{}\n", title(def.name), prose(def.doc));
     debug_assert!(CHOICES.iter().any(|choice| choice.name == def.name), "{} is not among the choices", def.name);
     for variant in def.variants {
@@ -295,7 +302,7 @@ fn choice(out: &mut String, def: &'static EnumDef, done: &mut Vec<&'static str>)
                 let _ = write!(out, "\nValue: {}.\n", expected(at));
             }
             Content::Struct(fields) => {
-                done.push(fields.name);
+                done.structs.push(fields.name);
                 table(out, fields);
             }
         }
@@ -310,7 +317,7 @@ fn choice(out: &mut String, def: &'static EnumDef, done: &mut Vec<&'static str>)
 fn title(name: &'static str) -> &'static str {
     match name {
         "TransformWords" => "Transform",
-        "Pattern" => "Texture",
+        "PatternWords" => "Texture",
         "PlacementPattern" => "Patterns of placements",
         "PixelFilter" => "Antialiasing",
         name => name,

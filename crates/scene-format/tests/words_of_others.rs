@@ -65,9 +65,20 @@ fn kinds_of_materials_and_textures() {
         ("Mix(a: 1)", "cannot be mixed"),
         ("Diffuse(bump: 1)", "no bumps"),
         ("Diffuse(roughness: 1)", "`exponent` of BlinnPhong"),
-        ("Diffuse(albedo: Noise())", "make a picture of it"),
+        ("Diffuse(albedo: Perlin())", "did you mean `Noise`?"),
         ("Diffuse(albedo: Checker())", "did you mean `Checkerboard`?"),
-        ("Diffuse(albedo: Gradient(a: 1))", "make a picture of it"),
+        ("Diffuse(albedo: Bricks(a: 1))", "make a picture of it"),
+        ("Diffuse(albedo: Worley())", "did you mean `Voronoi`?"),
+        ("Diffuse(albedo: Crackle())", "did you mean `Voronoi`?"),
+        ("Diffuse(albedo: Granite())", "did you mean `Noise`?"),
+        ("Diffuse(albedo: Agate())", "did you mean `Marble`?"),
+        ("Diffuse(albedo: Wave())", "Marble(..) in planes"),
+        ("Diffuse(albedo: ColorRamp(stops: 1))", "`a` and `b`"),
+        ("Diffuse(albedo: Lines(mapping: Object()))", "lie on surfaces: Uv(..)"),
+        ("Diffuse(albedo: Texture(file: \"a.png\", mapping: World()))", "lie on surfaces: Uv(..)"),
+        ("Diffuse(albedo: Noise(mapping: Triplanar(scale: 2)))", "Object(..) and World(..)"),
+        ("Diffuse(albedo: Noise(mapping: Local()))", "did you mean `Object`?"),
+        ("Diffuse(albedo: Grid())", "did you mean `Lines`?"),
     ];
     check(&cases, |material| scene("", "", &format!("Box(size: 1, material: {material})")));
 }

@@ -17,13 +17,19 @@ struct Counted {
     calls: Vec<String>,
 }
 
+/// What is in the name of a part of a stage (`Lanes::apart`).
+const PART: &str = "Lanes>::apart::enter";
+
 /// Counts in the entry functions of the stages, per level.
 fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
     let mut levels: BTreeMap<&'static str, Counted> = BTreeMap::new();
     let mut level = None;
     for line in disassembly.lines() {
         if line.ends_with(">:") {
-            level = ["avx512", "avx2"].into_iter().find(|l| line.contains(&format!("engine::kernels::{l}::")));
+            level = ["avx512", "avx2"].into_iter().find(|l| {
+                line.contains(&format!("engine::kernels::{l}::"))
+                    || (line.contains(&format!("lanes::{l}::")) && line.contains(PART))
+            });
             // A stage that stands alone was not inlined into an entry function.
             if level.is_none() && line.contains("engine::stages::") && line.contains("closure") {
                 level = Some("avx512");
@@ -35,8 +41,8 @@ fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
         counted.zmm += usize::from(line.contains("%zmm"));
         counted.ymm += usize::from(line.contains("%ymm"));
         let inlined = ["core_arch", "lanes::", "engine::stages::", "math::vector"];
-        // Curved shapes are looked up one by one in double precision, by a call on purpose.
-        let one_by_one = line.contains("engine::stages::shapes::find");
+        // Curved shapes are looked up one by one in double precision, by a call on purpose; so are parts of stages, which count themselves.
+        let one_by_one = line.contains("engine::stages::shapes::find") || line.contains(PART);
         if line.contains("call") && !one_by_one && inlined.iter().any(|word| line.contains(word)) {
             counted.calls.push(line.to_owned());
         }

@@ -26,11 +26,11 @@ pub fn listen(shell: Shell) -> Result<(), Failure> {
 #[cfg(unix)]
 fn by_system(shell: Shell) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let mut asked = vec![SIGINT, SIGTERM];
-    // Whoever started us with `nohup` wants no end when the terminal goes.
-    if !ignores_hangup() {
-        asked.push(SIGHUP);
-    }
+    // Whoever started us with `nohup` wants no end when the terminal goes; a shell that has put us into the background of a script wants none
+    // by the Ctrl-C that ends the script.
+    let ignored = ignored();
+    let asked =
+        [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal == SIGTERM || ignored >> (signal - 1) & 1 == 0);
     let mut signals = signal_hook::iterator::Signals::new(asked)?;
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
         let mut hung_up: Option<Instant> = None;
@@ -49,13 +49,12 @@ fn by_system(shell: Shell) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether SIGHUP was ignored when the program started, as Linux tells; elsewhere it is taken to be heeded.
+/// The signals that were ignored when the program started, as Linux tells, bit `n - 1` for signal `n`; elsewhere all are taken to be heeded.
 #[cfg(unix)]
-fn ignores_hangup() -> bool {
+fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_some_and(|mask| mask & 1 == 1)
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
 #[cfg(not(unix))]

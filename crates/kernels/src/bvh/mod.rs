@@ -258,6 +258,11 @@ impl Accel {
         self.coplanar.as_ref().map(Coplanar::offsets)
     }
 
+    /// As [`coplanar_offsets`](Self::coplanar_offsets) off each curved shape, by its place among the shapes; `None` where none has any.
+    pub fn coplanar_shape_offsets(&self) -> Option<&[f32]> {
+        self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
+    }
+
     /// The tree's bytes, for comparing builds.
     pub fn bytes(&self) -> &[u8] {
         bytemuck::cast_slice(self.arena.units())

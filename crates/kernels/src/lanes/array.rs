@@ -1,6 +1,6 @@
 //! Lanes as plain arrays. `ArrayF<1>` is the scalar twin of the vector code; wider ones serve machines without AVX2.
 
-use super::{Bits, Lanes, Mask};
+use super::{Bits, Lanes, Mask, Part};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// N floats.
@@ -213,6 +213,11 @@ impl<const N: usize> Lanes for ArrayF<N> {
     #[inline(always)]
     fn gather(table: &[f32], index: Self::U) -> Self {
         ArrayF(each!(N, 0f32, |i| table[(index.0[i] as usize).min(table.len() - 1)]))
+    }
+    /// Without the instructions of the level that calls it, since one lane serves two of them: slower there, the same bits.
+    #[inline(never)]
+    fn apart<P: Part<Self>>(part: P) -> P::Out {
+        part.run()
     }
     #[inline(always)]
     fn compress(self, mask: Self::M, to: &mut [f32]) {

@@ -4,7 +4,7 @@
 //! are compiled for the features and called only for a [`Level`](crate::Level), and a `Level` exists only where the
 //! CPU was seen to have them. No code outside this crate can name the types. That is "the CPU" in the comments below.
 
-use super::{Bits, Lanes, Mask};
+use super::{Bits, Lanes, Mask, Part};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -439,6 +439,16 @@ impl Lanes for F8 {
     fn gather4(table: &[f32], place: U8) -> [Self; 4] {
         let [a, b, c, d] = rows_of_four(table, place);
         [F8(a), F8(b), F8(c), F8(d)]
+    }
+    #[inline(always)]
+    fn apart<P: Part<Self>>(part: P) -> P::Out {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+        #[inline(never)]
+        fn enter<P: Part<F8>>(part: P) -> P::Out {
+            part.run()
+        }
+        // SAFETY: the CPU has the features of the level that this is compiled into, which are those of `enter`.
+        unsafe { enter(part) }
     }
     #[inline(always)]
     fn compress(self, mask: M8, to: &mut [f32]) {

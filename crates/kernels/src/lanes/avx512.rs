@@ -4,7 +4,7 @@
 //! are compiled for the features and called only for a [`Level`](crate::Level), and a `Level` exists only where the
 //! CPU was seen to have them. No code outside this crate can name the types. That is "the CPU" in the comments below.
 
-use super::{Bits, Lanes, Mask};
+use super::{Bits, Lanes, Mask, Part};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -271,6 +271,16 @@ impl Lanes for F16 {
                 F16(_mm512_i32gather_ps::<4>(index.clamped(n), table.as_ptr().cast()))
             }
         }
+    }
+    #[inline(always)]
+    fn apart<P: Part<Self>>(part: P) -> P::Out {
+        #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+        #[inline(never)]
+        fn enter<P: Part<F16>>(part: P) -> P::Out {
+            part.run()
+        }
+        // SAFETY: the CPU has the features of the level that this is compiled into, which are those of `enter`.
+        unsafe { enter(part) }
     }
     #[inline(always)]
     fn compress(self, mask: M16, to: &mut [f32]) {

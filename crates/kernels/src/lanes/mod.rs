@@ -87,6 +87,15 @@ pub trait Bits:
     fn compress(self, mask: Self::M, to: &mut [u32]);
 }
 
+/// A piece of a stage that is large and seldom needed: compiled once a lane type, as a function that the stages call, instead of in every
+/// stage that has need of it ([`Lanes::apart`]).
+pub trait Part<F: Lanes> {
+    /// What comes of it.
+    type Out;
+    /// Does it; `#[inline(always)]`, as all that is generic over lanes.
+    fn run(self) -> Self::Out;
+}
+
 /// N `f32`.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> + 'static
@@ -151,6 +160,10 @@ pub trait Lanes:
     }
     /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
     fn compress(self, mask: Self::M, to: &mut [f32]);
+
+    /// Runs a part as a function of its own, with the instructions that these lanes are made of. Its operands go over memory, so that they
+    /// stay in registers where no part is run.
+    fn apart<P: Part<Self>>(part: P) -> P::Out;
 
     /// True in the first `n` lanes (all of them when `n` is N or more).
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Two vectors as one of twice the lanes: more independent work in flight, for stages whose chains of operations are longer than what the
 //! processor looks ahead.
 
-use super::{Bits, Lanes, Mask};
+use super::{Bits, Lanes, Mask, Part};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// The lanes of the first, then those of the second: of floats, of integers or of truth values.
@@ -172,6 +172,11 @@ impl<F: Lanes> Lanes for Pair<F> {
     #[inline(always)]
     fn gather(table: &[f32], index: Self::U) -> Self {
         Pair(F::gather(table, index.0), F::gather(table, index.1))
+    }
+    /// In place: its features are not known here, and no stage of pairs has parts.
+    #[inline(always)]
+    fn apart<P: Part<Self>>(part: P) -> P::Out {
+        part.run()
     }
     #[inline(always)]
     fn compress(self, mask: Self::M, to: &mut [f32]) {

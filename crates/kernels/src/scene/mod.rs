@@ -11,6 +11,7 @@ mod frame;
 mod light;
 pub mod materials;
 mod mesh;
+mod pattern;
 mod shape;
 mod sphere;
 mod statistics;
@@ -26,6 +27,10 @@ pub use materials::{Albedo, Material};
 pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
+pub use pattern::{
+    GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
+};
+pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
 pub use shape::Shape;
 pub use shape::ShapeTable;
 pub use sphere::Sphere;
@@ -124,6 +129,20 @@ impl Scene {
     pub fn texture(&self, index: u32) -> Option<TextureView<'_>> {
         self.tables.textures.view(index)
     }
+
+    /// A texture that is reckoned, by the index in [`Albedo::Pattern`].
+    pub fn pattern(&self, index: u32) -> Option<&Pattern> {
+        self.tables.patterns.patterns.get(index as usize)
+    }
+
+    /// Rows of the 3x4 matrix from render space to the coordinates that a surface is written in, before its transforms; `body`: the number of
+    /// the sphere, behind the spheres that of the shape, behind those that of the instance; `None`: to the world's. `None` where no pattern
+    /// asks for it.
+    pub fn to_object(&self, body: Option<u32>) -> Option<[[f64; 4]; 3]> {
+        let patterns = &self.tables.patterns;
+        let entry = body.map_or(Some(0), |body| patterns.entry.get(body as usize).copied())?;
+        patterns.maps.get(entry as usize).copied()
+    }
 }
 
 /// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
@@ -138,6 +157,16 @@ pub struct Tables {
     pub lights: LightTable,
     /// Textures.
     pub textures: TextureTable,
+    /// Patterns.
+    pub patterns: PatternTable,
     /// Instances.
     pub instances: InstanceTable,
+}
+
+impl Tables {
+    /// Spheres and shapes: the primitive id of the first triangle.
+    #[inline(always)]
+    pub fn loose(&self) -> u32 {
+        self.spheres.len + self.shapes.rows.len() as u32
+    }
 }

@@ -14,6 +14,8 @@ pub struct Shape {
     pub material: u32,
     /// Its object's place in the scene.
     pub object: u32,
+    /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.
+    pub coordinates: u32,
 }
 
 impl Shape {

@@ -26,6 +26,8 @@ pub struct Sphere {
     pub object: u32,
     /// Index into `Scene::lights`; [`super::NONE`] for an object.
     pub light: u32,
+    /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.
+    pub coordinates: u32,
 }
 
 /// A sphere by a point on its surface.

@@ -119,7 +119,7 @@ impl Scene {
 fn texture(material: &Material) -> Option<u32> {
     match material.traits().color {
         Albedo::Texture(t) => Some(t),
-        Albedo::Color(_) => None,
+        Albedo::Color(_) | Albedo::Pattern(_) => None,
     }
 }
 

@@ -97,6 +97,12 @@ fn open(side: Side, ray: &ObjectRay, leaves: bool) -> Option<f64> {
     [first, second].into_iter().filter(counts).reduce(f64::min).map(|t| ray.t0 + t)
 }
 
+/// z and radii of its caps, where it has any.
+pub(super) fn faces(parameters: &[f32; 3]) -> [Option<(f64, [f64; 2])>; 2] {
+    let side = Side::of(parameters);
+    [-1.0, 1.0].map(|z| (flags(parameters) & CAPS != 0 && side.radius(z) > 0.0).then(|| (z, [0.0, side.radius(z)])))
+}
+
 pub(super) fn surface(parameters: &[f32; 3], q: DVec3) -> OnUnit {
     let (side, flags) = (Side::of(parameters), flags(parameters));
     if let Some(z) = cap(side, q, flags) {

@@ -15,6 +15,11 @@ pub(super) fn hit(&[inner, ..]: &[f32; 3], ray: &ObjectRay, leaves: bool) -> Opt
     within.then_some(ray.t0 + t).filter(|&t| t > 0.0)
 }
 
+/// z and radii of its flat face.
+pub(super) fn face(&[inner, ..]: &[f32; 3]) -> (f64, [f64; 2]) {
+    (0.0, [f64::from(inner), 1.0])
+}
+
 pub(super) fn surface(_: &[f32; 3], q: DVec3) -> OnUnit {
     OnUnit { q: DVec3::new(q.x, q.y, 0.0), n: DVec3::Z, uv: square(q.x, q.y) }
 }

@@ -150,6 +150,17 @@ impl Row {
         DMat3::from_cols_array_2d(&self.object).transpose()
     }
 
+    /// The flat parts of its surface.
+    pub fn flat_faces(&self) -> impl Iterator<Item = FlatFace> + use<> {
+        let faces = match self.kind {
+            UnitShape::DISK => [Some(disk::face(&self.parameters)), None],
+            UnitShape::CONE => cone::faces(&self.parameters),
+            _ => [None; 2],
+        };
+        let row = *self;
+        faces.into_iter().flatten().map(move |(z, radii)| FlatFace { row, z, radii })
+    }
+
     /// The least t > 0 at which the ray meets the shape; `leaves`: it starts on this very shape and is not met there.
     /// The direction need not be unit.
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
@@ -183,6 +194,37 @@ impl Row {
             _ => sphere::surface(q),
         };
         OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }
+    }
+}
+
+/// A flat part of a shape: what of the plane z = `z` of its object space is between two circles about the z axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatFace {
+    row: Row,
+    z: f64,
+    /// Radii of both circles.
+    radii: [f64; 2],
+}
+
+impl FlatFace {
+    /// Corners of the square about it, in render space, one after the other.
+    pub fn corners(&self) -> [DVec3; 4] {
+        let (map, r) = (self.row.object_from_render().inverse(), self.radii[1]);
+        [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| DVec3::from(self.row.anchor) + map * DVec3::new(x, y, self.z))
+    }
+
+    /// t where a ray's line passes through it.
+    pub fn passed(&self, origin: [f32; 3], direction: [f32; 3]) -> Option<f64> {
+        let map = self.row.object_from_render();
+        let d = DVec3::from(direction.map(f64::from));
+        let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.row.anchor);
+        let (o, d) = (map * from_anchor, map * d);
+        let t = (self.z - o.z) / d.z;
+        let at = o.truncate() + t * d.truncate();
+        let squared = at.dot(at);
+        // A line along the plane has no t, and none of these holds.
+        let [inner, outer] = self.radii.map(|r| r * r);
+        (inner <= squared && squared <= outer).then_some(t)
     }
 }
 

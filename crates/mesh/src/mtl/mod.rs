@@ -238,7 +238,7 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
 fn default_albedo() -> Color {
     match Albedo::default() {
         Albedo::Color(color) => color.value,
-        Albedo::Texture(_) | Albedo::Checkerboard(_) => [0.8; 3],
+        _ => [0.8; 3],
     }
 }
 

@@ -61,7 +61,7 @@ impl Materials {
 
 /// What the surface's material does with light to wo: one line a material.
 pub fn scatter(scene: &Scene, known: &Materials, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
-    let color = |albedo| texture::albedo(scene, albedo, s.uv);
+    let color = |albedo| texture::albedo(scene, albedo, s);
     match scene.materials[s.material as usize] {
         // Its surface is a light's.
         Material::Emissive(_) => Scattered::Nothing,

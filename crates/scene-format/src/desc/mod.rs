@@ -41,8 +41,11 @@ pub use shapes::{
     Capsule, Cone, Cylinder, Disk, Faces, Groups, InlineMesh, Instances, Mesh, MeshSource, Moved, PlacementList,
     PlacementPattern, Placements, RectBox, Rectangle, Shading, Sphere, Within,
 };
-pub use textures::{Albedo, Checkerboard, Mapping, Texture, TextureFilter, TextureWrap};
-pub(crate) use textures::{MappingWords, Pattern};
+pub use textures::{
+    Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,
+    SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Voronoi, VoronoiFeature, Wood,
+};
+pub(crate) use textures::{MappingWords, PatternWords, is_texture};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};

@@ -3,6 +3,7 @@
 use super::Reader;
 use super::value::hex_color;
 use crate::codes;
+use crate::desc::is_texture;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
@@ -195,13 +196,13 @@ impl Reader<'_> {
             Syntax::Json => format!("{{ \"Diffuse\": {{ \"albedo\": {lexeme} }} }}"),
         };
         let albedo = match item.kind() {
-            Kind::Tuple | Kind::Struct if matches!(item.name(), Some("Texture" | "Checkerboard")) => true,
+            Kind::Tuple | Kind::Struct if item.name().is_some_and(is_texture) => true,
             Kind::Tuple | Kind::List if item.name().is_none() => {
                 numbers(item).is_some_and(|numbers| numbers.len() == 3)
             }
             Kind::Map if lexeme.starts_with('{') => {
                 let key = item.fields().next().map(|(key, _)| key.text());
-                matches!(key.as_deref(), Some("Texture" | "Checkerboard"))
+                key.as_deref().is_some_and(is_texture)
             }
             Kind::Integer | Kind::Float if self.knows_material(lexeme) => false,
             Kind::Integer | Kind::Float => item.number().is_some_and(|number| (0.0..=1.0).contains(&number)),

@@ -90,7 +90,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 12] = [
+    const SYNONYMS: [(&str, &[&str]); 23] = [
         ("Mesh", &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Sphere", &["ball"]),
@@ -102,6 +102,17 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Capsule", &["pill", "spherocylinder"]),
         ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
+        ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
+        ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps"]),
+        ("Lines", &["grid", "stripes", "gridtexture", "tiles", "stripe"]),
+        ("Dots", &["polkadots", "spots", "polka", "dot"]),
+        ("Gradient", &["ramp", "blend", "gradienttexture"]),
+        ("Wood", &["woodgrain", "planks", "rings"]),
+        ("Marble", &["agate", "veins"]),
+        ("Voronoi", &["worley", "cellular", "cellnoise", "crackle", "cells", "voronoitexture"]),
+        ("World", &["global", "worldspace", "world_space"]),
+        ("Object", &["local", "generated", "objectspace", "object_space"]),
+        ("Uv", &["texcoord", "texturecoordinates", "uvmapping", "mapping"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
     let lower = name.to_ascii_lowercase();
@@ -119,6 +130,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "object" => OBJECTS,
         "material" => MATERIALS,
         "texture" => TEXTURES,
+        "mapping" | "mapping of a solid texture" => MAPPINGS,
         "light" => LIGHTS,
         "transform" => TRANSFORMS,
         _ => return None,
@@ -210,31 +222,32 @@ const MATERIALS: Hints = &[
 
 const TEXTURES: Hints = &[
     (
-        &[
-            "noise",
-            "perlin",
-            "fbm",
-            "marble",
-            "wood",
-            "voronoi",
-            "clouds",
-            "wrinkled",
-            "turbulence",
-            "granite",
-            "gradient",
-            "ramp",
-            "colorramp",
-            "stripes",
-            "dots",
-            "bricks",
-            "brick",
-            "wave",
-        ],
-        "there is no such pattern: make a picture of it, and name its file: Texture(file: \"wood.png\")",
+        &["bricks", "brick", "bricktexture"],
+        "there is no such pattern: make a picture of it, and name its file: Texture(file: \"bricks.png\")",
+    ),
+    (
+        &["wave", "wavetexture", "magic"],
+        "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, along: V)",
+    ),
+    (
+        &["colorramp", "color_map", "colormap", "color_ramp", "valtorgb"],
+        "a pattern goes from one colour to another: `a` and `b` of Gradient(..), Noise(..) and the others",
     ),
     (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),
     (&["multiply", "scale", "mix", "math"], "textures cannot be reckoned with: change the picture"),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
+];
+
+const MAPPINGS: Hints = &[
+    (
+        &["object", "world", "local", "global", "solid"],
+        "pictures, lines and dots lie on surfaces: Uv(..); what may be cut out of space is Checkerboard, Gradient, Noise, Wood, Marble and \
+         Voronoi",
+    ),
+    (
+        &["planar", "spherical", "cylindrical", "triplanar", "box", "cubic", "projection"],
+        "textures lie by a surface's own coordinates, Uv(..), and patterns also in space, Object(..) and World(..)",
+    ),
 ];
 
 const LIGHTS: Hints = &[

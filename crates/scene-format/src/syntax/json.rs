@@ -317,6 +317,7 @@ impl Parser<'_> {
         let start = self.at;
         let mark = self.builder.nodes.len();
         match self.peek() {
+            Some(b'"') if self.name_without_last_quote() => {}
             Some(b'"') => {
                 self.text_literal();
                 if let Some(node) = self.builder.nodes.get_mut(mark)
@@ -385,6 +386,26 @@ impl Parser<'_> {
         let length = self.word_length();
         let value = super::line_ahead(self.text, self.at + length).trim_start().starts_with(['"', '[', '{']);
         (length > 0 && value).then_some(length)
+    }
+
+    /// `"name: value` with another quote in its line, by which the text would end in the middle of the value; reported.
+    fn name_without_last_quote(&mut self) -> bool {
+        let start = self.at;
+        let inner = super::line_ahead(self.text, start + 1);
+        let length = inner.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(inner.len());
+        let Some(close) = inner.find('"') else { return false };
+        if length == 0 || length > close || !inner[length..].starts_with(':') || self.colon_after(start + close + 2) {
+            return false;
+        }
+        self.at += 1 + length;
+        let found = self.span(start, self.at);
+        let mut fault = Diagnostic::error(codes::UNCLOSED_TEXT, found, "this name has no last quote")
+            .expected("\"name\": value")
+            .hint(format!("write {}\"", &self.text[start..self.at]));
+        fault.edit = Some(Edit { span: self.span(self.at, self.at), replacement: "\"".to_owned() });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Key, start + 1, self.at);
+        true
     }
 
     fn name_in_other_quotes(&mut self) {

@@ -109,6 +109,8 @@ pub struct Curved {
     pub unit: UnitShape,
     /// From there to the world, one per copy.
     pub maps: Vec<DAffine3>,
+    /// From there to where it is before its transforms.
+    local: DAffine3,
     /// Index of its material.
     pub material: u32,
     /// How it shines, where it does.
@@ -150,7 +152,7 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
                     .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open"),
             );
         }
-        all.push(Curved { number, unit, maps, material, emissive, plain });
+        all.push(Curved { number, unit, maps, local, material, emissive, plain });
     }
     all
 }
@@ -208,26 +210,34 @@ impl Curved {
         self.maps.iter().map(radiance).collect()
     }
 
-    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index.
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index. `written`, where a
+    /// pattern asks for it: from the coordinates that things are written in to the world, the first the world's own.
     pub fn build(
         &self,
         frame: &Frame,
         light: &mut dyn FnMut([f64; 3], bool) -> u32,
         spheres: &mut Vec<Sphere>,
         shapes: &mut Vec<Shape>,
+        mut written: Option<&mut Vec<DAffine3>>,
     ) {
         let radiances = self.radiances();
+        let from_written = self.local.inverse();
         for (copy, map) in self.maps.iter().enumerate() {
+            let mut coordinates = 0;
+            if let Some(written) = written.as_mut().filter(|_| !self.plain) {
+                coordinates = written.len() as u32;
+                written.push(*map * from_written);
+            }
             let (material, object) = (self.material, self.number);
             if let Some((center, radius)) = self.ball(map) {
                 let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
                 let light = radiances.get(copy).map_or(NONE, |&radiance| light(radiance, two_sided));
                 let (center, radius) = (frame.point(center), frame.length(radius));
-                spheres.push(Sphere { center, radius, material, object, light });
+                spheres.push(Sphere { center, radius, material, object, light, coordinates });
             } else {
                 let placement =
                     DAffine3 { matrix3: map.matrix3 * frame.scale, translation: frame.point(map.translation) };
-                shapes.push(Shape { unit: self.unit, placement, material, object });
+                shapes.push(Shape { unit: self.unit, placement, material, object, coordinates });
             }
         }
     }

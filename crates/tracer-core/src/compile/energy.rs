@@ -49,8 +49,11 @@ pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>
         let BlinnPhong { albedo, exponent, specular, energy_conserving: false } = &**words else { continue };
         let (albedo, of_picture) = match albedo {
             Albedo::Color(color) => (color.value.into_iter().fold(0.0, f64::max), false),
-            Albedo::Checkerboard(t) => (t.a.value.into_iter().chain(t.b.value).fold(0.0, f64::max), true),
             Albedo::Texture(t) => (texture(&desc.base_dir.join(&t.file.value)).map_or(1.0, Texture::brightest), true),
+            pattern => {
+                let colors = pattern.pattern().map_or([[1.0; 3]; 2], |pattern| pattern.colors());
+                (colors.as_flattened().iter().copied().fold(0.0, f64::max), true)
+            }
         };
         let times = reflected_at_most(albedo, specular.value, exponent.value);
         // Of the same material written many times one is told; what is above one by rounding only is not.

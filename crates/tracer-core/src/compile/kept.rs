@@ -158,6 +158,7 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
         add(instance.placement.as_ref().map_or(&[], |rows| bytemuck::cast_slice(rows)));
     }
     add(&ranks.triangles);
+    add(&ranks.shapes);
     let whole: Vec<u8> = ranks.instances.iter().map(|rank| rank.unwrap_or(u8::MAX)).collect();
     add(&whole);
     hash.digest128()

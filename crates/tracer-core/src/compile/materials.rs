@@ -1,16 +1,17 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
 use super::kept::{Kept, load_texture};
+use super::textures::pattern;
 use crate::texture::{Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{self, Emissive, MaterialRef};
+use scene_format::desc::{self, Emissive, MaterialRef, SolidMapping};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tracer_kernels::scene::{Albedo, Material, TextureFilter, TextureUse, TextureWrap, materials};
+use tracer_kernels::scene::{Albedo, Material, Pattern, PatternKey, TextureFilter, TextureUse, TextureWrap, materials};
 
 /// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
 fn compiled(material: &desc::Material, color: Albedo) -> Material {
@@ -82,6 +83,18 @@ fn squares(colors: [desc::Color; 2]) -> Texture {
     Texture { width: 2, height: 2, texels: Texels::Linear(vec![b, a, a, b]), warnings: Diagnostics::new() }
 }
 
+/// What [`MaterialBuilder::finish`] gives.
+pub struct Finished {
+    /// All materials.
+    pub materials: Vec<Material>,
+    /// The pictures of the textures.
+    pub images: Vec<Arc<Texture>>,
+    /// The textures.
+    pub uses: Vec<TextureUse>,
+    /// The textures that are reckoned.
+    pub patterns: Vec<Pattern>,
+}
+
 /// Collects materials and texture uses.
 pub struct MaterialBuilder<'a> {
     desc: &'a SceneDesc,
@@ -96,6 +109,8 @@ pub struct MaterialBuilder<'a> {
     /// By the bits of both colours.
     index_of_squares: BTreeMap<[[u64; 3]; 2], usize>,
     uses: Vec<TextureUse>,
+    patterns: Vec<Pattern>,
+    index_of_pattern: BTreeMap<PatternKey, u32>,
     /// Per image the indices of its uses, at most one for each filter, wrap and mapping.
     uses_of_image: Vec<Vec<u32>>,
 }
@@ -113,6 +128,8 @@ impl<'a> MaterialBuilder<'a> {
             index_of_file: BTreeMap::new(),
             index_of_squares: BTreeMap::new(),
             uses: Vec::new(),
+            patterns: Vec::new(),
+            index_of_pattern: BTreeMap::new(),
             uses_of_image: Vec::new(),
         };
         for named in &desc.materials {
@@ -170,11 +187,12 @@ impl<'a> MaterialBuilder<'a> {
         let (image, filter, wrap, mapping) = match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
             desc::Albedo::Texture(t) => (self.file(t, base), filter(t.filter), wrap(t.wrap), t.mapping.rows()),
-            desc::Albedo::Checkerboard(t) => {
+            desc::Albedo::Checkerboard(t) if let SolidMapping::Uv(uv) = &t.mapping => {
                 // The squares are the texels of a picture that is laid over two of them.
-                let mapping = t.mapping.rows().map(|row| row.map(|x| 0.5 * x));
+                let mapping = uv.rows().map(|row| row.map(|x| 0.5 * x));
                 (self.squares([t.a.value, t.b.value]), TextureFilter::Nearest, TextureWrap::Repeat, mapping)
             }
+            reckoned => return self.pattern(reckoned),
         };
         let same = |&&index: &&u32| {
             self.uses.get(index as usize).is_some_and(|u| u.filter == filter && u.wrap == wrap && u.mapping == mapping)
@@ -186,6 +204,17 @@ impl<'a> MaterialBuilder<'a> {
         self.uses.push(TextureUse { image, filter, wrap, mapping });
         self.uses_of_image[image].push(index);
         Albedo::Texture(index)
+    }
+
+    /// A texture that is reckoned.
+    fn pattern(&mut self, words: &desc::Albedo) -> Albedo {
+        let Some(pattern) = pattern(words) else { return Albedo::Color([1.0; 3]) };
+        let next = self.patterns.len() as u32;
+        let index = *self.index_of_pattern.entry(pattern.key()).or_insert(next);
+        if index == next {
+            self.patterns.push(pattern);
+        }
+        Albedo::Pattern(index)
     }
 
     fn add_image(&mut self, image: Image) -> usize {
@@ -226,11 +255,7 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// Loads the textures.
-    pub fn finish(
-        self,
-        kept: Option<&Kept>,
-        diagnostics: &mut Diagnostics,
-    ) -> (Vec<Material>, Vec<Arc<Texture>>, Vec<TextureUse>) {
+    pub fn finish(self, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Finished {
         let load = |image: &Image| match image {
             Image::File(path, span) => load_texture(kept, path).map_err(|error| Box::new(error.to_diagnostic(*span))),
             Image::Squares(colors) => Ok(Arc::new(squares(*colors))),
@@ -254,6 +279,6 @@ impl<'a> MaterialBuilder<'a> {
             };
             super::energy::warn(self.desc, texture, diagnostics);
         }
-        (self.materials, images, self.uses)
+        Finished { materials: self.materials, images, uses: self.uses, patterns: self.patterns }
     }
 }

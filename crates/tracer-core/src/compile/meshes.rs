@@ -11,7 +11,7 @@ use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::codes;
-use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Shading};
+use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Placements, Shading};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
-use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Triangles};
+use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Shape, Triangles};
 use tracer_mesh::{MeshData, NO_INDEX, mesh_of, normals::vertex_normals};
 
 /// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
@@ -257,6 +257,8 @@ pub struct Built {
     pub triangles: Triangles,
     /// Copies.
     pub instances: Vec<Instance>,
+    /// Per copy which of the coordinates that [`build`] was given it is written in; empty where nobody asks.
+    pub coordinates: Vec<u32>,
 }
 
 /// A mesh as it enters the scene: a file, smooth or flat.
@@ -300,8 +302,9 @@ pub struct Parts<'a> {
     pub first_light: u32,
 }
 
-/// Brings the meshes into render space.
-pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
+/// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are written in to the
+/// world, the first the world's own.
+pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
     let Parts { desc, loaded, placed, assigned, .. } = *parts;
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
         file,
@@ -337,6 +340,9 @@ pub fn build(frame: &Frame, parts: &Parts<'_>) -> Built {
         let worlds = placed.maps[object]
             .iter()
             .map(|map| DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre });
+        if let Some(written) = written.as_mut() {
+            built.add_coordinates(polygonal, &placed.maps[object], written);
+        }
         let emissive = assigned.emissive[object].as_ref();
         if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
             for (copy, world) in worlds.enumerate() {
@@ -390,7 +396,7 @@ impl Built {
         &self,
         acceleration: bvh::Acceleration,
         spheres: &[bvh::SphereGeometry],
-        shapes: &[bvh::ShapeGeometry],
+        shapes: &[Shape],
         first_shape: u32,
         materials: &[Material],
         kept: Option<&Kept>,
@@ -408,13 +414,27 @@ impl Built {
             .collect();
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
+        let placed: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
-        let geometry = bvh::Geometry { spheres, shapes, first_shape, meshes, instances };
-        build_tree(kept, &geometry, acceleration, &self.ranks(materials))
+        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, meshes, instances };
+        build_tree(kept, &geometry, acceleration, &self.ranks(shapes, materials))
+    }
+
+    /// Adds what the copies of an object are written in.
+    fn add_coordinates(&mut self, object: &Polygonal<'_>, maps: &[DAffine3], written: &mut Vec<DAffine3>) {
+        if object.transform.is_empty() && matches!(object.placements, Placements::One) {
+            self.coordinates.push(0);
+            return;
+        }
+        let from_written = object.local.inverse();
+        for map in maps {
+            self.coordinates.push(written.len() as u32);
+            written.push(*map * from_written);
+        }
     }
 
     /// Who wins where surfaces lie in one place: what shines, then what lets no light through.
-    fn ranks(&self, materials: &[Material]) -> bvh::Ranks {
+    fn ranks(&self, shapes: &[Shape], materials: &[Material]) -> bvh::Ranks {
         let of_material = |index: u32| match materials.get(index as usize) {
             Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => 2,
             _ => 1,
@@ -426,6 +446,7 @@ impl Built {
         bvh::Ranks {
             triangles: t.material.iter().enumerate().map(of_triangle).collect(),
             instances: self.instances.iter().map(of_instance).collect(),
+            shapes: shapes.iter().map(|shape| of_material(shape.material)).collect(),
         }
     }
 

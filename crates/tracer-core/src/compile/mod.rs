@@ -12,14 +12,15 @@ mod patterns;
 mod placing;
 mod polygonal;
 mod radiances;
+mod textures;
 mod unmeant;
 
 use crate::scene::{CompileTimes, Scene};
 use curved::Curved;
 pub use files::check_files;
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 pub use kept::Kept;
-use materials::MaterialBuilder;
+use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, PixelFilter, Reuse};
 use scene_format::diagnostic::{Span, keep_first};
@@ -30,8 +31,8 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, Picture, Shape, ShapeTable,
-    Sharing, Sphere, SphereTable, Tables, TextureTable,
+    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
+    Shape, ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -83,7 +84,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
     let curved = curved::load(desc, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
-    let (materials, images, uses) = builder.finish(kept, &mut diagnostics);
+    let Finished { materials, images, uses, patterns } = builder.finish(kept, &mut diagnostics);
     let background = environment::load(desc, &mut diagnostics);
     let placed = meshes::place(desc, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
@@ -112,7 +113,10 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         diagnostics
             .push(Diagnostic::warning(codes::MAP_IS_GONE, Span::NONE, message).hint("leave `render.indirect` out"));
     }
-    let (spheres, shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved);
+    // The world's own coordinates are the first.
+    let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv);
+    let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
+    let (spheres, shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
     let parts = meshes::Parts {
         desc,
         loaded: &loaded,
@@ -122,13 +126,16 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         radiance_unit,
         first_light: lights.len() as u32,
     };
-    let mut built = meshes::build(&frame, &parts);
+    let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
     drop((loaded, placed));
-    let material_table = MaterialTable::new(&materials);
+    let material_table = MaterialTable::new(&materials, uses.len() as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
+    let written =
+        written.map_or_else(Written::default, |maps| Written::new(maps, &spheres, &shapes, &built.coordinates));
+    let pattern_table = PatternTable::new(patterns, &frame, written);
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -175,6 +182,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
             materials: material_table,
             lights: light_table,
             textures: TextureTable::new(pictures, &uses),
+            patterns: pattern_table,
             instances: instance_table,
         },
         shapes,
@@ -224,6 +232,7 @@ fn curved_and_lights(
     frame: &Frame,
     radiance_unit: f64,
     curved: &[Curved],
+    mut written: Option<&mut Vec<DAffine3>>,
 ) -> (Vec<Sphere>, Vec<Shape>, Vec<Light>) {
     let mut lights: Vec<Light> = Vec::new();
     let mut shine = |radiance: [f64; 3], two_sided: bool| {
@@ -232,12 +241,14 @@ fn curved_and_lights(
     };
     let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
     let mut shapes = Vec::new();
-    curved.iter().for_each(|object| object.build(frame, &mut shine, &mut spheres, &mut shapes));
+    for object in curved {
+        object.build(frame, &mut shine, &mut spheres, &mut shapes, written.as_deref_mut());
+    }
     for (object, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
         let index = shine(radiances::of_light(light), true);
         let (center, radius) = (frame.point(DVec3::from(light.center.value)), frame.length(light.radius.value));
-        spheres.push(Sphere { center, radius, material: NONE, object, light: index });
+        spheres.push(Sphere { center, radius, material: NONE, object, light: index, coordinates: 0 });
     }
     SphereTable::order(&mut spheres);
     for (k, sphere) in spheres.iter().enumerate() {
@@ -290,8 +301,7 @@ fn build_tree(
     let acceleration = self::acceleration(acceleration);
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    let shapes: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
-    built.tree(acceleration, &hung, &shapes, spheres.len() as u32, materials, kept).map(Some).map_err(|error| {
+    built.tree(acceleration, &hung, shapes, spheres.len() as u32, materials, kept).map(Some).map_err(|error| {
         Box::new(
             Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
                 .hint("bring the sizes and distances of the objects closer together"),

@@ -31,7 +31,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let material = material_of(&materials, object.material);
         let own = matches!(object.material, MaterialRef::Default);
         let pictured =
-            material.is_some_and(has_pattern) || own && data.materials.iter().any(|named| has_pattern(&named.material));
+            material.is_some_and(wants_uv) || own && data.materials.iter().any(|named| wants_uv(&named.material));
         if pictured && data.uvs.is_empty() {
             diagnostics.push(
                 Diagnostic::warning(
@@ -70,9 +70,9 @@ fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d Mate
     }
 }
 
-/// Whether a material has another colour at another place.
-fn has_pattern(material: &Material) -> bool {
-    material.color().is_some_and(|color| !matches!(color, Albedo::Color(_)))
+/// Whether a material has another colour at another place of a surface's texture coordinates.
+fn wants_uv(material: &Material) -> bool {
+    material.color().is_some_and(Albedo::wants_uv)
 }
 
 /// Whether a closed mesh has its inside outside: a negative volume.

@@ -7,8 +7,8 @@ use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Amount, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, RectBox, Rectangle,
-    Shading, Transform,
+    Amount, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, RectBox,
+    Rectangle, Shading, Transform,
 };
 use scene_format::diagnostic::Spanned;
 
@@ -201,6 +201,84 @@ fn glass_on_a_table_shows_the_table() {
             let seen = film.radiance(k % SIZE, k / SIZE);
             let same = (0..3).all(|c| (seen[c] - albedo[c]).abs() < 1e-4);
             assert!(same, "glass first: {first}, pixel {k}: {seen:?}");
+        }
+    }
+}
+
+/// A shape with flat sides in the plane y = 0, or with one of them there.
+fn flat_sided(kind: &str, material: Material, transform: Vec<Transform>) -> Object {
+    let (material, transform) = (of(material), transform.into_iter().map(Spanned::from).collect());
+    let (placements, name) = (Placements::One, Name::default());
+    match kind {
+        "disk" => Object::Disk(Box::new(Disk {
+            center: [0.0; 3].into(),
+            normal: [0.0, 1.0, 0.0].into(),
+            radius: 0.6.into(),
+            inner_radius: 0.2.into(),
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        _ => Object::Cylinder(Box::new(Cylinder {
+            from: [0.0; 3].into(),
+            to: [0.0, if kind == "below" { -0.7 } else { 0.7 }, 0.0].into(),
+            radius: 0.6.into(),
+            caps: true,
+            material,
+            transform,
+            placements,
+            name,
+        })),
+    }
+}
+
+/// Glass that changes nothing and stands on a table by the cap of a cylinder, a rug on a floor and a lid flush with it show no speckle: under a
+/// white sky all is of one albedo. Whatever holds them up, and in any attitude.
+#[test]
+fn flat_sides_of_curved_shapes_do_not_speckle() {
+    let albedo = [1.0, 0.5, 0.25];
+    let attitudes = [
+        Attitude { axis: DVec3::X, degrees: 0.0, place: DVec3::ZERO },
+        Attitude { axis: DVec3::new(0.48, 0.6, 0.64), degrees: 47.0, place: DVec3::new(1.3, -2.7, 3.1) },
+    ];
+    let supports: [(&str, fn(Material, Vec<Transform>) -> Object); 3] = [
+        ("rectangle", |material, steps| rectangle(80.0, material, steps)),
+        ("disk", |material, steps| {
+            let mut whole = flat_sided("disk", material, steps);
+            if let Object::Disk(disk) = &mut whole {
+                (disk.radius, disk.inner_radius) = (50.0.into(), 0.0.into());
+            }
+            whole
+        }),
+        ("cylinder", |material, steps| {
+            let mut stage = flat_sided("below", material, steps);
+            if let Object::Cylinder(cylinder) = &mut stage {
+                cylinder.radius = 50.0.into();
+            }
+            stage
+        }),
+    ];
+    for (attitude, (support, under)) in attitudes.iter().flat_map(|a| supports.iter().map(move |s| (a, s))) {
+        for (kind, material) in
+            [("disk", diffuse(albedo)), ("below", diffuse(albedo)), ("above", glass(1.0)), ("below", glass(1.0))]
+        {
+            for first in [false, true] {
+                let floor = under(diffuse(albedo), attitude.steps(0.0, [0.0; 3]));
+                let thing = flat_sided(kind, material.clone(), attitude.steps(25.0, [0.1, 0.0, 0.0]));
+                let objects = if first { vec![thing, floor] } else { vec![floor, thing] };
+                let mut desc = scene(SIZE, vec![], objects)
+                    .background([1.0; 3])
+                    .camera(attitude.point(DVec3::new(1.5, 2.5, 3.0)).to_array(), attitude.place.to_array(), 25.0)
+                    .bounces(20);
+                desc.camera.up = (attitude.point(DVec3::Y) - attitude.place).to_array().into();
+                let film = film(&compiled(&desc), 16, 1);
+                for k in 0..SIZE * SIZE {
+                    let seen = film.radiance(k % SIZE, k / SIZE);
+                    let same = (0..3).all(|c| (seen[c] - albedo[c]).abs() < 1e-4);
+                    assert!(same, "{kind} on a {support}, first: {first}, {attitude:?}, pixel {k}: {seen:?}");
+                }
+            }
         }
     }
 }

@@ -19,6 +19,7 @@ mod glints;
 mod layers;
 mod matrix;
 mod metals;
+mod patterns;
 mod random_scenes;
 mod range;
 mod reuse;

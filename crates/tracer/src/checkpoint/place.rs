@@ -7,7 +7,13 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A checkpoint's name, and those beside it: `.previous`, `.writing`, `.lock`.
+/// What is added to a checkpoint's name for the files beside it: the one before, the one that is being written, and the lock.
+pub const BESIDE: [&str; 3] = [PREVIOUS, WRITING, LOCK];
+const PREVIOUS: &str = ".previous";
+const WRITING: &str = ".writing";
+const LOCK: &str = ".lock";
+
+/// A checkpoint's name, and those of [`BESIDE`].
 #[derive(Clone, Debug)]
 pub struct Place {
     named: PathBuf,
@@ -59,7 +65,7 @@ impl Place {
 
     /// The checkpoint before.
     pub fn previous(&self) -> PathBuf {
-        self.with(".previous")
+        self.with(PREVIOUS)
     }
 
     fn with(&self, suffix: &str) -> PathBuf {
@@ -88,7 +94,7 @@ impl Place {
     /// # Errors
     /// When it could not be written; then what was there is as it was.
     pub fn write(&self, keep: bool, fill: impl FnOnce(&mut Flushing) -> io::Result<u64>) -> io::Result<u64> {
-        let writing = self.with(".writing");
+        let writing = self.with(WRITING);
         remember_unfinished(&writing);
         let written = self.write_as(&writing, keep, fill);
         if written.is_err() {
@@ -126,7 +132,7 @@ impl Place {
     /// # Errors
     /// When one does.
     pub fn lock(&self) -> Result<Lock, Failure> {
-        let path = self.with(".lock");
+        let path = self.with(LOCK);
         let could_not = |error: io::Error| {
             Failure::could_not(format!("cannot lock the checkpoint {}: {error}; name another place", self.name()))
         };

@@ -11,13 +11,18 @@
 //! each plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
 
 use super::super::geometry::{Geometry, NONE};
-use super::{Coplanar, Grid, LONG, Member, Ranks};
+use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks};
+use crate::shapes::FlatFace;
+use crate::shapes::Row;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 /// More triangles than this are not looked at, copies counted; meshes with the fewest come first. Surfaces in one plane
 /// are those of boxes, rectangles and buildings, and meshes of millions of triangles must not wait for a search.
 const MOST_TRIANGLES: usize = 1 << 18;
+
+/// Scenes with more curved shapes have theirs left out.
+const MOST_SHAPES: usize = 1 << 16;
 
 /// 2^-24.
 const UNIT: f64 = 1.0 / 16_777_216.0;
@@ -32,6 +37,10 @@ const ROOM: f64 = 16.0;
 struct Face {
     primitive: u32,
     instance: u32,
+    /// Which of a shape's flat parts.
+    part: u8,
+    /// What it is half of the square about.
+    curved: Option<FlatFace>,
     corners: [DVec3; 3],
     normal: DVec3,
     centre: DVec3,
@@ -45,6 +54,10 @@ struct Face {
 }
 
 impl Face {
+    fn id(&self) -> (u32, u32, u8) {
+        (self.primitive, self.instance, self.part)
+    }
+
     /// How well its plane is known, in parts of the scene's reach.
     fn doubt(&self, scene: f64) -> f64 {
         let angle = 2.0 * self.error / self.height;
@@ -71,10 +84,7 @@ impl Coplanar {
     pub fn find(geometry: &Geometry, ranks: &Ranks) -> Option<Self> {
         let mut faces = faces(geometry, ranks);
         let scene = faces.iter().map(|face| face.reach).fold(0.0, f64::max);
-        faces.par_sort_by(|a, b| {
-            let id = |face: &Face| (face.primitive, face.instance);
-            a.doubt(scene).total_cmp(&b.doubt(scene)).then(id(a).cmp(&id(b)))
-        });
+        faces.par_sort_by(|a, b| a.doubt(scene).total_cmp(&b.doubt(scene)).then(a.id().cmp(&b.id())));
         let pairs = pairs_in(planes(&faces, scene), &faces);
         if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs)) }
     }
@@ -108,7 +118,26 @@ fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
             face(corners, instance.placement, id, ranks.of(id.0 - first, id.1))
         })
     };
-    (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect()
+    let mut faces: Vec<Face> = (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect();
+    if geometry.shapes.len() <= MOST_SHAPES {
+        faces.extend((0..).zip(geometry.shapes).flat_map(|(k, shape)| of_shape(geometry, ranks, k, &shape.row)));
+    }
+    faces
+}
+
+/// The squares about the flat parts of a shape, two triangles each.
+fn of_shape(geometry: &Geometry, ranks: &Ranks, k: u32, row: &Row) -> impl Iterator<Item = Face> + use<> {
+    let rank = ranks.shapes.get(k as usize).copied().unwrap_or(0);
+    let id = (geometry.first_shape + k, NONE);
+    (0..).zip(row.flat_faces()).flat_map(move |(part, curved)| {
+        let [a, b, c, d] = curved.corners();
+        let half = move |corners| face(corners, None, id, rank);
+        [half([a, b, c]), half([a, c, d])].into_iter().flatten().map(move |face| Face {
+            part,
+            curved: Some(curved),
+            ..face
+        })
+    })
 }
 
 fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), rank: u8) -> Option<Face> {
@@ -134,6 +163,8 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
     let face = Face {
         primitive: id.0,
         instance: id.1,
+        part: 0,
+        curved: None,
         corners: placed,
         normal,
         centre,
@@ -218,7 +249,7 @@ fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)
                     let (a, b) = (&faces[k as usize], &faces[other as usize]);
                     // Corners that two share may have been rounded apart.
                     if overlap(&flat(k), &flat(other), 16.0 * UNIT * (a.reach + b.reach)) {
-                        let rank = |face: &Face| (face.rank, face.primitive, face.instance);
+                        let rank = |face: &Face| (face.rank, face.id());
                         found.push(if rank(a) < rank(b) { (k, other, gap) } else { (other, k, gap) });
                     }
                 }
@@ -256,28 +287,37 @@ fn overlap(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3], margin: f64) -> bool {
     })
 }
 
-fn span(x: [f64; 3]) -> (f64, f64) {
-    (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]))
+fn span(x: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    x.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)))
 }
 
 fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> Coplanar {
+    // One of the halves of a square stands for both.
     let mut named: Vec<u32> = pairs.iter().flat_map(|pair| [pair.0, pair.1]).collect();
-    named.sort_unstable_by_key(|&k| (faces[k as usize].primitive, faces[k as usize].instance));
-    named.dedup();
-    let mut member_of = vec![NONE; faces.len()];
-    (0..).zip(&named).for_each(|(member, &k)| member_of[k as usize] = member);
+    named.sort_unstable_by_key(|&k| (faces[k as usize].id(), k));
+    named.dedup_by_key(|&mut k| faces[k as usize].id());
+    let member_of = |k: u32| {
+        let id = faces[k as usize].id();
+        named.binary_search_by_key(&id, |&k| faces[k as usize].id()).unwrap_or_default()
+    };
     let first = first_primitive(geometry);
     let end = geometry.meshes.iter().map(|mesh| mesh.first_primitive + mesh.triangles.len() as u32).max().unwrap_or(0);
-    let mut offsets = vec![0f32; (end - first) as usize];
+    let mut triangles = Offsets { first, of: vec![0f32; (end - first) as usize] };
+    let mut shapes = Offsets { first: geometry.first_shape, of: Vec::new() };
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
     for &(winner, loser, gap) in pairs {
-        lists[member_of[loser as usize] as usize].push(member_of[winner as usize]);
+        lists[member_of(loser)].push(member_of(winner) as u32);
         // A ray that starts near a plane is off across it by some five units of the farthest corner (see `RaySpace`).
         let reach = faces[winner as usize].reach.max(faces[loser as usize].reach);
         let offset = (gap + 8.0 * UNIT * reach) as f32;
-        for k in [winner, loser] {
-            let place = (faces[k as usize].primitive - first) as usize;
-            offsets[place] = offsets[place].max(offset);
+        for face in [winner, loser].map(|k| &faces[k as usize]) {
+            let offsets = match face.curved {
+                None => &mut triangles,
+                Some(_) => &mut shapes,
+            };
+            offsets.of.resize(offsets.of.len().max(if face.curved.is_some() { geometry.shapes.len() } else { 0 }), 0.0);
+            let place = (face.primitive - offsets.first) as usize;
+            offsets.of[place] = offsets.of[place].max(offset);
         }
     }
     let mut winners: Vec<u32> = Vec::new();
@@ -285,21 +325,25 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     for (&k, mut list) in named.iter().zip(lists) {
         list.sort_unstable_by_key(|&member| {
             let face = &faces[named[member as usize] as usize];
-            (face.rank, face.primitive, face.instance)
+            (face.rank, face.id())
         });
+        list.dedup();
         let face = &faces[k as usize];
         let begin = winners.len() as u32;
         winners.extend_from_slice(&list);
         members.push(Member {
             primitive: face.primitive,
             instance: face.instance,
-            corners: face.corners.map(|corner| corner.as_vec3().to_array()),
+            outline: match face.curved {
+                None => Outline::Triangle(face.corners.map(|corner| corner.as_vec3().to_array())),
+                Some(curved) => Outline::Curved(curved),
+            },
             normal: face.normal.as_vec3().to_array(),
             winners: [begin, winners.len() as u32],
             grid: (list.len() > LONG).then(|| grid(face, &list, faces, &named)),
         });
     }
-    Coplanar { first, offsets, members, winners }
+    Coplanar { triangles, shapes, members, winners }
 }
 
 /// A grid over the winners of a triangle, some one to a cell. Each reaches a quarter of a cell beyond its box: the
@@ -311,9 +355,11 @@ fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
     let scale = spans.map(|(lower, upper)| cells as f64 / (upper - lower));
     let mut held: Vec<Vec<u32>> = vec![Vec::new(); cells * cells];
     for &member in list {
-        let corners = faces[named[member as usize] as usize].corners;
+        let other = &faces[named[member as usize] as usize];
+        let square = other.curved.map(|curved| curved.corners());
+        let corners = square.as_ref().map_or(&other.corners[..], |corners| &corners[..]);
         let [x, y] = [0, 1].map(|k: usize| {
-            let (lower, upper) = span(corners.map(|corner| corner[axes[k]]));
+            let (lower, upper) = span(corners.iter().map(|corner| corner[axes[k]]));
             let cell = |x: f64| ((x - spans[k].0) * scale[k]).clamp(0.0, (cells - 1) as f64) as usize;
             cell(lower - 0.25 / scale[k])..=cell(upper + 0.25 / scale[k])
         });

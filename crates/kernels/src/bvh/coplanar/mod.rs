@@ -15,6 +15,9 @@
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
 //! triangles pays for one question a batch.
 //!
+//! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a cap if the line meets the
+//! cap's plane at the t of the hit.
+//!
 //! What lies farther apart than rounding takes it stays apart: two triangles are in one plane if the corners of one
 //! are no farther from the plane of the other than twice what the rounding of both may have moved them.
 
@@ -24,6 +27,7 @@ use super::geometry::NONE;
 use super::ray_space::RaySpace;
 use super::triangle::passes;
 use super::{Hits, Occlusion, Rays};
+use crate::shapes::FlatFace;
 
 /// Who wins: by (rank, primitive, instance), the least.
 #[derive(Debug, Default)]
@@ -32,6 +36,8 @@ pub struct Ranks {
     pub triangles: Vec<u8>,
     /// Of all triangles of an instance whose own is not 0.
     pub instances: Vec<Option<u8>>,
+    /// Of each curved shape; none: 0.
+    pub shapes: Vec<u8>,
 }
 
 impl Ranks {
@@ -47,23 +53,40 @@ impl Ranks {
 /// Lists of more winners than this have a grid over them.
 const LONG: usize = 16;
 
-/// The triangles of a scene that lie in one plane with others and overlap them.
+/// The triangles and flat parts of curved shapes of a scene that lie in one plane with others and overlap them.
 pub struct Coplanar {
-    /// The id of the first triangle.
-    first: u32,
-    /// How far rays start off each triangle; 0 where nothing else lies in its plane.
-    offsets: Vec<f32>,
-    /// By (primitive, instance), rising.
+    triangles: Offsets,
+    shapes: Offsets,
+    /// By (primitive, instance), rising; of the caps of a shape the first comes first.
     members: Vec<Member>,
     /// Of all members: indices into `members`.
     winners: Vec<u32>,
 }
 
+/// How far rays start off primitives whose ids follow each other; 0 where nothing else lies in their planes.
+#[derive(Default)]
+struct Offsets {
+    first: u32,
+    of: Vec<f32>,
+}
+
+impl Offsets {
+    fn get(&self, primitive: u32) -> f32 {
+        primitive.checked_sub(self.first).and_then(|k| self.of.get(k as usize)).copied().unwrap_or(0.0)
+    }
+}
+
+/// How far a member reaches in its plane.
+enum Outline {
+    /// Corners in render space, as the tree tests them where the mesh is there already.
+    Triangle([[f32; 3]; 3]),
+    Curved(FlatFace),
+}
+
 struct Member {
     primitive: u32,
     instance: u32,
-    /// In render space, as the tree tests them where the mesh is there already.
-    corners: [[f32; 3]; 3],
+    outline: Outline,
     normal: [f32; 3],
     /// Where those that win over it stand in `Coplanar::winners`, the first to win first.
     winners: [u32; 2],
@@ -99,22 +122,38 @@ impl Grid {
 impl Coplanar {
     /// How far rays start off each triangle at least, by its place among the triangles.
     pub fn offsets(&self) -> &[f32] {
-        &self.offsets
+        &self.triangles.of
     }
 
-    fn offset_of(&self, primitive: u32) -> f32 {
-        primitive.checked_sub(self.first).and_then(|k| self.offsets.get(k as usize)).copied().unwrap_or(0.0)
+    /// How far rays start off each curved shape at least, by its place among the shapes; empty where none of them takes part.
+    pub fn shape_offsets(&self) -> &[f32] {
+        &self.shapes.of
     }
 
-    fn member(&self, primitive: u32, instance: u32) -> Option<&Member> {
-        if primitive == NONE || self.offset_of(primitive) == 0.0 {
+    /// The member that a primitive is in which a ray goes to or hits, at t.
+    fn member(&self, primitive: u32, instance: u32, rays: &Rays, ray: usize, t: f32) -> Option<&Member> {
+        if primitive == NONE {
             return None;
         }
-        let at = self.members.binary_search_by_key(&(primitive, instance), |m| (m.primitive, m.instance)).ok()?;
-        Some(&self.members[at])
+        if self.triangles.get(primitive) > 0.0 {
+            let at = self.members.binary_search_by_key(&(primitive, instance), |m| (m.primitive, m.instance)).ok()?;
+            return Some(&self.members[at]);
+        }
+        if self.shapes.get(primitive) == 0.0 {
+            return None;
+        }
+        let (origin, direction) = ray_of(rays, ray);
+        let from = self.members.partition_point(|m| m.primitive < primitive);
+        self.members[from..].iter().take_while(|m| m.primitive == primitive).find(|m| match &m.outline {
+            // Not the side of the shape: t is that of the plane, rounded.
+            Outline::Curved(face) => {
+                face.passed(origin, direction).is_some_and(|at| (at as f32 - t).abs() <= t * f32::EPSILON)
+            }
+            Outline::Triangle(_) => false,
+        })
     }
 
-    /// The first of those that win over a member whose edges the ray's line passes between, but for the one that the ray
+    /// The first of those that win over a member whose outlines the ray's line passes within, but for the one that the ray
     /// leaves, `from`.
     fn winner(&self, member: &Member, rays: &Rays, ray: usize, t: f32) -> Option<&Member> {
         let [first, end] = member.winners;
@@ -128,14 +167,18 @@ impl Coplanar {
             Some(grid) => grid.near(origin, direction, t),
             None => &self.winners[first as usize..end as usize],
         };
-        let mut others = list.iter().map(|&k| &self.members[k as usize]).filter(|m| (m.primitive, m.instance) != from);
-        others.find(|winner| passes(&space, winner.corners))
+        list.iter().map(|&k| &self.members[k as usize]).find(|m| match &m.outline {
+            Outline::Triangle(corners) => (m.primitive, m.instance) != from && passes(&space, *corners),
+            // A ray may leave one of its caps and come to the other.
+            Outline::Curved(face) => face.passed(origin, direction).is_some(),
+        })
     }
 
     /// Gives the closest hits of some rays to those who win there.
     pub fn settle(&self, rays: &Rays, active: &[u32], hits: &mut Hits) {
         for ray in active.iter().map(|&ray| ray as usize) {
-            let Some(member) = self.member(hits.primitive[ray], hits.instance[ray]) else { continue };
+            let hit = (hits.primitive[ray], hits.instance[ray]);
+            let Some(member) = self.member(hit.0, hit.1, rays, ray, hits.t[ray]) else { continue };
             if let Some(winner) = self.winner(member, rays, ray, hits.t[ray]) {
                 hits.primitive[ray] = winner.primitive;
                 hits.instance[ray] = winner.instance;
@@ -149,11 +192,11 @@ impl Coplanar {
         let mut ends = occlusion.tmax.to_vec();
         for ray in active.iter().map(|&ray| ray as usize) {
             let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
-            let Some(member) = self.member(primitive, instance) else { continue };
+            let Some(member) = self.member(primitive, instance, rays, ray, occlusion.tmax[ray]) else { continue };
             let (_, d) = ray_of(rays, ray);
             let n = member.normal;
             let across = (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).abs();
-            let before = self.offset_of(primitive) / across;
+            let before = self.triangles.get(primitive) / across;
             // Along the plane nothing is left, nor is anything to be seen there.
             ends[ray] = if before < ends[ray] { ends[ray] - before } else { 0.0 };
         }
@@ -164,7 +207,7 @@ impl Coplanar {
     pub fn cover(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion) {
         for ray in active.iter().map(|&ray| ray as usize) {
             let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
-            let Some(member) = self.member(primitive, instance) else { continue };
+            let Some(member) = self.member(primitive, instance, rays, ray, occlusion.tmax[ray]) else { continue };
             if self.winner(member, rays, ray, occlusion.tmax[ray]).is_some() {
                 occlusion.occluded[ray] = 1;
             }

@@ -428,6 +428,7 @@ mod tests {
             v: One::splat(0.0),
             material: none,
             light: none,
+            body: none,
         }
     }
 

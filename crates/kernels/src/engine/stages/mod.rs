@@ -7,6 +7,7 @@ pub mod first_hits;
 pub mod light_paths;
 pub mod lights;
 pub mod materials;
+pub mod patterns;
 pub mod photons;
 pub mod points;
 pub mod reach;

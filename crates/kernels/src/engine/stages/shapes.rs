@@ -2,9 +2,10 @@
 //! `f64`.
 
 use super::surface::Surface;
+use crate::bvh::Accel;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
-use crate::scene::ShapeTable;
+use crate::scene::{Scene, ShapeTable};
 use glam::DVec3;
 
 /// The most lanes that there are.
@@ -13,7 +14,7 @@ const MOST: usize = 32;
 /// The surface at the hits of `mask`, on the shapes with these places in the table; other lanes hold anything.
 #[inline(always)]
 pub fn on_shapes<F: Lanes>(
-    table: &ShapeTable,
+    scene: &Scene,
     origin: V3<F>,
     direction: V3<F>,
     t: F,
@@ -29,23 +30,29 @@ pub fn on_shapes<F: Lanes>(
         o.store(&mut at.origin[axis]);
         d.store(&mut at.direction[axis]);
     }
-    let found = find(table, &at, mask.bits());
+    let found = find(&scene.tables.shapes, &at, mask.bits());
     let p = V3(F::load(&found.p[0]), F::load(&found.p[1]), F::load(&found.p[2]));
     let n = V3(F::load(&found.n[0]), F::load(&found.n[1]), F::load(&found.n[2]));
     let outside = F::M::from_bits(found.outside);
     let facing = V3::select(outside, n, n.neg());
+    // Rays start on the shape, but for what lies in one plane with others.
+    let mut offset = F::splat(0.0);
+    if let Some(offsets) = scene.accel.as_deref().and_then(Accel::coplanar_shape_offsets) {
+        offset = F::gather(offsets, index);
+    }
     Surface {
         p,
-        start: p,
+        start: facing.mad(offset, p),
         ng: facing,
         ns: facing,
         outside,
         smooth: F::M::from_bits(0),
-        offset: F::splat(0.0),
+        offset,
         u: F::load(&found.uv[0]),
         v: F::load(&found.uv[1]),
         material: F::U::load(&found.material),
         light: F::U::splat(0),
+        body: index + F::U::splat(scene.tables.spheres.len),
     }
 }
 

@@ -32,6 +32,8 @@ pub struct Surface<F: Lanes> {
     pub material: F::U,
     /// Light + 1, or 0.
     pub light: F::U,
+    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the instance.
+    pub body: F::U,
 }
 
 /// The surface at the hits; lanes outside `valid` hold anything. Without textures there are no texture coordinates.
@@ -63,7 +65,7 @@ pub fn surface_and_uv<F: Lanes>(
 ) -> Surface<F> {
     let spheres = F::U::splat(scene.tables.spheres.len);
     let shapes = &scene.tables.shapes;
-    let first_triangle = F::U::splat(scene.tables.spheres.len + shapes.rows.len() as u32);
+    let first_triangle = F::U::splat(scene.tables.loose());
     let on_sphere = primitive.lt(spheres);
     let on_triangle = valid & !primitive.lt(first_triangle);
     let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)), wants_uv);
@@ -75,7 +77,7 @@ pub fn surface_and_uv<F: Lanes>(
     let on_shape = valid & !on_sphere & !on_triangle;
     if !shapes.rows.is_empty() && on_shape.any() {
         let index = F::U::select(on_shape, primitive - spheres, F::U::splat(0));
-        s = chosen(on_shape, on_shapes(shapes, origin, direction, t, index, on_shape), s);
+        s = chosen(on_shape, on_shapes(scene, origin, direction, t, index, on_shape), s);
     }
     s
 }
@@ -95,6 +97,7 @@ fn chosen<F: Lanes>(pick: F::M, m: Surface<F>, s: Surface<F>) -> Surface<F> {
         v: F::select(pick, m.v, s.v),
         material: F::U::select(pick, m.material, s.material),
         light: F::U::select(pick, m.light, s.light),
+        body: F::U::select(pick, m.body, s.body),
     }
 }
 
@@ -133,6 +136,7 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
         v,
         material: material.to_bits(),
         light: light.to_bits(),
+        body: id,
     }
 }
 
@@ -297,7 +301,8 @@ fn on_triangles<F: Lanes>(
     if !triangles.light.is_empty() {
         light = F::U::gather(&triangles.light, triangle) + F::U::splat(1);
     }
-    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light }
+    let body = instance + F::U::splat(scene.tables.loose());
+    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light, body }
 }
 
 /// The matrix of an instance: rows of its linear part, and the translation.

@@ -83,7 +83,7 @@ fn axis<F: Lanes>(x: F, n: F::U, wrap: F::U, nearest: F::M) -> (F::U, F::U, F) {
 
 /// Largest integer not above x, |x| < 2^22 (larger texture coordinates have no fraction worth the name).
 #[inline(always)]
-fn floor<F: Lanes>(x: F) -> F {
+pub fn floor<F: Lanes>(x: F) -> F {
     let magic = F::splat(12_582_912.0);
     let x = x.max(F::splat(-4_194_304.0)).min(F::splat(4_194_304.0));
     let rounded = (x + magic) - magic;

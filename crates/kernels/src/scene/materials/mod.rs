@@ -38,6 +38,8 @@ pub enum Albedo {
     Color([f64; 3]),
     /// Index into the scene's textures.
     Texture(u32),
+    /// Index into the scene's patterns.
+    Pattern(u32),
 }
 
 impl Albedo {
@@ -45,7 +47,7 @@ impl Albedo {
     fn largest(&self) -> f64 {
         match self {
             Albedo::Color(color) => color.iter().fold(0.0, |a, &b| a.max(b)),
-            Albedo::Texture(_) => 1.0,
+            Albedo::Texture(_) | Albedo::Pattern(_) => 1.0,
         }
     }
 }
@@ -172,7 +174,7 @@ impl Material {
 
 /// Materials as look-up tables, index = material; the last entry is the emitters' (black).
 pub struct MaterialTable {
-    /// The colour; the bits of one of [`Lobe`], and of texture + 1, or 0.
+    /// The colour; the bits of one of [`Lobe`], and of texture + 1, or 0; patterns are numbered behind the textures.
     pub rows: Table<5>,
     /// What the lobe says.
     pub parameters: Table<2>,
@@ -180,15 +182,17 @@ pub struct MaterialTable {
     pub conductors: Option<ConductorTable>,
     /// Which lobes occur, one bit each: a stage skips what no material asks for.
     lobes: u32,
-    /// Whether any material has a texture.
+    /// Whether any material has a texture or a pattern.
     pub textured: bool,
+    /// How many textures there are: numbers from here on are patterns'.
+    pub first_pattern: u32,
     /// The emitters' entry.
     pub emitter: u32,
 }
 
 impl MaterialTable {
-    /// Of the materials, in their order.
-    pub fn new(materials: &[Material]) -> Self {
+    /// Of the materials, in their order. `first_pattern`: how many textures there are, behind which patterns are numbered.
+    pub fn new(materials: &[Material], first_pattern: u32) -> Self {
         let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
         let conductors =
             || materials.iter().enumerate().filter_map(|(k, material)| Some((k, material.kind().conductor()?)));
@@ -200,12 +204,13 @@ impl MaterialTable {
         let texture = |row: &Row| match row.color {
             Albedo::Color(_) => 0,
             Albedo::Texture(t) => t + 1,
+            Albedo::Pattern(p) => first_pattern + p + 1,
         };
         MaterialTable {
             rows: Table::new(rows.iter().map(|row| {
                 let color = match row.color {
                     Albedo::Color(color) => color,
-                    Albedo::Texture(_) => [1.0; 3],
+                    Albedo::Texture(_) | Albedo::Pattern(_) => [1.0; 3],
                 };
                 let [r, g, b] = color.map(|x| x as f32);
                 [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(row))]
@@ -214,6 +219,7 @@ impl MaterialTable {
             conductors: ConductorTable::new(conductors().map(|(_, conductor)| conductor)),
             lobes: rows.iter().fold(0, |bits, row| bits | 1 << row.lobe as u32),
             textured: rows.iter().any(|row| texture(row) != 0),
+            first_pattern,
             emitter,
         }
     }

@@ -73,10 +73,7 @@ impl Material {
 
     /// The picture that it takes its colour from.
     pub fn texture(&self) -> Option<&Texture> {
-        match self.color()? {
-            Albedo::Texture(texture) => Some(texture),
-            Albedo::Color(_) | Albedo::Checkerboard(_) => None,
-        }
+        self.color()?.image()
     }
 
     /// Whether light passes its surfaces.

@@ -1,13 +1,27 @@
-//! Textures: one file each, with the texture's words.
+//! Textures: one file each, with the texture's words, and one line in the registry below.
 
 mod checkerboard;
+mod dots;
+mod gradient;
 mod image;
+mod lines;
 mod mapping;
+mod marble;
+mod noise;
+mod voronoi;
+mod wood;
 
 pub use checkerboard::Checkerboard;
+pub use dots::Dots;
+pub use gradient::{Gradient, GradientAxis};
 pub use image::{Texture, TextureFilter, TextureWrap};
-pub use mapping::Mapping;
+pub use lines::{Lines, LinesAlong};
 pub(crate) use mapping::MappingWords;
+pub use mapping::{Mapping, SolidMapping, Uv};
+pub use marble::Marble;
+pub use noise::{Noise, NoiseKind};
+pub use voronoi::{Voronoi, VoronoiFeature};
+pub use wood::Wood;
 
 use super::Color;
 use crate::diagnostic::Spanned;
@@ -17,15 +31,105 @@ use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum};
 
-/// A colour, constant or by place.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Albedo {
-    /// The same everywhere.
-    Color(Spanned<Color>),
-    /// From a picture.
-    Texture(Texture),
-    /// Squares of two colours.
-    Checkerboard(Box<Checkerboard>),
+/// A texture that is reckoned: its colour at a point is mix(a, b, t), with t from 0 to 1 by the kind of pattern.
+pub trait Pattern {
+    /// a and b.
+    fn colors(&self) -> [Color; 2];
+
+    /// From the surface's texture coordinates, or from points, to those that t depends on.
+    fn mapping(&self) -> SolidMapping;
+}
+
+macro_rules! textures {
+    (
+        $(#[doc = $image_doc:literal])+
+        image $Image:ident;
+        $( $(#[doc = $doc:literal])+ pattern $Name:ident; )*
+    ) => {
+        /// A colour, constant or by place.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Albedo {
+            /// The same everywhere.
+            Color(Spanned<Color>),
+            $(#[doc = $image_doc])+
+            $Image($Image),
+            $( $(#[doc = $doc])+ $Name(Box<$Name>), )*
+        }
+
+        scene_enum! {
+            /// A colour that differs from place to place.
+            pub(crate) enum PatternWords, "texture" {
+                $(#[doc = $image_doc])+
+                $Image($Image);
+                $( $(#[doc = $doc])+ $Name(Box<$Name>); )*
+            }
+        }
+
+        impl Albedo {
+            /// The pattern, if it is one.
+            pub fn pattern(&self) -> Option<&dyn Pattern> {
+                match self {
+                    Albedo::Color(_) | Albedo::$Image(_) => None,
+                    $( Albedo::$Name(pattern) => Some(&**pattern), )*
+                }
+            }
+
+            fn of(words: PatternWords) -> Self {
+                match words {
+                    PatternWords::$Image(image) => Albedo::$Image(image),
+                    $( PatternWords::$Name(pattern) => Albedo::$Name(pattern), )*
+                }
+            }
+
+            fn as_form(&self, all: bool) -> Form {
+                match self {
+                    Albedo::Color(color) => color.form(all),
+                    Albedo::$Image(image) => PatternWords::$Image(image.clone()).form(all),
+                    $( Albedo::$Name(pattern) => PatternWords::$Name(pattern.clone()).form(all), )*
+                }
+            }
+        }
+    };
+}
+
+textures! {
+    /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
+    image Texture;
+    /// Squares, or cubes, of two colours: `a` where the sum of the coordinates' whole parts is even.
+    pattern Checkerboard;
+    /// Lines at whole coordinates: a grid, tiles with joints, stripes.
+    pattern Lines;
+    /// Round dots, one in the middle of each unit square.
+    pattern Dots;
+    /// From `a` where a coordinate is 0 to `b` where it is 1, and constant beyond.
+    pattern Gradient;
+    /// Clouds: Perlin's improved noise (2002), mixed from octaves. From `a` to `b` by t, with n the noise from -1 to 1, l the `lacunarity`
+    /// and g the `gain`: t = 1/2 + n(p)/2 for `Perlin`, 1/2 + sum g^i n(l^i p) / (2 sum g^i) for `Fbm`, sum g^i |n(l^i p)| / sum g^i for
+    /// `Turbulence`.
+    pattern Noise;
+    /// Rings round the y axis, one a unit, bent by noise: from `a` to `b` by t = 1/2 - cos(2 pi (hypot(x, z) + `distortion` n)) / 2, n four
+    /// octaves of noise from -1 to 1.
+    pattern Wood;
+    /// Veins across the x axis, one a unit, bent by turbulence: from `a` to `b` by t = 1/2 - cos(2 pi (x + `distortion` n)) / 2, n six octaves
+    /// of turbulence from 0 to 1.
+    pattern Marble;
+    /// Cells about scattered points, one in each unit cube (Worley 1996): stones, scales, cracks.
+    pattern Voronoi;
+}
+
+impl Albedo {
+    /// Its texture file's words, if it is a picture.
+    pub fn image(&self) -> Option<&Texture> {
+        match self {
+            Albedo::Texture(texture) => Some(texture),
+            _ => None,
+        }
+    }
+
+    /// Whether it goes by a surface's texture coordinates.
+    pub fn wants_uv(&self) -> bool {
+        self.image().is_some() || self.pattern().is_some_and(|pattern| matches!(pattern.mapping(), SolidMapping::Uv(_)))
+    }
 }
 
 impl Default for Albedo {
@@ -34,14 +138,9 @@ impl Default for Albedo {
     }
 }
 
-scene_enum! {
-    /// A colour that differs from place to place.
-    pub(crate) enum Pattern, "texture" {
-        /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
-        Texture(Texture);
-        /// Squares of two colours.
-        Checkerboard(Box<Checkerboard>);
-    }
+/// Whether a name is that of a texture.
+pub(crate) fn is_texture(name: &str) -> bool {
+    PatternWords::DEF.variant(name).is_some()
 }
 
 /// Whether a name before brackets is other languages' for a colour.
@@ -50,28 +149,21 @@ fn is_color(name: &str) -> bool {
 }
 
 impl Words for Albedo {
-    const TYPE: Type = Type::OneOf(&[Type::Color, Pattern::TYPE]);
+    const TYPE: Type = Type::OneOf(&[Type::Color, PatternWords::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         // `rgb(..)` and `red`: a colour, if not ours.
         let bare = item.kind() == Kind::Word && item.lexeme().starts_with(char::is_lowercase);
-        if bare || item.name().is_some_and(|name| Pattern::DEF.variant(name).is_none() && is_color(name)) {
+        if bare || item.name().is_some_and(|name| !is_texture(name) && is_color(name)) {
             return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
-            return Some(match Pattern::read(reader, item, at)? {
-                Pattern::Texture(texture) => Albedo::Texture(texture),
-                Pattern::Checkerboard(checkerboard) => Albedo::Checkerboard(checkerboard),
-            });
+            return PatternWords::read(reader, item, at).map(Albedo::of);
         }
         <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
     }
 
     fn form(&self, all: bool) -> Form {
-        match self {
-            Albedo::Color(color) => color.form(all),
-            Albedo::Texture(texture) => Pattern::Texture(texture.clone()).form(all),
-            Albedo::Checkerboard(checkerboard) => Pattern::Checkerboard(checkerboard.clone()).form(all),
-        }
+        self.as_form(all)
     }
 }

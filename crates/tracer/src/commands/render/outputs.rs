@@ -81,6 +81,14 @@ pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     for (option, kept) in kept(args) {
         let place = Place::File(kept.to_owned());
         let report = args.report.as_deref().map(super::place);
+        for beside in crate::checkpoint::BESIDE.map(|suffix| with_suffix(kept, suffix)) {
+            if report.as_ref().is_some_and(|report| is_same(report, &Place::File(beside.clone()))) {
+                let (beside, kept) = (beside.display(), kept.display());
+                return Err(Failure::wrong(format!(
+                    "--report {beside} is a file that {option} {kept} keeps beside it; name another file"
+                )));
+            }
+        }
         let pictures = outputs.iter().map(|output| ("-o", &output.place));
         let mut others = pictures.chain(report.as_ref().map(|report| ("--report", report)));
         if let Some((other, _)) = others.find(|(_, other)| is_same(other, &place)) {
@@ -102,6 +110,12 @@ pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         )));
     }
     Ok(outputs)
+}
+
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
 }
 
 /// Layers go into this kind of picture only.

@@ -44,7 +44,14 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let spheres: Vec<Sphere> = lights
         .iter()
         .enumerate()
-        .map(|(k, &(center, radius, _))| Sphere { center, radius, material: NONE, object: 0, light: k as u32 })
+        .map(|(k, &(center, radius, _))| Sphere {
+            center,
+            radius,
+            material: NONE,
+            object: 0,
+            light: k as u32,
+            coordinates: 0,
+        })
         .collect();
     let lights: Vec<Light> = lights
         .iter()

@@ -21,6 +21,7 @@ pub use dielectric::Dielectric;
 use dielectric::fresnel;
 pub use specular_reflection::reflect_bent;
 
+use super::patterns::pattern_color;
 use super::surface::Surface;
 use super::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask};
@@ -113,7 +114,17 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     pub fn at(tables: &'t Tables, s: &Surface<F>, valid: F::M) -> Self {
         let (mut bsdf, texture) = Bsdf::<'t, F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
-            let textured = valid & !texture.eq(F::U::splat(0));
+            let mut textured = valid & !texture.eq(F::U::splat(0));
+            if !tables.patterns.is_empty() {
+                let pattern = F::U::splat(tables.materials.first_pattern);
+                let reckoned = textured & pattern.lt(texture);
+                if reckoned.any() {
+                    let id = texture - F::U::splat(1) - pattern;
+                    let color = pattern_color(&tables.patterns, id, s, reckoned);
+                    bsdf.color = V3::select(reckoned, color, bsdf.color);
+                }
+                textured = textured & !reckoned;
+            }
             if textured.any() {
                 let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
                 bsdf.color = V3::select(textured, texel, bsdf.color);

@@ -45,7 +45,7 @@ impl Rough {
             }
         };
         // It may live for ever: there are few.
-        let table = Box::leak(Box::new(MaterialTable::new(&[material])));
+        let table = Box::leak(Box::new(MaterialTable::new(&[material], 0)));
         Bsdf::new(table, <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
     }
 
@@ -335,6 +335,7 @@ fn surface(ng: DVec3, ns: DVec3, outside: bool) -> Surface<S> {
         v: zero,
         material: <S as Lanes>::U::splat(0),
         light: <S as Lanes>::U::splat(0),
+        body: <S as Lanes>::U::splat(0),
     }
 }
 

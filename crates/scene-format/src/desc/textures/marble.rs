@@ -1,0 +1,31 @@
+//! Veins of marble.
+
+use super::{Pattern, SolidMapping};
+use crate::desc::Color;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// Veins across the x axis, one a unit of the mapped coordinates, bent by six octaves of turbulence.
+    pub struct Marble as "Marble", "marble" {
+        /// The colour of the veins.
+        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        /// The colour between them.
+        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        /// How far turbulence bends the veins, in veins.
+        distortion: f64 = 1.0 => Rule::within("a distance", -1e3, 1e3);
+        /// How it lies: `Object(scale: 4)` makes it four times finer.
+        mapping: SolidMapping = SolidMapping::object();
+    }
+}
+
+impl Pattern for Marble {
+    fn colors(&self) -> [Color; 2] {
+        [self.a.value, self.b.value]
+    }
+
+    fn mapping(&self) -> SolidMapping {
+        self.mapping.clone()
+    }
+}

@@ -1,0 +1,49 @@
+//! Clouds of noise.
+
+use super::{Pattern, SolidMapping};
+use crate::desc::Color;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
+use crate::words::{scene_struct, scene_words};
+
+scene_struct! {
+    /// Perlin's improved noise (2002), mixed from octaves: clouds, dirt, wear.
+    pub struct Noise as "Noise", "noise" {
+        /// The colour where the noise is lowest.
+        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        /// The colour where it is highest.
+        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        /// How octaves are mixed.
+        kind: NoiseKind = NoiseKind::Fbm;
+        /// How many; Perlin has one whatever is said here.
+        octaves: u32 = 6u32 => Rule::within("a number of octaves", 1.0, 16.0);
+        /// Each octave is so many times finer than the last.
+        lacunarity: f64 = 2.0 => Rule::within("a factor", 1.0, 8.0);
+        /// Each octave counts so many times what the last does.
+        gain: f64 = 0.5 => Rule::within("a factor", 0.0, 1.0);
+        /// How it lies: `Object(scale: 4)` puts four cells of noise along a unit of length.
+        mapping: SolidMapping = SolidMapping::object();
+    }
+}
+
+scene_words! {
+    /// How octaves of noise are mixed.
+    pub enum NoiseKind, "kind of noise" {
+        /// Octaves added up: clouds.
+        Fbm,
+        /// One octave: soft spots, all of a size.
+        Perlin,
+        /// Octaves without their signs added up: billows with dark creases.
+        Turbulence,
+    }
+}
+
+impl Pattern for Noise {
+    fn colors(&self) -> [Color; 2] {
+        [self.a.value, self.b.value]
+    }
+
+    fn mapping(&self) -> SolidMapping {
+        self.mapping.clone()
+    }
+}

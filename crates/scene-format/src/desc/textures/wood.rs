@@ -1,0 +1,31 @@
+//! Rings of wood.
+
+use super::{Pattern, SolidMapping};
+use crate::desc::Color;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
+use crate::words::scene_struct;
+
+scene_struct! {
+    /// Rings around the y axis, one a unit of the mapped coordinates, bent by noise.
+    pub struct Wood as "Wood", "wood" {
+        /// The colour in a ring's middle, and on the axis.
+        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        /// The colour between.
+        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        /// How far noise bends the rings, in rings.
+        distortion: f64 = 0.2 => Rule::within("a distance", -1e3, 1e3);
+        /// How it lies: `Object(scale: 4)` makes it four times finer.
+        mapping: SolidMapping = SolidMapping::object();
+    }
+}
+
+impl Pattern for Wood {
+    fn colors(&self) -> [Color; 2] {
+        [self.a.value, self.b.value]
+    }
+
+    fn mapping(&self) -> SolidMapping {
+        self.mapping.clone()
+    }
+}
