@@ -12,6 +12,8 @@ pub struct Pass {
     pub step: usize,
     /// How many of them to each side.
     pub reach: usize,
+    /// Whether planes are fitted, too: four times the work.
+    pub planes: bool,
 }
 
 /// Patches that are compared reach so far.
@@ -29,10 +31,12 @@ const ALBEDO: f32 = 0.6;
 const NEAR: f32 = 0.03;
 /// Too small to be divided by.
 const LEAST: f32 = 1e-10;
+const MORE: f32 = 2.0;
 
 /// The mean and the value of the plane, for each half: colours one after the other.
 pub struct Filtered {
     pub mean: [Vec<[f32; 3]>; 2],
+    /// The same as the mean where none are fitted.
     pub plane: [Vec<[f32; 3]>; 2],
 }
 
@@ -91,6 +95,27 @@ pub fn filter(prepared: &Prepared, halves: &[Colours; 2], variance: &Plane, pass
         }
     });
     Filtered { mean, plane }
+}
+
+impl Field {
+    /// By how much features of pixels of a row differ from those of the row's own, the places of which are told first; in units in which
+    /// they are of about one size.
+    fn features(&self, [here, other]: [usize; 2], [across, down]: [isize; 2]) -> [Row; UNKNOWNS] {
+        let most = (self.pass.step * self.pass.reach) as f32;
+        let mut features = [[1.0; TILE]; UNKNOWNS];
+        features[1] = [across as f32 / most; TILE];
+        features[2] = [down as f32 / most; TILE];
+        let [one, two] = [here, other].map(|place| self.normal.each_ref().map(|plane| plane.row::<TILE>(place)));
+        for c in 0..3 {
+            (0..TILE).for_each(|x| features[3 + c][x] = two[c][x] - one[c][x]);
+        }
+        let (near, near_other): (&Row, &Row) = (self.near.row(here), self.near.row(other));
+        (0..TILE).for_each(|x| features[6][x] = ((near_other[x] - near[x]) / (near[x] + LEAST)).clamp(-4.0, 4.0));
+        let [one, two] = [here, other].map(|place| self.tint.each_ref().map(|plane| plane.row::<TILE>(place)));
+        let tint = |of: &[&Row; 3], x: usize| of[0][x] + of[1][x] + of[2][x];
+        (0..TILE).for_each(|x| features[7][x] = tint(&two, x) - tint(&one, x));
+        features
+    }
 }
 
 /// What a thread works with.
@@ -187,7 +212,9 @@ impl Work {
                 let square = |[one, other]: [&[f32; SPAN]; 2]| (one[x] - other[x]) * (one[x] - other[x]);
                 let squares = square(rows[0]) + square(rows[1]) + square(rows[2]);
                 let (one, other) = (variances[0][x], variances[1][x]);
-                *distance = (squares - (one + one.min(other))) / (LEAST + one + other);
+                // A pixel that has more noise than this one counts as if it had no more: it would be like all others.
+                let noise = one + one.min(other);
+                *distance = (squares - noise) / (LEAST + one + other.min(MORE * one));
             }
         }
         for (across, distances) in self.across.iter_mut().zip(&self.distances) {
@@ -216,21 +243,16 @@ impl Work {
         let y = (top + row) as isize;
         let here = field.near.place(left as isize, y);
         let other = field.near.place(left as isize + across, y + down);
-        let most = (field.pass.step * field.pass.reach) as f32;
-        let mut features = [[1.0; TILE]; UNKNOWNS];
-        features[1] = [across as f32 / most; TILE];
-        features[2] = [down as f32 / most; TILE];
-        let [one, two] = [here, other].map(|place| field.normal.each_ref().map(|plane| plane.row::<TILE>(place)));
-        for c in 0..3 {
-            (0..TILE).for_each(|x| features[3 + c][x] = two[c][x] - one[c][x]);
-        }
-        let (near, near_other): (&Row, &Row) = (field.near.row(here), field.near.row(other));
-        (0..TILE).for_each(|x| features[6][x] = ((near_other[x] - near[x]) / (near[x] + LEAST)).clamp(-4.0, 4.0));
-        let [one, two] = [here, other].map(|place| field.tint.each_ref().map(|plane| plane.row::<TILE>(place)));
-        let tint = |of: &[&Row; 3], x: usize| of[0][x] + of[1][x] + of[2][x];
-        (0..TILE).for_each(|x| features[7][x] = tint(&two, x) - tint(&one, x));
         let colours: [&Row; 3] = field.halves[half].each_ref().map(|plane| plane.row(other));
         let Sums { moments, right } = &mut self.sums[half][row];
+        if !field.pass.planes {
+            (0..TILE).for_each(|x| moments[0][x] += weights[x]);
+            for (colour, sum) in colours.iter().zip(&mut right[0]) {
+                (0..TILE).for_each(|x| sum[x] += weights[x] * colour[x]);
+            }
+            return;
+        }
+        let features = field.features([here, other], [across, down]);
         let mut next = moments.iter_mut();
         for i in 0..UNKNOWNS {
             let weighted: Row = std::array::from_fn(|x| weights[x] * features[i][x]);
@@ -252,7 +274,8 @@ impl Work {
                 let right: [[f32; 3]; UNKNOWNS] = std::array::from_fn(|k| right[k].map(|row| row[x]));
                 // A pixel is like itself, so there are weights.
                 *mean = right[0].map(|sum| sum / of_pixel[0]);
-                *plane = values(&of_pixel, &right).map_or(*mean, |plane| plane.map(|x| x.max(0.0)));
+                let fitted = if field.pass.planes { values(&of_pixel, &right) } else { None };
+                *plane = fitted.map_or(*mean, |plane| plane.map(|x| x.max(0.0)));
             }
         }
     }

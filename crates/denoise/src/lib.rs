@@ -38,7 +38,11 @@ use prepared::Prepared;
 use rayon::prelude::*;
 
 /// The passes, the finest first.
-const PASSES: [Pass; 3] = [Pass { step: 1, reach: 5 }, Pass { step: 3, reach: 4 }, Pass { step: 9, reach: 4 }];
+const PASSES: [Pass; 3] = [
+    Pass { step: 1, reach: 4, planes: true },
+    Pass { step: 3, reach: 4, planes: true },
+    Pass { step: 9, reach: 4, planes: false },
+];
 
 /// A pixel depends on no other pixel farther away than this, along a row or a column: that is how far crops differ from the
 /// whole.

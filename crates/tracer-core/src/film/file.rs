@@ -15,7 +15,8 @@
 
 use super::layers::SavedLayer;
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{Crop, Film, FilmLayer, Part, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
+use super::{Crop, Film, FilmLayer, Part, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileHalf, TileLayers};
+use super::Unfinished;
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
@@ -27,7 +28,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
