@@ -180,7 +180,8 @@ impl Work {
             let [right, below]: [&Row; 2] = field.slope.each_ref().map(|slope| slope.row(here));
             for x in 0..TILE {
                 let square = |[one, other]: &[Row; 2]| (one[x] - other[x]) * (one[x] - other[x]);
-                let of_normal = (square(&normal[0]) + square(&normal[1]) + square(&normal[2])) * (1.0 / NORMAL / NORMAL);
+                let of_normal =
+                    (square(&normal[0]) + square(&normal[1]) + square(&normal[2])) * (1.0 / NORMAL / NORMAL);
                 let of_tint = (square(&tint[0]) + square(&tint[1]) + square(&tint[2])) * (1.0 / ALBEDO / ALBEDO);
                 let from_flat = near_other[x] - near[x] - (right[x] * fx + below[x] * fy);
                 let unit = NEAR * near[x] + 0.5 * (right[x].abs() + below[x].abs()) + LEAST;

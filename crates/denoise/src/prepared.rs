@@ -130,7 +130,13 @@ fn slope(plane: &Plane, step: usize) -> Plane {
         let forwards = (at + 1 < length).then(|| values[k + step] - values[k]);
         let backwards = (at > 0).then(|| values[k] - values[k - step]);
         match (forwards, backwards) {
-            (Some(one), Some(other)) => if one.abs() < other.abs() { one } else { other },
+            (Some(one), Some(other)) => {
+                if one.abs() < other.abs() {
+                    one
+                } else {
+                    other
+                }
+            }
             (one, other) => one.or(other).unwrap_or(0.0),
         }
     })

@@ -12,12 +12,13 @@ mod layers;
 mod merge;
 mod pack;
 mod part;
+mod record;
 mod state;
 
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
-pub(crate) use halves::{half_end, half_of};
 use halves::TileHalf;
+pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
 use layers::{FilmLayer, TileLayers};
 pub use merge::{Gap, Gaps, MergeError, faults};
