@@ -99,7 +99,7 @@ pub fn choose(prepared: &Prepared, last: &Chosen, filtered: &Filtered) -> Chosen
 
 /// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror, two pixels wide, is
 /// lost in the squares that errors are summed over. What both differ by from the filtered other one has the square of the filter's error as
-/// its mean product; it counts where it is far above the noise around, which happens by chance once in a million pixels.
+/// its mean product; it counts where it is far above the noise around, which normal noise makes once in ten million pixels.
 fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
     let is_peak = |k: usize| {
         let (mut product, mut difference) = (0.0, 0.0);
