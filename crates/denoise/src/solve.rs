@@ -10,14 +10,11 @@ const RIDGE: [f64; UNKNOWNS] = [0.0, 0.003, 0.003, 0.01, 0.01, 0.01, 0.01, 0.01]
 /// The values at the pixel, of three right hand sides, by the rows of the matrix of moments from the diagonal on; `None` where
 /// there are no weights. Eliminated from the last unknown to the first, which is the one that is wanted.
 pub fn values(moments: &[f32; MOMENTS], right: &[[f32; 3]; UNKNOWNS]) -> Option<[f32; 3]> {
-    let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
-    let mut next = moments.iter();
-    for row in 0..UNKNOWNS {
-        for column in row..UNKNOWNS {
-            let moment = f64::from(*next.next()?);
-            (matrix[row][column], matrix[column][row]) = (moment, moment);
-        }
-    }
+    // Above a row are as many entries as the rows before it have from their diagonals on.
+    let above = |row: usize| row * (2 * UNKNOWNS + 1 - row) / 2;
+    let moment = |row: usize, column: usize| moments[above(row.min(column)) + row.abs_diff(column)];
+    let mut matrix: [[f64; UNKNOWNS]; UNKNOWNS] =
+        std::array::from_fn(|row| std::array::from_fn(|column| f64::from(moment(row, column))));
     let weights = matrix[0][0];
     if weights <= 0.0 {
         return None;
