@@ -57,7 +57,6 @@ struct Field {
 }
 
 /// Sums of a row of a tile: the upper half of a symmetric matrix, and three right hand sides.
-#[derive(Clone)]
 struct Sums {
     moments: [Row; MOMENTS],
     right: [[Row; 3]; UNKNOWNS],
@@ -89,9 +88,9 @@ pub fn filter(prepared: &Prepared, halves: &[Colours; 2], variance: &Plane, pass
     means.zip(planes).enumerate().for_each(|(k, ((mean_a, mean_b), (plane_a, plane_b)))| {
         let mut work = Work::new();
         for left in (0..width).step_by(TILE) {
-            work.sum(&field, left, k * ROWS);
-            work.give(&field, left, 0, mean_a, plane_a);
-            work.give(&field, left, 1, mean_b, plane_b);
+            work.weigh(&field, left, k * ROWS);
+            work.give(&field, [left, k * ROWS], 0, mean_a, plane_a);
+            work.give(&field, [left, k * ROWS], 1, mean_b, plane_b);
         }
     });
     Filtered { mean, plane }
@@ -120,7 +119,11 @@ impl Field {
 
 /// What a thread works with.
 struct Work {
-    sums: [Vec<Sums>; 2],
+    /// Offsets of pixels that are alike, and their weights for either half, of the tile's pixels.
+    offsets: Vec<[isize; 2]>,
+    weights: [Vec<[Row; ROWS]>; 2],
+    /// Sums of one row: they stay in the nearest cache.
+    sums: Box<Sums>,
     features: [Row; ROWS],
     distances: [[f32; SPAN]; SPAN_ROWS],
     across: [Row; SPAN_ROWS],
@@ -128,21 +131,20 @@ struct Work {
 
 impl Work {
     fn new() -> Self {
-        let zero = Sums { moments: [[0.0; TILE]; MOMENTS], right: [[[0.0; TILE]; 3]; UNKNOWNS] };
         Work {
-            sums: [vec![zero.clone(); ROWS], vec![zero; ROWS]],
+            offsets: Vec::new(),
+            weights: [Vec::new(), Vec::new()],
+            sums: Box::new(Sums { moments: [[0.0; TILE]; MOMENTS], right: [[[0.0; TILE]; 3]; UNKNOWNS] }),
             features: [[0.0; TILE]; ROWS],
             distances: [[0.0; SPAN]; SPAN_ROWS],
             across: [[0.0; TILE]; SPAN_ROWS],
         }
     }
 
-    /// Sums over all pixels around those of a tile.
-    fn sum(&mut self, field: &Field, left: usize, top: usize) {
-        for sums in self.sums.iter_mut().flatten() {
-            sums.moments.iter_mut().for_each(|row| *row = [0.0; TILE]);
-            sums.right.iter_mut().flatten().for_each(|row| *row = [0.0; TILE]);
-        }
+    /// Finds the weights of all pixels around those of a tile.
+    fn weigh(&mut self, field: &Field, left: usize, top: usize) {
+        self.offsets.clear();
+        self.weights.iter_mut().for_each(Vec::clear);
         let (step, reach) = (field.pass.step as isize, field.pass.reach as isize);
         for down in -reach..=reach {
             for across in -reach..=reach {
@@ -150,15 +152,28 @@ impl Work {
                 if !self.compare_features(field, left, top, offset) {
                     continue;
                 }
+                self.offsets.push(offset);
                 for half in 0..2 {
                     // Its weights come from the other half: so that no error makes its own weight.
                     self.compare_patches(field, &field.halves[1 - half], left, top, offset);
-                    for row in 0..ROWS {
-                        self.add(field, left, top, offset, half, row);
-                    }
+                    let weights = std::array::from_fn(|row| self.weights_of(row));
+                    self.weights[half].push(weights);
                 }
             }
         }
+    }
+
+    /// Weights of a row, by features and patches.
+    fn weights_of(&self, row: usize) -> Row {
+        const SHARE: f32 = 1.0 / ((2 * PATCH + 1) * (2 * PATCH + 1)) as f32;
+        let mut weights: Row = [0.0; TILE];
+        for patch in &self.across[row..=row + 2 * PATCH] {
+            weights.iter_mut().zip(patch).for_each(|(to, distance)| *to += distance);
+        }
+        for (to, alike) in weights.iter_mut().zip(&self.features[row]) {
+            *to = weight((*to * SHARE).max(0.0)) * alike;
+        }
+        weights
     }
 
     /// How alike features are to those of the pixels at an offset; whether any are.
@@ -225,58 +240,63 @@ impl Work {
         }
     }
 
-    /// Adds the pixels at an offset to the sums of a row.
-    fn add(&mut self, field: &Field, left: usize, top: usize, [across, down]: [isize; 2], half: usize, row: usize) {
-        const SHARE: f32 = 1.0 / ((2 * PATCH + 1) * (2 * PATCH + 1)) as f32;
-        let alike = &self.features[row];
-        let mut weights: Row = [0.0; TILE];
-        for patch in &self.across[row..=row + 2 * PATCH] {
-            weights.iter_mut().zip(patch).for_each(|(to, distance)| *to += distance);
-        }
-        let mut sum = 0.0;
-        for (to, alike) in weights.iter_mut().zip(alike) {
-            *to = weight((*to * SHARE).max(0.0)) * alike;
-            sum += *to;
-        }
-        if sum == 0.0 {
-            return;
-        }
-        let y = (top + row) as isize;
-        let here = field.near.place(left as isize, y);
-        let other = field.near.place(left as isize + across, y + down);
-        let colours: [&Row; 3] = field.halves[half].each_ref().map(|plane| plane.row(other));
-        let Sums { moments, right } = &mut self.sums[half][row];
-        if !field.pass.planes {
-            (0..TILE).for_each(|x| moments[0][x] += weights[x]);
-            for (colour, sum) in colours.iter().zip(&mut right[0]) {
-                (0..TILE).for_each(|x| sum[x] += weights[x] * colour[x]);
+    /// Sums over all pixels around those of a row.
+    fn sum(&mut self, field: &Field, [left, y]: [usize; 2], half: usize, row: usize) {
+        let Sums { moments, right } = &mut *self.sums;
+        moments.iter_mut().for_each(|row| *row = [0.0; TILE]);
+        right.iter_mut().flatten().for_each(|row| *row = [0.0; TILE]);
+        let here = field.near.place(left as isize, y as isize);
+        for (&[across, down], weights) in self.offsets.iter().zip(&self.weights[half]) {
+            let weights = &weights[row];
+            if weights.iter().all(|&weight| weight == 0.0) {
+                continue;
             }
-            return;
-        }
-        let features = field.features([here, other], [across, down]);
-        let mut next = moments.iter_mut();
-        for i in 0..UNKNOWNS {
-            let weighted: Row = std::array::from_fn(|x| weights[x] * features[i][x]);
-            for (feature, moment) in features[i..].iter().zip(&mut next) {
-                (0..TILE).for_each(|x| moment[x] += weighted[x] * feature[x]);
+            let other = field.near.place(left as isize + across, y as isize + down);
+            let colours: [&Row; 3] = field.halves[half].each_ref().map(|plane| plane.row(other));
+            if !field.pass.planes {
+                (0..TILE).for_each(|x| moments[0][x] += weights[x]);
+                for (colour, sum) in colours.iter().zip(&mut right[0]) {
+                    (0..TILE).for_each(|x| sum[x] += weights[x] * colour[x]);
+                }
+                continue;
             }
-            for (colour, sum) in colours.iter().zip(&mut right[i]) {
-                (0..TILE).for_each(|x| sum[x] += weighted[x] * colour[x]);
+            let features = field.features([here, other], [across, down]);
+            let mut next = moments.iter_mut();
+            for i in 0..UNKNOWNS {
+                let mut weighted: Row = [0.0; TILE];
+                (0..TILE).for_each(|x| weighted[x] = weights[x] * features[i][x]);
+                for (feature, moment) in features[i..].iter().zip(&mut next) {
+                    (0..TILE).for_each(|x| moment[x] += weighted[x] * feature[x]);
+                }
+                for (colour, sum) in colours.iter().zip(&mut right[i]) {
+                    (0..TILE).for_each(|x| sum[x] += weighted[x] * colour[x]);
+                }
             }
         }
     }
 
     /// Means and planes of a tile's pixels, into the rows of its strip.
-    fn give(&self, field: &Field, left: usize, half: usize, mean: &mut [[f32; 3]], plane: &mut [[f32; 3]]) {
-        let rows = mean.chunks_mut(field.width).zip(plane.chunks_mut(field.width)).zip(&self.sums[half]);
-        for ((mean, plane), Sums { moments, right }) in rows {
+    fn give(
+        &mut self,
+        field: &Field,
+        [left, top]: [usize; 2],
+        half: usize,
+        mean: &mut [[f32; 3]],
+        plane: &mut [[f32; 3]],
+    ) {
+        let rows = mean.chunks_mut(field.width).zip(plane.chunks_mut(field.width));
+        for (row, (mean, plane)) in rows.enumerate() {
+            self.sum(field, [left, top + row], half, row);
+            let Sums { moments, right } = &*self.sums;
             for (x, (mean, plane)) in mean[left..].iter_mut().zip(&mut plane[left..]).take(TILE).enumerate() {
-                let of_pixel: [f32; MOMENTS] = std::array::from_fn(|k| moments[k][x]);
-                let right: [[f32; 3]; UNKNOWNS] = std::array::from_fn(|k| right[k].map(|row| row[x]));
                 // A pixel is like itself, so there are weights.
-                *mean = right[0].map(|sum| sum / of_pixel[0]);
-                let fitted = if field.pass.planes { values(&of_pixel, &right) } else { None };
-                *plane = fitted.map_or(*mean, |plane| plane.map(|x| x.max(0.0)));
+                *mean = right[0].map(|sum| sum[x] / moments[0][x]);
+                *plane = *mean;
+                if field.pass.planes {
+                    let of_pixel: [f32; MOMENTS] = std::array::from_fn(|k| moments[k][x]);
+                    let right: [[f32; 3]; UNKNOWNS] = std::array::from_fn(|k| right[k].map(|row| row[x]));
+                    *plane = values(&of_pixel, &right).map_or(*mean, |plane| plane.map(|x| x.max(0.0)));
+                }
             }
         }
     }
