@@ -14,7 +14,7 @@ const BRIGHTNESS: usize = 3;
 /// How far away a choice depends on pixels.
 pub const REACH: usize = 2 * SQUARE + 2 * BLUR + BRIGHTNESS;
 /// What there was before is kept only where its error is less by this share.
-const MARGIN: f32 = 0.3;
+const MARGIN: f32 = 0.1;
 /// Errors of what is darker than this, in units of the picture's mean, count as if it were so bright.
 const DARK: f32 = 0.1;
 
@@ -39,10 +39,11 @@ impl Chosen {
     }
 }
 
-/// Squared error of a candidate, an estimate that is right on average where its halves are independent: a filtered half F and
-/// the noisy other one O differ by F's error and O's variance, and the mean of two filtered halves has less variance than
-/// each. With a and b the shares of the halves, D and E the squared differences of the noisy and of the filtered halves, that
-/// is a (F_1 - O_2)^2 + b (F_2 - O_1)^2 - (a^2 + b^2) D - a b E; the noisy picture's is a b D.
+/// Squared error of a candidate, an estimate that is right on average where its halves are independent: a filtered
+/// half F and the noisy other one O differ by F's error and O's variance, and the mean of two filtered halves has
+/// less variance than each. With a and b the shares of the halves, D and E the squared differences of the noisy and
+/// of the filtered halves, that is a (F_1 - O_2)^2 + b (F_2 - O_1)^2 - (a^2 + b^2) D - a b E; the noisy picture's is
+/// a b D.
 fn error(prepared: &Prepared, irradiance: impl Fn(usize, usize, usize) -> f32 + Sync) -> Plane {
     let a = prepared.share;
     let b = 1.0 - a;
@@ -97,9 +98,10 @@ pub fn choose(prepared: &Prepared, last: &Chosen, filtered: &Filtered) -> Chosen
     Chosen { halves, before: last.before.clone(), after }
 }
 
-/// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror, two pixels wide, is
-/// lost in the squares that errors are summed over. What both differ by from the filtered other one has the square of the filter's error as
-/// its mean product; it counts where it is far above the noise around, which normal noise makes once in ten million pixels.
+/// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror,
+/// two pixels wide, is lost in the squares that errors are summed over. What both differ by from the filtered other
+/// one has the square of the filter's error as its mean product; it counts where it is far above the noise around,
+/// which normal noise makes once in ten million pixels.
 fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
     let is_peak = |k: usize| {
         let (mut product, mut difference) = (0.0, 0.0);

@@ -97,8 +97,8 @@ pub fn filter(prepared: &Prepared, halves: &[Colours; 2], variance: &Plane, pass
 }
 
 impl Field {
-    /// By how much features of pixels of a row differ from those of the row's own, the places of which are told first; in units in which
-    /// they are of about one size.
+    /// By how much features of pixels of a row differ from those of the row's own, the places of which are told
+    /// first; in units in which they are of about one size.
     fn features(&self, [here, other]: [usize; 2], [across, down]: [isize; 2]) -> [Row; UNKNOWNS] {
         let most = (self.pass.step * self.pass.reach) as f32;
         let mut features = [[1.0; TILE]; UNKNOWNS];

@@ -14,8 +14,8 @@ pub struct Input<'a> {
     /// How many of the samples are the first half's, from 0 to 1, neither included: the picture is the first half times
     /// this and the second times the rest.
     pub share: f32,
-    /// What the surface that is seen sends by itself, linear RGB, in the halves' unit, as a mean over all their samples.
-    /// There is no noise of light in it, so it is left as it is.
+    /// What the surface that is seen sends by itself, linear RGB, in the halves' unit, as a mean over all their
+    /// samples. There is no noise of light in it, so it is left as it is.
     pub emission: &'a [f32],
     /// Colour without light, textures included, in 0..=1; zero where nothing is hit.
     pub albedo: &'a [f32],
@@ -23,8 +23,8 @@ pub struct Input<'a> {
     pub normal: &'a [f32],
     /// Distance along the view axis, above zero; infinite where nothing is hit.
     pub depth: &'a [f32],
-    /// Estimated variance of a pixel's mean luminance, were its samples independent. Only its shape counts: how large it is
-    /// the halves tell.
+    /// Estimated variance of a pixel's mean luminance, were its samples independent. Only its shape counts: how large
+    /// it is the halves tell.
     pub variance: &'a [f32],
 }
 

@@ -1,20 +1,21 @@
 //! The denoiser: two half pictures and what camera rays hit become one picture with less noise.
 //!
-//! Pixels are filtered by what else is like them. How much noise there is, and whether a filter makes the picture better or
-//! worse, is told by two halves of the samples that know nothing of each other, and by nothing else: errors that neighbours
-//! have in common (pixels that share what they find, [`Input::halves`]) do not mislead it, for what is common to a half is
-//! not in the other.
+//! Pixels are filtered by what else is like them. How much noise there is, and whether a filter makes the picture
+//! better or worse, is told by two halves of the samples that know nothing of each other, and by nothing else: errors
+//! that neighbours have in common (pixels that share what they find, [`Input::halves`]) do not mislead it, for what
+//! is common to a half is not in the other.
 //!
-//! 1. *Demodulation* (`prepared`): what is seen of lamps is taken away, the rest is divided by the albedo, so that textures
-//!    are not there to be blurred; both come back in the end.
-//! 2. *Filtering* (`filter`), three times with steps of 1, 3 and 9 pixels: around each pixel a plane over position, normal,
-//!    nearness and albedo is fitted to the pixels that are alike, as Bitterli et al. do (Nonlinearly Weighted First-order
-//!    Regression for Denoising Monte Carlo Renderings, 2016); their weighted mean is a second candidate. Alike is what has
-//!    like colours in patches around it, measured by the noise (non-local means; Rousselle, Knaus, Zwicker: Adaptive
-//!    Rendering with Non-Local Means Filtering, 2012), and like features (Rousselle, Manzi, Zwicker: Robust Denoising using
-//!    Feature and Color Information, 2013). A half is filtered by the weights that the other tells.
-//! 3. *Choice* (`choice`): of what there was before, mean and plane, each pixel takes what has the least squared error in
-//!    the squares around it, estimated by the other half.
+//! 1. *Demodulation* (`prepared`): what is seen of lamps is taken away, the rest is divided by the albedo, so that
+//!    textures are not there to be blurred; both come back in the end.
+//! 2. *Filtering* (`filter`), three times with steps of 1, 3 and 9 pixels: around each pixel a plane over position,
+//!    normal, nearness and albedo is fitted to the pixels that are alike, as Bitterli et al. do (Nonlinearly Weighted
+//!    First-order Regression for Denoising Monte Carlo Renderings, 2016); their weighted mean is a second candidate.
+//!    Alike is what has like colours in patches around it, measured by the noise (non-local means; Rousselle, Knaus,
+//!    Zwicker: Adaptive Rendering with Non-Local Means Filtering, 2012), and like features (Rousselle, Manzi,
+//!    Zwicker: Robust Denoising using Feature and Color Information, 2013). A half is filtered by the weights that
+//!    the other tells.
+//! 3. *Choice* (`choice`): of what there was before, mean and plane, each pixel takes what has the least squared
+//!    error in the squares around it, estimated by the other half.
 //!
 //! Where we deviate: weights are polynomials that end, not exponentials; features are not filtered before (they have no
 //! halves); the plane of a pixel counts for that pixel alone; the wide steps come by repetition.
@@ -44,8 +45,8 @@ const PASSES: [Pass; 3] = [
     Pass { step: 9, reach: 4, planes: false },
 ];
 
-/// A pixel depends on no other pixel farther away than this, along a row or a column: that is how far crops differ from the
-/// whole.
+/// A pixel depends on no other pixel farther away than this, along a row or a column: that is how far crops differ
+/// from the whole.
 pub const REACH: usize = {
     let (mut reach, mut k) = (prepared::REACH, 0);
     while k < PASSES.len() {
@@ -86,7 +87,8 @@ pub struct Told {
 /// use tracer_denoise::{Input, denoise};
 ///
 /// // Noise of one in a hundred over a white wall, another in each half.
-/// let noise = |half: u32, k: usize| ((k as u32 * 2 + half).wrapping_mul(2_654_435_761) >> 8) as f32 / 8_388_608.0 - 1.0;
+/// let hash = |half: u32, k: usize| (k as u32 * 2 + half).wrapping_mul(2_654_435_761) >> 8;
+/// let noise = |half: u32, k: usize| hash(half, k) as f32 / 8_388_608.0 - 1.0;
 /// let half = |half| (0..32 * 32).flat_map(|k| [1.0 + 0.01 * noise(half, k); 3]).collect::<Vec<f32>>();
 /// let (pixels, one) = (32 * 32, vec![1.0; 3 * 32 * 32]);
 /// let denoised = denoise(&Input {

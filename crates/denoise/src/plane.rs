@@ -53,8 +53,8 @@ impl Plane {
         down
     }
 
-    /// With a border of so many pixels more on each side, and as many behind the rows' ends as make their width within it a
-    /// multiple of `tile`: all like the nearest pixel that there is.
+    /// With a border of so many pixels more on each side, and as many behind the rows' ends as make their width
+    /// within it a multiple of `tile`: all like the nearest pixel that there is.
     pub fn padded(&self, border: usize, tile: usize) -> Padded {
         let (width, height) = (self.width, self.height);
         let (stride, rows) = (width.div_ceil(tile) * tile + 2 * border, height + 2 * border);

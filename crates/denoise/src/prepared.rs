@@ -89,8 +89,8 @@ fn scale(input: &Input<'_>) -> f32 {
     if power.is_normal() { power.clamp(1e-30, 1e30) } else { 1.0 }
 }
 
-/// Half the squared difference of both halves, summed over the channels, and made that of two equal halves: its mean is the
-/// variance of one.
+/// Half the squared difference of both halves, summed over the channels, and made that of two equal halves: its mean
+/// is the variance of one.
 fn differences([one, other]: &[Colours; 2], share: f32) -> Plane {
     // The variance of the difference is that of a sample over n a (1 - a), of equal halves 4 / n.
     let factor = 2.0 * share * (1.0 - share);
@@ -104,8 +104,8 @@ fn differences([one, other]: &[Colours; 2], share: f32) -> Plane {
 }
 
 /// The variance of a half: as large as the halves tell over a wide square, of the shape that the samples' own has
-/// (Rousselle, Knaus, Zwicker 2012, section 5). That one believes the samples independent, which those that are stratified and
-/// pixels that share are not: they have a third of it or less.
+/// (Rousselle, Knaus, Zwicker 2012, section 5). That one believes the samples independent, which those that are
+/// stratified and pixels that share are not: they have a third of it or less.
 fn variance(halves: &[Colours; 2], share: f32, shape: &Plane) -> Plane {
     let of_halves = differences(halves, share);
     let (wide, wide_shape) = (of_halves.blurred(WIDE), shape.blurred(WIDE));
@@ -121,8 +121,8 @@ pub fn variance_of(halves: &[Colours; 2], share: f32) -> Plane {
     differences(halves, share).blurred(3).blurred(3)
 }
 
-/// By how much a plane changes from pixel to pixel, `step` numbers apart, on the side where it changes less: at the border of a
-/// thing that is its own side.
+/// By how much a plane changes from pixel to pixel, `step` numbers apart, on the side where it changes less: at the
+/// border of a thing that is its own side.
 fn slope(plane: &Plane, step: usize) -> Plane {
     let (width, height, values) = (plane.width, plane.height, &plane.values);
     Plane::of(width, height, |k| {

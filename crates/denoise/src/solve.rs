@@ -7,8 +7,8 @@ pub const MOMENTS: usize = UNKNOWNS * (UNKNOWNS + 1) / 2;
 /// What is added to the moments of slopes, as a share of all weights: slopes over what hardly changes are not believed.
 const RIDGE: [f64; UNKNOWNS] = [0.0, 0.003, 0.003, 0.01, 0.01, 0.01, 0.01, 0.01];
 
-/// The values at the pixel, of three right hand sides, by the rows of the matrix of moments from the diagonal on; `None` where
-/// there are no weights. Eliminated from the last unknown to the first, which is the one that is wanted.
+/// The values at the pixel, of three right hand sides, by the rows of the matrix of moments from the diagonal on;
+/// `None` where there are no weights. Eliminated from the last unknown to the first, which is the one that is wanted.
 pub fn values(moments: &[f32; MOMENTS], right: &[[f32; 3]; UNKNOWNS]) -> Option<[f32; 3]> {
     // Above a row are as many entries as the rows before it have from their diagonals on.
     let above = |row: usize| row * (2 * UNKNOWNS + 1 - row) / 2;

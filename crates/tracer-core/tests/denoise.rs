@@ -166,8 +166,8 @@ fn the_same_bytes() {
     assert_ne!(image.display, noisy.display);
 }
 
-/// The squared error at 16 samples falls by these factors at least, and never rises. They are half of what the worse of two other seeds gave
-/// (2.5 and 1.2, 8, 1.1 and 1.8, 1.9, 5.9, 31): such an error is a mean over pixels of which neighbours have it in common, some 30 regions
+/// The squared error at 16 samples falls by these factors at least, and never rises. They are half of what the worst of three seeds gave
+/// (1.2, 8, 1.1, 1.7, 5.9, 31), and one at least: such an error is a mean over pixels of which neighbours have it in common, some 30 regions
 /// that know nothing of each other; so it wanders by a fifth, the ratio of two by a quarter, and half is two standard deviations away.
 #[test]
 fn errors_fall() {

@@ -6,7 +6,7 @@ use clap::Args;
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct DenoiseArgs {
     /// Take the noise out of the picture: on or off [default: off; alone: on]
-    #[arg(long, value_name = "on|off", num_args = 0..=1, default_missing_value = "on", value_parser = switch)]
+    #[arg(long, value_name = "WHAT", num_args = 0..=1, default_missing_value = "on", value_parser = switch)]
     #[arg(help = "Take the noise out of the picture, its errors told")]
     pub denoise: Option<bool>,
 }

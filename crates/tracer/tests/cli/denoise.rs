@@ -1,6 +1,6 @@
 //! `--denoise`: the picture, what EXR files keep of it, parts, checkpoints, the report.
 
-use crate::support::{Ran, Sandbox};
+use crate::support::{Ran, Sandbox, repository};
 use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -114,4 +114,19 @@ fn what_cannot_be_is_said() {
     let ran = render(&sandbox, &["-s", "1", "-o", "a.png", "--denoise"]).ends(2);
     ran.says(&["--denoise needs two samples per pixel at least"]);
     assert_eq!(sandbox.files(), ["scene.ron"]);
+}
+
+/// The commands of the page work.
+#[test]
+fn the_page_is_true() {
+    let page = std::fs::read_to_string(repository().join("docs/denoise.md")).expect("the page");
+    let commands: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("tracer ")).collect();
+    assert_eq!(commands.len(), 2);
+    let sandbox = Sandbox::new();
+    for command in commands {
+        let command = command.replace("scenes/", &format!("{}/scenes/", repository().display()));
+        let command = command.replace("--samples 16", "--samples 2 --size 12x8");
+        sandbox.run(&command.split(' ').collect::<Vec<_>>()).ends(0).says(&["denoised in "]);
+    }
+    assert_eq!(sandbox.files(), ["lamp.exr", "lamp.png", "scene.ron"]);
 }
