@@ -379,7 +379,7 @@ fn too_large(desc: &SceneDesc, free: Option<u64>) -> Option<String> {
     const BYTES_PER_PIXEL: u64 = 64;
     let size = [desc.image.width.value, desc.image.height.value];
     let layers = tracer_core::layer_set(&desc.output.layers);
-    let film = Film::bytes_of(Crop::whole(size), desc.render.clamp.is_some(), true, layers);
+    let film = Film::bytes_of(Crop::whole(size), desc.render.clamp.is_some(), true, layers, false);
     let needed = FILMS * film + BYTES_PER_PIXEL * u64::from(size[0]) * u64::from(size[1]);
     let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
     (needed > free?).then(|| {

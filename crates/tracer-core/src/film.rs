@@ -7,14 +7,18 @@
 mod cells;
 mod exact;
 mod file;
+mod halves;
 mod layers;
 mod merge;
 mod pack;
 mod part;
+mod record;
 mod state;
 
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
+use halves::TileHalf;
+pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
 use layers::{FilmLayer, TileLayers};
 pub use merge::{Gap, Gaps, MergeError, faults};
@@ -91,6 +95,8 @@ pub(crate) struct Tile {
     splats: Option<Box<Splats>>,
     /// Where samples with layers have been added.
     layers: Option<Box<TileLayers>>,
+    /// The second half of the samples, where halves are kept.
+    half: Option<Box<TileHalf>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -167,9 +173,10 @@ impl Tile {
 
     /// Adds what a light path brings to a pixel, scaled down to the limit where samples are clamped; what that takes is
     /// kept as of samples. What is too large for a sum is left out.
-    pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3], limit: Option<f64>) {
+    /// Gives what was added, in least units.
+    pub(crate) fn splat(&mut self, pixel: usize, brings: [f32; 3], limit: Option<f64>) -> Option<[i128; 3]> {
         if !counts(brings) {
-            return;
+            return None;
         }
         let mut left = brings;
         let largest = f64::from(brings[0].max(brings[1]).max(brings[2]));
@@ -179,15 +186,17 @@ impl Tile {
             taken.sums.add(pixel, [0, 1, 2].map(|c| fixed(brings[c]) - fixed(left[c])));
         }
         let splats = self.splats.get_or_insert_with(|| Box::new(Splats::zeroed()));
-        splats.sums.add(pixel, left.map(fixed));
+        let added = left.map(fixed);
+        splats.sums.add(pixel, added);
         splats.squares.add(pixel, luminance(left.map(f64::from)));
+        Some(added)
     }
 
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool, light_paths: bool, kept: Kept) -> usize {
+    fn bytes(clamped: bool, light_paths: bool, kept: Kept, halves: bool) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
-        let layers = TileLayers::bytes(kept);
-        size_of::<Tile>() + of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>()) + layers
+        let optional = of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>());
+        size_of::<Tile>() + optional + TileLayers::bytes(kept) + of(halves, TileHalf::bytes(light_paths))
     }
 }
 
@@ -234,6 +243,8 @@ pub struct Film {
     /// What a radiance of one in the sums stands for; a power of two.
     unit: f64,
     layers: Vec<FilmLayer>,
+    /// Whether the second half of the samples is summed by itself, too.
+    halves: bool,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -281,6 +292,7 @@ impl Film {
             seed,
             unit,
             layers: Vec::new(),
+            halves: false,
             first_tile,
             tile_columns,
             tiles,
@@ -371,14 +383,17 @@ impl Film {
     pub fn bytes(&self) -> usize {
         let kept = self.layers().kept();
         let of_layers = |tile: &Tile| if tile.layers.is_some() { kept } else { Kept::default() };
-        self.tiles.iter().map(|tile| Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile))).sum()
+        let of_tile = |tile: &Tile| {
+            Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile), tile.half.is_some())
+        };
+        self.tiles.iter().map(of_tile).sum()
     }
 
     /// Bytes of memory that the sums of a picture, or part of one, will take, its samples clamped or not, where light
-    /// paths fall everywhere or nowhere, with these layers.
-    pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet) -> u64 {
+    /// paths fall everywhere or nowhere, with these layers, with halves or not.
+    pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet, halves: bool) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
-        let of_tile = Tile::bytes(clamped, light_paths, layers.kept());
+        let of_tile = Tile::bytes(clamped, light_paths, layers.kept(), halves);
         tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * of_tile as u64
     }
 

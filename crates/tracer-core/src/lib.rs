@@ -36,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 mod compile;
+mod denoise;
 mod develop;
 mod engine;
 mod film;
@@ -43,11 +44,13 @@ pub mod scene;
 pub mod texture;
 
 pub use compile::{CompileError, Kept, check_files, compile, compile_keeping, named_files};
-pub use develop::{Image, Look, develop, srgb_encode};
+pub use denoise::{DENOISE_REACH, DenoiseError, Denoised, GUIDES, denoise, lacks as denoise_lacks};
+pub use develop::{Image, Look, develop, develop_denoised, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use scene::{CompileTimes, Scene, layer_set, layer_word};
+pub use tracer_denoise::Told as DenoiseTold;
 pub use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::level::Level;
 pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};

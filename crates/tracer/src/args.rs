@@ -1,11 +1,13 @@
 //! The command line's words.
 
 mod bench;
+mod denoise;
 mod fmt;
 mod merge;
 mod preview;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
+pub use denoise::DenoiseArgs;
 pub use fmt::FmtArgs;
 pub use merge::MergeArgs;
 pub use preview::PreviewArgs;
@@ -194,7 +196,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --seed, --exposure, --every, --part, --bits and more.";
+`tracer man render` has --crop, --seed, --exposure, --every, --part and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Args)]
@@ -243,6 +245,9 @@ pub struct RenderArgs {
     /// Layers of the EXR beside the scene's: albedo,depth
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub layers: Vec<Layer>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub denoise: DenoiseArgs,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

@@ -22,7 +22,7 @@ pub fn command() -> Command {
         .mut_subcommands(|command| command.help_template(TEMPLATE))
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
-            ["syntax", "diagnostics", "seed", "exposure", "every", "format", "bits", "stats", "part", "split"]
+            ["syntax", "diagnostics", "seed", "exposure", "every", "format", "bits", "stats", "part", "split", "crop"]
                 .into_iter()
                 .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
         })

@@ -6,6 +6,7 @@ pub mod checkpoint;
 pub mod command_line;
 pub mod commands;
 pub mod compare;
+pub mod denoising;
 pub mod failure;
 pub mod help;
 pub mod interrupt;

@@ -5,10 +5,10 @@ use std::fs::read_to_string;
 use tracer_core::{Crop, Film, LayerSet};
 
 /// Bytes that the sums of a picture, or part of one, take at most: light paths need room where they fall.
-pub fn of_film(crop: Crop, render: &Render, layers: LayerSet) -> u64 {
+pub fn of_film(crop: Crop, render: &Render, layers: LayerSet, halves: bool) -> u64 {
     let clamped = render.clamp.is_some();
     let light_paths = render.integrator == Integrator::Full && render.caustics == Caustics::Photons;
-    Film::bytes_of(crop, clamped, light_paths, layers)
+    Film::bytes_of(crop, clamped, light_paths, layers, halves)
 }
 
 /// The most bytes that this process has held so far.

@@ -1,11 +1,12 @@
 //! The report of a merged picture as JSON; `docs/scale.md` is its documentation.
 
 use crate::checkpoint::note;
+use crate::denoising::DenoiseReport;
 use crate::memory;
 use crate::report::{ClampedReport, FileReport, Noise, SceneReport};
 use serde::Serialize;
 use std::path::Path;
-use tracer_core::{Crop, Film, FilmHead, Gap, Part};
+use tracer_core::{Crop, Film, FilmHead, Gap, LayerSet, Part};
 
 /// What one `tracer merge` did.
 #[derive(Debug, Serialize)]
@@ -21,6 +22,7 @@ pub struct MergeReport {
     samples: MergedSamples,
     mean_path_length: f64,
     noise: Noise,
+    denoise: Option<DenoiseReport>,
     clamped: Option<ClampedReport>,
     memory: MergedMemory,
     seconds: MergedSeconds,
@@ -96,13 +98,15 @@ struct MergedSeconds {
 }
 
 impl MergeReport {
-    /// From the film and what it was made of; seconds of merging, developing, writing, and all.
+    /// From the film and what it was made of; layers that are written, and what denoising did; seconds of merging, developing, writing, and all.
+    #[allow(clippy::too_many_arguments)]
     pub fn new(
         command: String,
         film: &Film,
         head: &FilmHead,
         parts: Vec<PartReport>,
         gaps: &[Gap],
+        (layers, denoise): (LayerSet, Option<DenoiseReport>),
         [merge, develop, write, total]: [f64; 4],
         files: Vec<FileReport>,
     ) -> Self {
@@ -138,7 +142,7 @@ impl MergeReport {
                 samples_asked: head.part().of_samples,
                 samples_min,
                 samples_max,
-                layers: film.layers().names().collect(),
+                layers: layers.names().collect(),
             },
             parts,
             missing: gaps.iter().map(missing).collect(),
@@ -146,6 +150,7 @@ impl MergeReport {
             samples: MergedSamples { total: rays.camera, dropped: counters.dropped, beyond: counters.beyond },
             rays,
             noise: Noise { relative: film.relative_noise() },
+            denoise,
             clamped: film.clamped().map(ClampedReport::from),
             memory: MergedMemory { peak: memory::peak(), film: film.bytes() as u64 },
             seconds: MergedSeconds { render: film.costs.total, merge, develop, write, total },

@@ -1,5 +1,6 @@
 //! The report of a rendering as JSON; `docs/report.md` is its documentation.
 
+use crate::denoising::DenoiseReport;
 use scene_format::desc::Render;
 use serde::Serialize;
 use tracer_core::{Clamped, Film, Stage, Statistics, TreeWork};
@@ -34,6 +35,8 @@ pub struct Report {
     pub mean_path_length: f64,
     /// Noise of the picture.
     pub noise: Noise,
+    /// What denoising did; null where it was not asked for.
+    pub denoise: Option<DenoiseReport>,
     /// What there is to be hit.
     pub primitives: Primitives,
     /// The tree of boxes; null when the scene needs none.

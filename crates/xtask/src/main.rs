@@ -13,6 +13,21 @@ enum Command {
     /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the
     /// scenes.
     Gallery,
+    /// Measures what denoising does to ten scenes, and prints the table of docs/denoise.md; fails where one becomes worse.
+    Denoise {
+        /// Samples per pixel.
+        #[arg(long, default_value_t = 16)]
+        samples: u32,
+        /// Samples of the reference.
+        #[arg(long, default_value_t = 1024)]
+        reference: u32,
+        /// Pixels across and down.
+        #[arg(long, num_args = 2, default_values_t = [240, 160])]
+        size: Vec<u32>,
+        /// Only scenes whose names contain this.
+        #[arg(long, default_value = "")]
+        name: String,
+    },
     /// Golden pictures.
     #[command(subcommand)]
     Golden(Golden),
@@ -126,6 +141,12 @@ fn main() -> anyhow::Result<()> {
     let files = match Command::parse() {
         Command::Cat => xtask::cat::files()?,
         Command::Gallery => xtask::gallery::files()?,
+        Command::Denoise { samples, reference, size, name } => {
+            let options = xtask::denoise::Options { samples, reference, size: [size[0], size[1]], name };
+            let worse = xtask::denoise::run(&root, &options)?;
+            anyhow::ensure!(worse == 0, "{worse} pictures have become worse");
+            return Ok(());
+        }
         Command::Golden(Golden::Accept { cases, reason }) => return xtask::golden::accept(&root, &cases, &reason),
         Command::Layers => {
             let findings = xtask::layers::examine(&root, &xtask::layers::Rules::read(&root)?)?;

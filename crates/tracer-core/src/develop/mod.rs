@@ -6,6 +6,7 @@ mod tone_map;
 pub use srgb::srgb_encode;
 pub use tone_map::{agx, filmic};
 
+use crate::denoise::Denoised;
 use crate::film::{Crop, Film, LayerImage};
 use rayon::prelude::*;
 use scene_format::desc::ToneMap;
@@ -40,6 +41,23 @@ pub struct Image {
 
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
 pub fn develop(film: &Film, look: &Look) -> Image {
+    developed(film, look, |x, y| film.radiance(x, y))
+}
+
+/// Develops what denoising made of a film. The last of its layers, `noisy`, is the picture without it, as linear radiance, exposed as the
+/// picture is: what was filtered away cannot be had back otherwise.
+pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image {
+    let Crop { x: left, y: top, width, .. } = film.crop();
+    let mut image = developed(film, look, |x, y| {
+        let first = 3 * ((y - top) as usize * width as usize + (x - left) as usize);
+        [0, 1, 2].map(|c| f64::from(denoised.radiance[first + c]))
+    });
+    let noisy = developed(film, &Look { tone_map: ToneMap::None, ..*look }, |x, y| film.radiance(x, y));
+    image.layers.push(LayerImage { name: "noisy", channels: &["R", "G", "B"], values: noisy.linear });
+    image
+}
+
+fn developed(film: &Film, look: &Look, radiance: impl Fn(u32, u32) -> [f64; 3] + Sync) -> Image {
     let Crop { x, y, width, height } = film.crop();
     let gain = libm::exp2(look.exposure);
     let encoder = &*ENCODER;
@@ -51,7 +69,7 @@ pub fn develop(film: &Film, look: &Look) -> Image {
     rows.into_par_iter().with_min_len(TILE).for_each(|(linear, display, py)| {
         let pixels = linear.as_chunks_mut::<3>().0.iter_mut().zip(display.as_chunks_mut::<3>().0);
         for (px, (linear, display)) in (x..x + width).zip(pixels) {
-            let [r, g, b] = film.radiance(px, py);
+            let [r, g, b] = radiance(px, py);
             let exposed = [r * gain, g * gain, b * gain];
             let mapped = match look.tone_map {
                 ToneMap::None => exposed,

@@ -65,6 +65,7 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
     fits("set of layers", film.has_layers_of(&fresh))?;
+    fits("choice of halves", film.has_halves() == fresh.has_halves())?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
     let samples = samples(scene, options);
     let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
@@ -86,6 +87,7 @@ fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
     let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
     film.keep_layers(options.layers.unwrap_or(scene.layers), scene);
     film.keep_part(options.part);
+    film.keep_halves(options.halves);
     film
 }
 

@@ -37,6 +37,8 @@ pub struct RenderOptions {
     pub until: Option<Instant>,
     /// What is kept of what camera rays hit first, beside the picture ([`crate::Film::layer`]).
     pub layers: Option<LayerSet>,
+    /// Whether the film keeps two halves of the samples apart, too, as [`crate::denoise`] needs them.
+    pub halves: bool,
     /// Whether to keep [`crate::Statistics`].
     pub statistics: bool,
     /// Passes are made no longer than this, as far as those before tell, so that [`crate::Observer::state`] comes

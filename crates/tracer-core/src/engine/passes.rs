@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::observer::{Observer, Progress};
 use super::technique::{Engine, OnFilm, Technique};
 use super::trace::trace;
-use crate::film::{Cells, Film, Keeper, Piece, Unfinished};
+use crate::film::{Cells, Film, Keeper, Piece, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -207,12 +207,13 @@ impl Painter<'_> {
 
     /// Has light brought to the film beside the samples of these indices; where it has come to.
     fn bring(&self, pass: Pass<'_>, samples: Range<u32>, cells: &Cells<'_>) -> u32 {
-        let film = OnFilm { cells, limit: self.limit };
         let mut next = samples.start;
         let bringer = self.techniques.iter().find_map(|technique| Some((technique, technique.at_once()?)));
         let Some((technique, at_once)) = bringer else { return next };
         while next < samples.end && !self.stopped.load(Ordering::Relaxed) {
-            let now = next..samples.end.min(next.saturating_add(at_once));
+            // Of one half of the samples only.
+            let now = next..samples.end.min(next.saturating_add(at_once)).min(half_end(next));
+            let film = OnFilm { cells, limit: self.limit, half: half_of(next) };
             next = now.end;
             technique.bring(self.engine, pass, now, film, self.pool);
             if next < samples.end {
@@ -288,6 +289,9 @@ fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
             batch.counters.dropped += left_out.dropped;
             batch.counters.beyond += left_out.beyond;
             tile.add_layers(&batch.layers, first, common);
+            if half_of(batch.items[first].sample) == 1 {
+                tile.add_half(samples, common);
+            }
             added += common.len() as u64;
         });
     }

@@ -39,6 +39,8 @@ pub struct OnFilm<'a, 'b> {
     /// The most that the largest channel of what one light path brings counts, where samples are clamped; in the film's
     /// unit.
     pub limit: Option<f64>,
+    /// The half of the samples that it comes with ([`crate::film`]).
+    pub half: usize,
 }
 
 /// A way to find light. Whether it is at work depends on scene and settings alone, and so does all that it does: the

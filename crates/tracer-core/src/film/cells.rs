@@ -72,8 +72,8 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Adds what a light path brings to a pixel, if it is one of the crop.
-    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3], limit: Option<f64>) {
+    /// Adds what a light path of a half of the samples brings to a pixel, if it is one of the crop.
+    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3], limit: Option<f64>, half: usize) {
         let Crop { x: left, y: top, width, height } = self.crop;
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x < left || y < top || x - left >= width || y - top >= height {
@@ -81,7 +81,12 @@ impl<'a> Cells<'a> {
         }
         let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
         let pixel = z_order(x % TILE, y % TILE) as usize;
-        self.lock(place as usize).tile.splat(pixel, brings, limit);
+        let tile = &mut self.lock(place as usize).tile;
+        if let Some(added) = tile.splat(pixel, brings, limit)
+            && half == 1
+        {
+            tile.splat_half(pixel, added);
+        }
     }
 
     /// Does a work for each tile that has pixels in common with the block whose slots begin at `first`; what it is given tells them: slot

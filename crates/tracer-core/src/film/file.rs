@@ -14,20 +14,20 @@
 //! | 8 | checksum of all before |
 
 use super::layers::SavedLayer;
-use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{Crop, Film, FilmLayer, Part, Piece, Splats, Squares, Sums, TILE, Taken, Tile, TileLayers, Unfinished};
+use super::record::{kept, read_tile, record};
+use super::{Crop, Film, FilmLayer, Part, Piece, TILE, Tile, Unfinished};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
 use std::ops::RangeInclusive;
-use tracer_kernels::layers::{Kept, LayerSet};
+use tracer_kernels::layers::Kept;
 use tracer_kernels::report::{Costs, Counters};
 use xxhash_rust::xxh3::Xxh3Default;
 
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
@@ -91,6 +91,7 @@ pub struct FilmHead {
     pub(super) reuse: bool,
     pub(super) caustics: bool,
     pub(super) layers: Vec<SavedLayer>,
+    pub(super) halves: bool,
 }
 
 impl FilmHead {
@@ -114,6 +115,7 @@ impl FilmHead {
             reuse: film.reuse,
             caustics: film.caustics,
             layers: film.layers.iter().map(|layer| layer.saved()).collect(),
+            halves: film.halves,
         }
     }
 
@@ -134,8 +136,8 @@ impl FilmHead {
         let whole = *self.samples.start();
         let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
         numbers.push(self.clamp.map_or(0, f32::to_bits));
-        numbers.extend([u32::from(self.reuse), u32::from(self.caustics), whole, *self.samples.end()]);
-        numbers.push(self.light_samples);
+        numbers.extend([self.reuse, self.caustics, self.halves].map(u32::from));
+        numbers.extend([whole, *self.samples.end(), self.light_samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
         numbers.extend([end, pieces.len() as u32]);
         numbers.extend(
@@ -170,7 +172,7 @@ impl FilmHead {
         let size = [next()?, next()?];
         let crop = Crop { x: next()?, y: next()?, width: next()?, height: next()? };
         let (seed, clamp) = (next()?, f32::from_bits(next()?));
-        let [reuse, caustics] = [next()? != 0, next()? != 0];
+        let [reuse, caustics, halves] = [next()? != 0, next()? != 0, next()? != 0];
         let samples = next()?..=next()?;
         let (light_samples, end, count) = (next()?, next()?, next()?);
         let mut pieces = Vec::new();
@@ -210,6 +212,7 @@ impl FilmHead {
             reuse,
             caustics,
             layers,
+            halves,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -247,12 +250,24 @@ impl FilmHead {
     /// Bytes of memory that the film takes at most.
     pub fn bytes(&self) -> u64 {
         let layers = self.layers.iter().filter_map(|layer| Some(layer.layer()?.layer)).collect();
-        Film::bytes_of(self.crop, self.clamp.is_some(), true, layers)
+        Film::bytes_of(self.crop, self.clamp.is_some(), true, layers, self.halves)
     }
 
     /// The names of the layers that it holds, as files have them.
     pub fn layers(&self) -> impl Iterator<Item = &str> {
         self.layers.iter().map(|layer| layer.name.as_str())
+    }
+
+    /// Whether a tile that was read holds what the head says.
+    pub(super) fn has(&self, tile: &Tile, kept: Kept) -> bool {
+        tile.taken.is_some() == self.clamp.is_some()
+            && tile.half.is_some() == self.halves
+            && (tile.layers.is_none() || kept != Kept::default())
+    }
+
+    /// Whether two halves of the samples are kept apart.
+    pub fn has_halves(&self) -> bool {
+        self.halves
     }
 
     /// The layers, as this program has them.
@@ -284,75 +299,6 @@ fn counters_as_array(counters: Counters) -> [u64; 8] {
 fn counters_from_array(counters: [u64; 8]) -> Counters {
     let [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond] = counters;
     Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond }
-}
-
-/// What tiles keep for these layers.
-pub(super) fn kept(layers: &[FilmLayer]) -> Kept {
-    layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
-}
-
-/// A tile as it stands in the file, its number and length included.
-pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
-    let mut out = Vec::with_capacity(8192);
-    out.extend((place as u32).to_le_bytes());
-    out.extend([0; 4]);
-    let parts = [tile.taken.is_some(), tile.splats.is_some(), tile.layers.is_some()];
-    out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
-    let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
-    sums(&tile.sums, &mut out);
-    pack_wide(|k| tile.squares.words(k), &mut out);
-    pack(|k| tile.samples[k].into(), &mut out);
-    if let Some(taken) = &tile.taken {
-        sums(&taken.sums, &mut out);
-        pack(|k| taken.samples[k].into(), &mut out);
-    }
-    if let Some(splats) = &tile.splats {
-        sums(&splats.sums, &mut out);
-        pack_wide(|k| splats.squares.words(k), &mut out);
-    }
-    if let Some(layers) = &tile.layers {
-        layers.record(&mut out);
-    }
-    let length = (out.len() - 8) as u32;
-    out[4..8].copy_from_slice(&length.to_le_bytes());
-    out
-}
-
-/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
-/// is kept for layers.
-pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
-    let from = &mut from;
-    let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
-    let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
-    let samples = |samples: &mut [u32], most: u32, from: &mut &[u8]| {
-        let mut fits = true;
-        unpack(from, |k, count| match u32::try_from(count) {
-            Ok(count) if count <= most => samples[k] = count,
-            _ => fits = false,
-        })?;
-        fits.then_some(())
-    };
-    let flags = *from.split_off_first()?;
-    sums(&mut tile.sums, from)?;
-    squares(&mut tile.squares, from)?;
-    samples(&mut tile.samples, most, from)?;
-    if flags & 1 != 0 {
-        let mut taken = Box::new(Taken::zeroed());
-        sums(&mut taken.sums, from)?;
-        // Light paths may be clamped, too.
-        samples(&mut taken.samples, u32::MAX / 2, from)?;
-        tile.taken = Some(taken);
-    }
-    if flags & 2 != 0 {
-        let mut splats = Box::new(Splats::zeroed());
-        sums(&mut splats.sums, from)?;
-        squares(&mut splats.squares, from)?;
-        tile.splats = Some(splats);
-    }
-    if flags & 4 != 0 {
-        tile.layers = Some(Box::new(TileLayers::read(from, most, kept)?));
-    }
-    (flags < 8 && from.is_empty()).then_some(())
 }
 
 /// Writes a film from its parts, and sums what goes through.
@@ -471,13 +417,12 @@ impl<R: Read> SavedFilm<R> {
         let kept = kept(&layers);
         let mut tiles: Vec<Tile> =
             try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
-        let (clamped, most) = (self.head.clamp.is_some(), *self.head.samples.end());
+        let head = self.head.clone();
         self.tiles(|place, bytes| {
             let tile = tiles.get_mut(place)?;
-            read_tile(bytes, most, kept, tile)?;
-            (tile.taken.is_some() == clamped && (tile.layers.is_none() || kept != Kept::default())).then_some(())
+            read_tile(bytes, *head.samples.end(), kept, tile)?;
+            head.has(tile, kept).then_some(())
         })?;
-        let head = self.head;
         // Without tiles: theirs are at hand.
         let nothing = Crop { width: 0, height: 0, ..head.crop };
         let mut film = Film::new(head.size, nothing, head.seed, head.unit, head.clamp);
@@ -486,7 +431,7 @@ impl<R: Read> SavedFilm<R> {
         (film.whole, film.unfinished, film.light_samples) =
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
-        (film.reuse, film.caustics, film.layers) = (head.reuse, head.caustics, layers);
+        (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
         Ok(film)
     }
 

@@ -3,8 +3,9 @@
 //!
 //! One part is read at a time, and of it one tile: memory is the film's, however many parts there are.
 
-use super::file::{PROGRAM, kept, read_tile};
+use super::file::PROGRAM;
 use super::layers::SavedLayer;
+use super::record::{kept, read_tile};
 use super::{Crop, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
@@ -122,6 +123,7 @@ impl FilmHead {
             ("set of layers", layers(self) == layers(other)),
             ("reuse", self.reuse == other.reuse),
             ("caustics", self.caustics == other.caustics),
+            ("choice of halves", self.halves == other.halves),
         ];
         same.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
     }
@@ -263,7 +265,7 @@ impl Film {
             return Err(FilmError::Damaged("it has changed since its head was read"));
         }
         let layers = head.film_layers()?;
-        let (kept, most, clamped) = (kept(&layers), *head.samples.end(), head.clamp.is_some());
+        let (kept, most) = (kept(&layers), *head.samples.end());
         let Crop { x, y, width, .. } = head.crop;
         let columns = ((x + width).div_ceil(TILE) - x / TILE) as usize;
         // In the same columns, but further down.
@@ -272,7 +274,7 @@ impl Film {
         saved.tiles(|place, bytes| {
             tile = Tile::zeroed();
             read_tile(bytes, most, kept, &mut tile)?;
-            if tile.taken.is_some() != clamped || (tile.layers.is_some() && kept == Default::default()) {
+            if !head.has(&tile, kept) {
                 return None;
             }
             self.tiles.get_mut(before + place)?.merge(&tile);
@@ -297,6 +299,7 @@ fn empty(head: &FilmHead) -> Result<Film, MergeError> {
     }
     (film.crop, film.tile_columns) = (of, across);
     (film.reuse, film.caustics) = (head.reuse, head.caustics);
+    film.keep_halves(head.halves);
     film.layers = head.film_layers().map_err(|error| MergeError::Part { part: 0, error })?;
     Ok(film)
 }
@@ -352,6 +355,9 @@ impl Tile {
             (_, None) => {}
             (Some(layers), Some(from)) => layers.merge(from),
             (layers, from) => layers.clone_from(from),
+        }
+        if let (Some(half), Some(from)) = (&mut self.half, &other.half) {
+            half.merge(from);
         }
     }
 }

@@ -41,7 +41,7 @@ fn a_film_takes_the_bytes_that_were_foretold() {
     {
         for clamp in [None, Some(1.0)] {
             let film = Film::new([40, 40], crop, 0, 1.0, clamp);
-            assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some(), false, LayerSet::default()));
+            assert_eq!(film.bytes() as u64, Film::bytes_of(crop, clamp.is_some(), false, LayerSet::default(), false));
         }
     }
 }

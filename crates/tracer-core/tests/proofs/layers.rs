@@ -275,7 +275,7 @@ fn films_with_layers_are_gone_on_with() {
     let bytes = saved(&film);
     let back = Film::load(&mut bytes.as_slice()).expect("it was saved");
     assert!(bits(&back) == bits(&film) && back.layers() == film.layers());
-    assert!(film.bytes() <= Film::bytes_of(film.crop(), false, true, film.layers()) as usize);
+    assert!(film.bytes() <= Film::bytes_of(film.crop(), false, true, film.layers(), false) as usize);
     let whole = resume(&scene, &asked(8), back, &Unobserved).expect("it is of this scene");
     assert!(bits(&whole) == bits(&render(&scene, &asked(8), &Unobserved)));
     for layers in [LayerSet::default(), LayerSet::from_iter([Layer::Depth])] {

@@ -1,6 +1,6 @@
 //! `tracer merge`.
 
-use super::{DiagnosticsForm, RenderArgs, SceneArgs, bits};
+use super::{DenoiseArgs, DiagnosticsForm, RenderArgs, SceneArgs, bits};
 use crate::command_line::quoted;
 use crate::write::Bits;
 use clap::Args;
@@ -29,6 +29,9 @@ pub struct MergeArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub denoise: DenoiseArgs,
     /// Merge what there is, and say what is missing
     #[arg(long)]
     pub allow_missing: bool,
@@ -63,6 +66,7 @@ impl MergeArgs {
             seed: None,
             exposure: None,
             layers: Vec::new(),
+            denoise: self.denoise,
             threads: self.threads,
             checkpoint: None,
             every: None,
@@ -86,6 +90,7 @@ impl MergeArgs {
             };
             words.extend(["--bits".to_owned(), bits.to_owned()]);
         }
+        words.extend(self.denoise.words());
         words.extend(self.allow_missing.then(|| "--allow-missing".to_owned()));
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }

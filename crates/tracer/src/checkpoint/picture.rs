@@ -4,7 +4,7 @@ use crate::write::{Provenance, Setting};
 use scene_format::SceneDesc;
 use scene_format::desc::ToneMap;
 use std::path::Path;
-use tracer_core::{Crop, Film, Look, Note};
+use tracer_core::{Crop, Film, LayerSet, Look, Note};
 
 /// How the names of these notes begin.
 const NOTE: &str = "picture.";
@@ -24,6 +24,7 @@ pub fn picture_notes(desc: &SceneDesc, set: &[String]) -> Vec<Note> {
         note("max_bounces", desc.render.max_bounces.value.to_string()),
         note("exposure", desc.effects.exposure.value.to_string()),
         note("tone_map", format!("{:?}", desc.effects.tone_map)),
+        note("layers", tracer_core::layer_set(&desc.output.layers).names().collect::<Vec<_>>().join(",")),
     ];
     notes.extend(set.iter().map(|set| note("set", set.clone())));
     notes
@@ -37,6 +38,12 @@ fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
     all(notes, name).next().unwrap_or_default()
 }
 
+/// The layers that are written beside the picture: the film may have more, for denoising. `None` where the notes do not tell.
+pub fn picture_layers(notes: &[Note]) -> Option<LayerSet> {
+    let names = all(notes, "layers").next()?;
+    Some(names.split(',').filter_map(LayerSet::by_name).collect())
+}
+
 /// How the film is developed; `None` where the notes do not tell.
 pub fn look(notes: &[Note]) -> Option<Look> {
     let exposure = first(notes, "exposure").parse().ok().filter(|stops: &f64| stops.is_finite())?;
@@ -45,8 +52,8 @@ pub fn look(notes: &[Note]) -> Option<Look> {
     Some(Look { exposure, tone_map })
 }
 
-/// What picture files tell of themselves.
-pub fn provenance(notes: &[Note], film: &Film) -> Provenance {
+/// What picture files tell of themselves: of a picture that was denoised that, too.
+pub fn provenance(notes: &[Note], film: &Film, denoised: bool) -> Provenance {
     let (fewest, most) = film.samples().into_inner();
     let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let [width, height] = film.size();
@@ -61,6 +68,9 @@ pub fn provenance(notes: &[Note], film: &Film) -> Provenance {
     let Crop { x, y, width, height } = film.crop();
     if film.crop() != Crop::whole(film.size()) {
         settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
+    }
+    if denoised {
+        settings.push(Setting { name: "denoise", value: "on".to_owned() });
     }
     settings.extend(all(notes, "set").map(|set| Setting { name: "set", value: set.to_owned() }));
     Provenance {

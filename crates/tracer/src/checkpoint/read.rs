@@ -2,6 +2,7 @@
 
 use super::Place;
 use super::identity::{Asked, Extent, differences};
+use super::told::layers_of;
 use crate::failure::Failure;
 use crate::shell::{Shell, Verbosity};
 use std::fs::File;
@@ -35,12 +36,19 @@ fn is_empty(path: &Path) -> bool {
     path.metadata().is_ok_and(|found| found.len() == 0)
 }
 
-/// The film of a checkpoint, if it belongs to the rendering.
+/// The film of a checkpoint, if it belongs to the rendering, which keeps halves of the samples or not.
 ///
 /// # Errors
 /// When it belongs to another, or neither it nor the one before can be read.
-pub fn look_for(place: &Place, scene: &Scene, extent: Extent, notes: &[Note], shell: &Shell) -> Result<Found, Failure> {
-    let layers = scene.layers.to_string();
+pub fn look_for(
+    place: &Place,
+    scene: &Scene,
+    halves: bool,
+    extent: Extent,
+    notes: &[Note],
+    shell: &Shell,
+) -> Result<Found, Failure> {
+    let layers = layers_of(scene.layers.names(), halves);
     let asked = Asked { size: scene.size, extent, seed: scene.seed, clamp: scene.clamp, layers, notes };
     let (name, previous) = (place.name(), format!("{}.previous", place.name()));
     let first = match load(place.file(), &name, &asked) {

@@ -14,9 +14,14 @@ fn files(head: &FilmHead) -> Vec<&str> {
     head.notes.iter().filter_map(|(name, _)| name.strip_prefix("file:")).collect()
 }
 
-/// The names of the layers; `none` where there is none.
+/// The names of the layers, and `halves` where two halves of the samples are kept; `none` where there is none.
 pub fn layers(head: &FilmHead) -> String {
-    let names: Vec<&str> = head.layers().collect();
+    layers_of(head.layers(), head.has_halves())
+}
+
+/// The same of these.
+pub fn layers_of<'a>(names: impl Iterator<Item = &'a str>, halves: bool) -> String {
+    let names: Vec<&str> = names.chain(halves.then_some("halves")).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 

@@ -27,7 +27,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         let scene = compile(&desc, args.scene.diagnostics, shell)?;
         let facts = Facts {
             name: name(&desc),
-            film: of_film(Crop::whole(scene.size), &desc.render, scene.layers),
+            film: of_film(Crop::whole(scene.size), &desc.render, scene.layers, false),
             statistics: scene.statistics(),
             scene,
             desc,

@@ -4,7 +4,8 @@ use super::render::outputs::{self, Output};
 use super::render::rescue::{Rescued, rescue};
 use super::render::write_report;
 use crate::args::MergeArgs;
-use crate::checkpoint::{Asked, differences, look, part_told, provenance};
+use crate::checkpoint::{Asked, differences, look, part_told, picture_layers, provenance};
+use crate::denoising;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
 use crate::memory;
@@ -17,7 +18,7 @@ use std::fs::File;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, develop, film_faults};
+use tracer_core::{Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, film_faults};
 
 pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let as_rendered = args.as_render();
@@ -28,7 +29,10 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let (parts, damaged) = read(&args.parts)?;
     let Sorted { parts, gaps } = sorted(parts, damaged, args, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
-    check_memory(&heads[0])?;
+    if args.denoise.is_on() {
+        denoising::check(heads[0].has_halves(), heads[0].layers())?;
+    }
+    check_memory(&heads[0], args.denoise.is_on())?;
     let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
     let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
     let film = Film::merge(&heads, open, allowed).map_err(|error| failure(&error, &parts))?;
@@ -40,9 +44,10 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let look = look(notes).ok_or_else(|| {
         Failure::wrong(format!("{} does not tell how its picture is developed; render it again", first.display()))
     })?;
-    let image = develop(&film, &look);
+    let layers = picture_layers(notes).unwrap_or(film.layers());
+    let (image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
     let developed = started.elapsed().as_secs_f64();
-    let provenance = provenance(notes, &film);
+    let provenance = provenance(notes, &film, denoised.is_some());
     let (mut files, mut elsewhere) = (Vec::new(), false);
     for Output { place, encoding } in &outputs {
         let rescued = rescue(place, shell, |place| write(&image, *encoding, place, &provenance))?;
@@ -51,6 +56,9 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
     }
     let total = started.elapsed().as_secs_f64();
+    if let Some(denoised) = denoised.filter(|_| shell.is_told()) {
+        shell.say(&denoised.to_text());
+    }
     if shell.is_told() {
         let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
         let (fewest, most) = film.samples().into_inner();
@@ -61,7 +69,8 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     if let Some(path) = &args.report {
         let of_parts = parts.iter().map(|(path, head)| PartReport::new(path, &head.part())).collect();
         let seconds = [merged, developed - merged, total - developed, total];
-        let report = MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, seconds, files);
+        let report =
+            MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, (layers, denoised), seconds, files);
         write_report(path, report.to_json())?;
     }
     Ok(ExitCode::from(if elsewhere { exit::FAILED } else { exit::DONE }))
@@ -210,12 +219,13 @@ fn failure(fault: &MergeError, parts: &[Head]) -> Failure {
 }
 
 /// A picture that cannot fit is refused here.
-fn check_memory(head: &FilmHead) -> Result<(), Failure> {
+fn check_memory(head: &FilmHead, denoise: bool) -> Result<(), Failure> {
     let crop = head.part().of_crop;
     // The developed picture, and an encoded one while it is made and written.
     let mut whole = head.clone();
     whole.crop = crop;
-    let needed = whole.bytes() + 48 * u64::from(crop.width) * u64::from(crop.height);
+    let of_pixel = 48 + if denoise { denoising::BYTES_PER_PIXEL } else { 0 };
+    let needed = whole.bytes() + of_pixel * u64::from(crop.width) * u64::from(crop.height);
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "the picture takes {} of memory, and {} are free",

@@ -67,7 +67,8 @@ impl Host for Program {
             Kind::Exr => Encoding::Exr,
         };
         let image = develop(film, look);
-        encode(&image, encoding, &provenance(&picture_notes(desc, &self.set), film)).map_err(|error| error.to_string())
+        encode(&image, encoding, &provenance(&picture_notes(desc, &self.set), film, false))
+            .map_err(|error| error.to_string())
     }
 
     fn save(&self, path: &Path, bytes: &[u8]) -> Result<(), String> {

@@ -3,6 +3,7 @@
 mod checkpoint;
 mod commands;
 mod compare;
+mod denoise;
 mod examples;
 mod faults;
 mod fmt;

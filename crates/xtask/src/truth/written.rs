@@ -20,12 +20,23 @@ pub fn compiled(text: &str) -> anyhow::Result<Scene> {
 /// # Errors
 /// It is refused.
 pub fn loaded(path: &Path) -> anyhow::Result<Scene> {
-    let loaded = scene_format::load(path).map_err(|error| match error {
+    loaded_at(path, None)
+}
+
+/// The same, of another size in pixels where one is given.
+///
+/// # Errors
+/// It is refused.
+pub fn loaded_at(path: &Path, size: Option<[u32; 2]>) -> anyhow::Result<Scene> {
+    let mut loaded = scene_format::load(path).map_err(|error| match error {
         scene_format::LoadError::Invalid { diagnostics, sources, .. } => {
             let style = scene_format::render::Style { color: false, width: 120 };
             anyhow::anyhow!("{}", scene_format::render::text(&diagnostics, &sources, style))
         }
         other => anyhow::anyhow!("{other}"),
     })?;
+    if let Some([width, height]) = size {
+        (loaded.scene.image.width, loaded.scene.image.height) = (width.into(), height.into());
+    }
     tracer_core::compile(&loaded.scene).map_err(|error| anyhow::anyhow!("{error}: {:?}", error.diagnostics))
 }

@@ -92,7 +92,7 @@ impl Places {
         let notes = notes(desc, &scene.files, &args.scene.set)?;
         let (found, _lock) = match self.resume {
             Some((resume, lock)) => {
-                let mut found = look_for(&resume, scene, extent, &notes, shell)?;
+                let mut found = look_for(&resume, scene, args.denoise.is_on(), extent, &notes, shell)?;
                 found.is_spoilt &= resume.is(&place);
                 (found, lock)
             }

@@ -19,7 +19,7 @@ use crate::report::{
 };
 use crate::shell::Shell;
 use crate::write::{Place, save, write};
-use crate::{interrupt, lanes, memory};
+use crate::{denoising, interrupt, lanes, memory};
 use kept::{Kept, Places};
 use outputs::Output;
 use rescue::{Rescued, rescue};
@@ -29,7 +29,7 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, develop, render, resume};
+use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
@@ -45,7 +45,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let crop = crop(args, &desc)?;
     let part = parts::part(args, &desc, crop)?;
     let crop = part.map_or(crop, |part| part.crop);
-    check_memory(crop, &desc)?;
+    check_memory(crop, &desc, args.denoise.is_on())?;
     if part.is_none() {
         outputs::tell_of_layers(&outputs, args, &desc, shell);
     }
@@ -53,7 +53,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
 
-    let scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
+    let mut scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
+    let written_layers = scene.layers;
+    denoising::prepare(&mut scene, args.denoise.is_on())?;
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;
     // A part that is kept under its own name needs no second file.
@@ -76,6 +78,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
         until: goals.until,
+        halves: args.denoise.is_on(),
         statistics: args.stats,
         longest_pass: checkpoints.as_ref().map(Checkpoints::longest_pass),
         ..RenderOptions::default()
@@ -96,10 +99,14 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         shell.say("interrupted before the first sample: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
-    let image = (!outputs.is_empty()).then(|| develop(&film, &scene.look));
+    let made = (!outputs.is_empty())
+        .then(|| denoising::picture(&film, &scene.look, written_layers, args.denoise.is_on(), shell))
+        .transpose()?;
+    let (image, denoised) = made.unzip();
+    let denoised = denoised.flatten();
     let developed = clock.lap();
 
-    let provenance = provenance(notes, &film);
+    let provenance = provenance(notes, &film, denoised.is_some());
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -128,6 +135,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
     let mut report =
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
+    if let Some(report) = &mut report {
+        (report.picture.layers, report.denoise) = (written_layers.names().collect(), denoised);
+    }
     let written = clock.lap();
     let seconds = Seconds {
         read,
@@ -139,6 +149,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         total: clock.last.duration_since(started).as_secs_f64(),
     };
 
+    if let Some(denoised) = denoised.filter(|_| shell.is_told()) {
+        shell.say(&denoised.to_text());
+    }
     tell_of(&film, args, &desc, shell);
     shell.diagnostics(empty::warning(&film, &desc).as_slice(), &desc.sources, args.scene.diagnostics);
     if let Some(part) = part.filter(|_| shell.is_told()) {
@@ -254,14 +267,16 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop, desc: &SceneDesc) -> Result<(), Failure> {
+fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let layers = tracer_core::layer_set(&desc.output.layers);
+    let layers = if denoise { denoising::with_guides(layers) } else { layers };
     // As numbers, as channels and as bytes.
-    let of_pixel = BYTES_PER_PIXEL + 12 * layers.channels() as u64;
-    let needed = memory::of_film(crop, &desc.render, layers) + pixels * of_pixel;
+    let of_denoising = if denoise { denoising::BYTES_PER_PIXEL } else { 0 };
+    let of_pixel = BYTES_PER_PIXEL + 12 * layers.channels() as u64 + of_denoising;
+    let needed = memory::of_film(crop, &desc.render, layers, denoise) + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
@@ -339,6 +354,7 @@ fn report(
         },
         mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
         noise: Noise { relative: film.relative_noise() },
+        denoise: None,
         primitives: Primitives {
             spheres: statistics.spheres,
             triangles: statistics.triangles,

@@ -43,6 +43,7 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
     if !args.layers.is_empty() {
         option("--layers", args.layers.iter().copied().collect::<LayerSet>().names().collect::<Vec<_>>().join(","));
     }
+    let denoise = args.denoise.words();
     if let Some(Crop { x, y, width, height }) = args.crop {
         option("--crop", format!("{x},{y},{width},{height}"));
     }
@@ -52,5 +53,6 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
     if let Some(split) = args.split {
         option("--split", super::parts::split_name(split.into()).to_owned());
     }
+    words.extend(denoise);
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }

@@ -1,0 +1,152 @@
+//! The denoiser: two half pictures and what camera rays hit become one picture with less noise.
+//!
+//! Pixels are filtered by what else is like them. How much noise there is, and whether a filter makes the picture
+//! better or worse, is told by two halves of the samples that know nothing of each other, and by nothing else: errors
+//! that neighbours have in common (pixels that share what they find, [`Input::halves`]) do not mislead it, for what
+//! is common to a half is not in the other.
+//!
+//! 1. *Demodulation* (`prepared`): what is seen of lamps is taken away, the rest is divided by the albedo, so that
+//!    textures are not there to be blurred; both come back in the end.
+//! 2. *Filtering* (`filter`), three times with steps of 1, 3 and 9 pixels: around each pixel a plane over position,
+//!    normal, nearness and albedo is fitted to the pixels that are alike, as Bitterli et al. do (Nonlinearly Weighted
+//!    First-order Regression for Denoising Monte Carlo Renderings, 2016); their weighted mean is a second candidate.
+//!    Alike is what has like colours in patches around it, measured by the noise (non-local means; Rousselle, Knaus,
+//!    Zwicker: Adaptive Rendering with Non-Local Means Filtering, 2012), and like features (Rousselle, Manzi,
+//!    Zwicker: Robust Denoising using Feature and Color Information, 2013). A half is filtered by the weights that
+//!    the other tells.
+//! 3. *Choice* (`choice`): of what there was before, mean and plane, each pixel takes what has the least squared
+//!    error in the squares around it, estimated by the other half.
+//!
+//! Where we deviate: weights are polynomials that end, not exponentials; features are not filtered before (they have no
+//! halves); the plane of a pixel counts for that pixel alone; the wide steps come by repetition.
+//!
+//! The result is the same for any number of threads. A pixel depends on those up to [`REACH`] pixels away.
+
+#![forbid(unsafe_code)]
+
+mod choice;
+mod filter;
+mod input;
+mod plane;
+mod prepared;
+mod solve;
+
+pub use input::{Input, WrongSize};
+
+use choice::Chosen;
+use filter::Pass;
+use prepared::Prepared;
+use rayon::prelude::*;
+
+/// The passes, the finest first.
+const PASSES: [Pass; 3] = [
+    Pass { step: 1, reach: 4, planes: true },
+    Pass { step: 3, reach: 4, planes: true },
+    Pass { step: 9, reach: 4, planes: false },
+];
+
+/// A pixel depends on no other pixel farther away than this, along a row or a column: that is how far crops differ
+/// from the whole.
+pub const REACH: usize = {
+    let (mut reach, mut k) = (prepared::REACH, 0);
+    while k < PASSES.len() {
+        reach += PASSES[k].step * PASSES[k].reach + filter::PATCH + choice::REACH;
+        k += 1;
+    }
+    reach
+};
+
+/// A picture with less noise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Denoised {
+    /// Three numbers a pixel, linear RGB, rows from the top.
+    pub pixels: Vec<f32>,
+    /// What became of it.
+    pub told: Told,
+}
+
+/// What denoising did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Told {
+    /// Root mean square of what pixels changed by, over the root mean square of the picture before.
+    pub change: f64,
+    /// Root mean square error before, estimated by the halves, over the root mean square of the picture before.
+    pub error_before: f64,
+    /// The same afterwards: an estimate that the choice has seen, so it may be somewhat too low.
+    pub error_after: f64,
+}
+
+/// Denoises a rendering, over the threads of rayon's current pool.
+///
+/// # Errors
+/// When the input's pictures do not have the size that it tells.
+///
+/// # Examples
+///
+/// ```
+/// use tracer_denoise::{Input, denoise};
+///
+/// // Noise of one in a hundred over a white wall, another in each half.
+/// let hash = |half: u32, k: usize| (k as u32 * 2 + half).wrapping_mul(2_654_435_761) >> 8;
+/// let noise = |half: u32, k: usize| hash(half, k) as f32 / 8_388_608.0 - 1.0;
+/// let half = |half| (0..32 * 32).flat_map(|k| [1.0 + 0.01 * noise(half, k); 3]).collect::<Vec<f32>>();
+/// let (pixels, one) = (32 * 32, vec![1.0; 3 * 32 * 32]);
+/// let denoised = denoise(&Input {
+///     width: 32,
+///     height: 32,
+///     halves: [&half(0), &half(1)],
+///     share: 0.5,
+///     emission: &vec![0.0; 3 * pixels],
+///     albedo: &one,
+///     normal: &[0.0, 0.0, 1.0].repeat(pixels),
+///     depth: &vec![2.0; pixels],
+///     variance: &vec![1e-5; pixels],
+/// })?;
+/// let mean_square = denoised.pixels.iter().map(|x| (x - 1.0) * (x - 1.0)).sum::<f32>() / (3 * pixels) as f32;
+/// assert!(mean_square < 1.7e-5 / 10.0);
+/// # Ok::<(), tracer_denoise::WrongSize>(())
+/// ```
+pub fn denoise(input: &Input<'_>) -> Result<Denoised, WrongSize> {
+    input.check()?;
+    if input.width * input.height == 0 {
+        return Ok(Denoised { pixels: Vec::new(), told: Told::default() });
+    }
+    let prepared = Prepared::new(input);
+    let mut chosen = Chosen::nothing(&prepared);
+    for pass in &PASSES {
+        let variance = match pass.step {
+            1 => prepared.variance.clone(),
+            _ => prepared::variance_of(&chosen.halves, input.share),
+        };
+        let filtered = filter::filter(&prepared, &chosen.halves, &variance, pass);
+        chosen = choice::choose(&prepared, &chosen, &filtered);
+    }
+    let halves = &chosen.halves;
+    let mut pixels = vec![0.0; 3 * input.width * input.height];
+    pixels.par_chunks_mut(3).enumerate().for_each(|(k, pixel)| {
+        for (c, to) in pixel.iter_mut().enumerate() {
+            let mean = input.share * halves[0][c].values[k] + (1.0 - input.share) * halves[1][c].values[k];
+            *to = (mean * prepared.albedo[c].values[k] + prepared.emission[c].values[k]) * prepared.scale;
+        }
+    });
+    let told = told(input, &prepared, &chosen, &pixels);
+    Ok(Denoised { pixels, told })
+}
+
+/// What became of the picture: sums in `f64`, one after the other, so that threads cannot show.
+fn told(input: &Input<'_>, prepared: &Prepared, chosen: &Chosen, pixels: &[f32]) -> Told {
+    let (mut picture, mut change) = (0.0, 0.0);
+    for (k, &after) in pixels.iter().enumerate() {
+        let before = f64::from(input.mean(k));
+        picture += before * before;
+        change += (f64::from(after) - before) * (f64::from(after) - before);
+    }
+    if picture == 0.0 {
+        return Told::default();
+    }
+    let sum = |plane: &plane::Plane| plane.values.iter().map(|&x| f64::from(x)).sum::<f64>();
+    let unit = f64::from(prepared.scale) * f64::from(prepared.scale);
+    let [before, after] = [sum(&chosen.before) * unit, sum(&chosen.after) * unit];
+    let relative = |square: f64| (square.max(0.0) / picture).sqrt();
+    Told { change: relative(change), error_before: relative(before), error_after: relative(after) }
+}

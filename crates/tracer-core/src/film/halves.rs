@@ -1,0 +1,194 @@
+//! Two halves of the samples, summed apart: what the one does not know of the other's noise is how denoising tells noise from picture
+//! (`tracer_denoise`). The film sums all samples as ever, and beside them those of the second half; the first is the rest.
+//!
+//! Which half a sample is of goes by its index alone, so that it is the same for any passes, parts and number of samples: of the indices
+//! from one power of two to the next the lower half is of the first, the upper of the second. So both have as many at every power of two,
+//! and each run of a half is a net of the sampler's: with every other index one half would have the left of each pixel, the other the right.
+
+use super::exact::{LEAST, Sums, fixed};
+use super::pack::{pack, unpack};
+use super::{Film, PIXELS, Tile, counts};
+use bytemuck::Zeroable;
+use std::ops::Range;
+
+/// What a tile holds of the second half of its samples.
+#[derive(Clone, Debug, PartialEq, Zeroable)]
+pub(super) struct TileHalf {
+    sums: Sums,
+    samples: [u32; PIXELS],
+    /// Where its light paths have fallen.
+    splats: Option<Box<Sums>>,
+}
+
+/// The half that a sample index is of: 0 or 1.
+#[inline]
+pub(crate) fn half_of(sample: u32) -> usize {
+    match sample.checked_ilog2() {
+        Some(power) if power > 0 => (sample >> (power - 1) & 1) as usize,
+        _ => sample as usize,
+    }
+}
+
+/// The first index behind this one that may be of the other half.
+pub(crate) fn half_end(sample: u32) -> u32 {
+    let run = sample.checked_ilog2().map_or(0, |power| (1 << power >> 1_u32).max(1) - 1);
+    (sample | run).saturating_add(1)
+}
+
+/// How many of these indices are of the second half.
+fn second_of(samples: Range<u32>) -> u32 {
+    let below = |end: u32| match end.checked_ilog2() {
+        Some(power) if power > 0 => (1 << (power - 1)) + end.saturating_sub(3 << (power - 1)),
+        _ => 0,
+    };
+    below(samples.end).saturating_sub(below(samples.start))
+}
+
+impl TileHalf {
+    /// Bytes of memory that it takes in a tile.
+    pub fn bytes(light_paths: bool) -> usize {
+        size_of::<TileHalf>() + if light_paths { size_of::<Sums>() } else { 0 }
+    }
+
+    /// Adds what another has of the same pixels.
+    pub fn merge(&mut self, other: &TileHalf) {
+        let add = |to: &mut Sums, from: &Sums| (0..PIXELS).for_each(|k| to.add(k, [0, 1, 2].map(|c| from.of(c, k))));
+        add(&mut self.sums, &other.sums);
+        super::merge::add_counts(&mut self.samples, &other.samples);
+        if let Some(from) = &other.splats {
+            add(self.splats.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
+        }
+    }
+
+    /// Appends it to a tile's record.
+    pub fn record(&self, out: &mut Vec<u8>) {
+        out.push(u8::from(self.splats.is_some()));
+        pack(|k| self.samples[k].into(), out);
+        for sums in std::iter::once(&self.sums).chain(self.splats.as_deref()) {
+            (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
+        }
+    }
+
+    /// Reads it from one; no pixel has more samples than these.
+    pub fn read(from: &mut &[u8], samples: &[u32; PIXELS]) -> Option<Box<Self>> {
+        let mut half = Box::new(TileHalf::zeroed());
+        let splats = match *from.split_off_first()? {
+            0 => None,
+            1 => Some(Box::new(Sums::zeroed())),
+            _ => return None,
+        };
+        half.splats = splats;
+        let mut fits = true;
+        unpack(from, |k, count| match u32::try_from(count) {
+            Ok(count) if count <= samples[k] => half.samples[k] = count,
+            _ => fits = false,
+        })?;
+        let TileHalf { sums, splats, .. } = &mut *half;
+        for sums in std::iter::once(sums).chain(splats.as_deref_mut()) {
+            (0..3).try_for_each(|c| unpack(from, |k, sum| sums.set(c, k, sum)))?;
+        }
+        fits.then_some(half)
+    }
+}
+
+impl Tile {
+    /// Makes room for the second half.
+    pub(super) fn keep_half(&mut self) {
+        self.half = Some(Box::new(TileHalf::zeroed()));
+    }
+
+    /// Adds samples of the second half, which [`Tile::add`] is given, too; where halves are kept.
+    pub(crate) fn add_half(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[[u8; 2]]) {
+        let Some(half) = &mut self.half else { return };
+        for &[k, pixel] in pixels {
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
+            let sample = [red[k], green[k], blue[k]];
+            half.samples[pixel] += 1;
+            if counts(sample) {
+                half.sums.add(pixel, sample.map(fixed));
+            }
+        }
+    }
+
+    /// Adds what a light path of the second half has brought, as [`Tile::splat`] gives it; where halves are kept.
+    pub(crate) fn splat_half(&mut self, pixel: usize, added: [i128; 3]) {
+        let Some(half) = &mut self.half else { return };
+        half.splats.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, added);
+    }
+}
+
+impl Film {
+    /// Keeps halves apart, if that is wanted; before anything is added.
+    pub(crate) fn keep_halves(&mut self, halves: bool) {
+        self.halves = halves;
+        if halves {
+            self.tiles.iter_mut().for_each(Tile::keep_half);
+        }
+    }
+
+    /// Whether two halves of the samples are kept apart ([`crate::RenderOptions::halves`]).
+    pub fn has_halves(&self) -> bool {
+        self.halves
+    }
+
+    /// Samples of a pixel that are of the first and of the second half; zero where halves are not kept.
+    pub fn samples_of_halves(&self, x: u32, y: u32) -> [u32; 2] {
+        let (tile, pixel) = self.place(x, y);
+        tile.half.as_ref().map_or([0; 2], |half| {
+            let second = half.samples[pixel];
+            [tile.samples[pixel] - second, second]
+        })
+    }
+
+    /// Mean radiance of a pixel over either half of its samples, linear RGB, as [`Film::radiance`] is over all; `None` where one of them has
+    /// no sample.
+    pub fn radiance_of_halves(&self, x: u32, y: u32) -> Option<[[f64; 3]; 2]> {
+        let (tile, pixel) = self.place(x, y);
+        let half = tile.half.as_ref()?;
+        let samples = self.samples_of_halves(x, y);
+        // Light paths of a pass that was ended early have come from other indices than samples have; else there are as many, and what was
+        // merged does not know its indices.
+        let light = match &self.unfinished {
+            Some(_) => {
+                let second = second_of(self.first()..self.light_samples.max(self.first()));
+                [self.light_count() - second, second]
+            }
+            None => samples,
+        };
+        if samples.contains(&0) {
+            return None;
+        }
+        let mean = |second: bool, c: usize| {
+            let part = |all: i128, of_second: i128| if second { of_second } else { all.wrapping_sub(of_second) };
+            let sum = part(tile.sums.of(c, pixel), half.sums.of(c, pixel));
+            let splats = part(
+                tile.splats.as_ref().map_or(0, |splats| splats.sums.of(c, pixel)),
+                half.splats.as_ref().map_or(0, |splats| splats.of(c, pixel)),
+            );
+            let over = |sum: i128, count: u32| sum as f64 * LEAST / f64::from(count.max(1));
+            let of = usize::from(second);
+            (over(sum, samples[of]) + over(splats, light[of])) * self.unit
+        };
+        Some([false, true].map(|second| [0, 1, 2].map(|c| mean(second, c))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_are_equal_at_powers_of_two() {
+        let halves: Vec<usize> = (0..16).map(half_of).collect();
+        assert_eq!(halves, [0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1]);
+        for end in 0..2000 {
+            let second = (0..end).filter(|&sample| half_of(sample) == 1).count();
+            assert_eq!(second_of(0..end) as usize, second, "{end}");
+            assert!(!end.is_power_of_two() || end == 1 || 2 * second == end as usize);
+            // A run has one half, and the next index begins a run.
+            let next = half_end(end);
+            assert!(next > end && (end..next).all(|sample| half_of(sample) == half_of(end)), "{end}");
+        }
+        assert_eq!((half_end(u32::MAX), half_of(u32::MAX), second_of(0..u32::MAX)), (u32::MAX, 1, (1 << 31) - 1));
+    }
+}

@@ -1,0 +1,81 @@
+//! A tile of a film as it stands in a file ([`super::file`]).
+
+use super::pack::{pack, pack_wide, unpack, unpack_wide};
+use super::{FilmLayer, Splats, Squares, Sums, Taken, Tile, TileHalf, TileLayers};
+use bytemuck::Zeroable;
+use tracer_kernels::layers::{Kept, LayerSet};
+
+/// What tiles keep for these layers.
+pub(super) fn kept(layers: &[FilmLayer]) -> Kept {
+    layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
+}
+
+/// A tile as it stands in the file, its number and length included.
+pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
+    let mut out = Vec::with_capacity(8192);
+    out.extend((place as u32).to_le_bytes());
+    out.extend([0; 4]);
+    let parts = [tile.taken.is_some(), tile.splats.is_some(), tile.layers.is_some(), tile.half.is_some()];
+    out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
+    let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
+    sums(&tile.sums, &mut out);
+    pack_wide(|k| tile.squares.words(k), &mut out);
+    pack(|k| tile.samples[k].into(), &mut out);
+    if let Some(taken) = &tile.taken {
+        sums(&taken.sums, &mut out);
+        pack(|k| taken.samples[k].into(), &mut out);
+    }
+    if let Some(splats) = &tile.splats {
+        sums(&splats.sums, &mut out);
+        pack_wide(|k| splats.squares.words(k), &mut out);
+    }
+    if let Some(layers) = &tile.layers {
+        layers.record(&mut out);
+    }
+    if let Some(half) = &tile.half {
+        half.record(&mut out);
+    }
+    let length = (out.len() - 8) as u32;
+    out[4..8].copy_from_slice(&length.to_le_bytes());
+    out
+}
+
+/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
+/// is kept for layers.
+pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
+    let from = &mut from;
+    let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
+    let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
+    let samples = |samples: &mut [u32], most: u32, from: &mut &[u8]| {
+        let mut fits = true;
+        unpack(from, |k, count| match u32::try_from(count) {
+            Ok(count) if count <= most => samples[k] = count,
+            _ => fits = false,
+        })?;
+        fits.then_some(())
+    };
+    let flags = *from.split_off_first()?;
+    sums(&mut tile.sums, from)?;
+    squares(&mut tile.squares, from)?;
+    samples(&mut tile.samples, most, from)?;
+    if flags & 1 != 0 {
+        let mut taken = Box::new(Taken::zeroed());
+        sums(&mut taken.sums, from)?;
+        // Light paths may be clamped, too.
+        samples(&mut taken.samples, u32::MAX / 2, from)?;
+        tile.taken = Some(taken);
+    }
+    if flags & 2 != 0 {
+        let mut splats = Box::new(Splats::zeroed());
+        sums(&mut splats.sums, from)?;
+        squares(&mut splats.squares, from)?;
+        tile.splats = Some(splats);
+    }
+    if flags & 4 != 0 {
+        tile.layers = Some(Box::new(TileLayers::read(from, most, kept)?));
+    }
+    if flags & 8 != 0 {
+        tile.half = Some(TileHalf::read(from, &tile.samples)?);
+    }
+    (flags < 16 && from.is_empty()).then_some(())
+}
