@@ -1,4 +1,4 @@
-//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, and vertex normals.
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, vertex normals, and shapes that become triangles.
 //!
 //! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
 //! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
@@ -39,6 +39,7 @@ mod stl;
 mod error;
 pub mod normals;
 pub mod placements;
+pub mod shapes;
 
 pub use data::{MAX_COORDINATE, MeshData, NO_INDEX};
 pub use error::{MeshError, Place};

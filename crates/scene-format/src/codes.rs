@@ -452,6 +452,13 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
+    /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a `Polygon` do not lie
+    /// in one plane.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])
+    /// ```
+    BAD_OUTLINE "E0545" "an outline that bounds no face";
     /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
     BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
     /// A file that `include` or an `Include` names cannot be read, or `include` names one with objects: of a library `vars` and `materials`

@@ -1,8 +1,9 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
 
 use crate::desc::{
-    Acceleration, Caustics, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material, Metal,
-    NoiseKind, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap, VoronoiFeature,
+    Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
+    Metal, NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
+    VoronoiFeature,
 };
 use crate::desc::{BackgroundWords, DepthOfField, ITEMS, MappingWords, PatternWords, PlacementPattern, TransformWords};
 use crate::schema::EnumDef;
@@ -43,7 +44,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 27] = [
+pub(crate) const CHOICES: [&EnumDef; 28] = [
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -67,15 +68,16 @@ pub(crate) const CHOICES: [&EnumDef; 27] = [
     &LinesAlong::DEF,
     &NoiseKind::DEF,
     &VoronoiFeature::DEF,
+    &Curve::DEF,
     &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
     &PlacementPattern::DEF,
 ];
 
-/// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials stand at the
-/// materials' own words.
-const SNIPPETS: [(&str, &str, &str); 97] = [
+/// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials and shapes stand at
+/// their own words.
+const SNIPPETS: [(&str, &str, &str); 91] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -169,22 +171,6 @@ const SNIPPETS: [(&str, &str, &str); 97] = [
     ("VoronoiFeature", "F1", "Diffuse(albedo: Voronoi(feature: F1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "F2MinusF1", "Diffuse(albedo: Voronoi(feature: F2MinusF1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "Cell", "Diffuse(albedo: Voronoi(feature: Cell, jitter: 0.7, mapping: Object(scale: 3)))"),
-    ("Object", "Sphere", "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))"),
-    (
-        "Object",
-        "Rectangle",
-        "Rectangle(center: (0, 0.5, 0), normal: (1, 1, 2), size: (3, 2), material: Diffuse(albedo: 0.6))",
-    ),
-    ("Object", "Box", "Box(size: (1.5, 1, 2), transform: [Rotate(axis: (0, 1, 0), degrees: 30)])"),
-    ("Object", "Disk", "Disk(center: (0, 0.3, 0), normal: (0, 1, 2), radius: 1.3, inner_radius: 0.5)"),
-    ("Object", "Cylinder", "Cylinder(from: (0, -1, 0), to: (0.5, 1, 0), radius: 0.6, material: Diffuse(albedo: 0.6))"),
-    ("Object", "Cone", "Cone(from: (0, -1, 0), to: (0, 1, 0), radius: 1, tip_radius: 0.3, caps: false)"),
-    ("Object", "Capsule", "Capsule(from: (-1, -0.4, 0), to: (1, 0.4, 0), radius: 0.5)"),
-    (
-        "Object",
-        "Mesh",
-        "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])",
-    ),
     (
         "Object",
         "Group",
@@ -197,6 +183,8 @@ const SNIPPETS: [(&str, &str, &str); 97] = [
         "Include(file: \"chair.ron\", vars: { \"height\": 0.6 }, materials: { \"seat\": Diffuse(albedo: \"#803020\") }, \
          placements: Ring(count: 4, radius: 1.2))",
     ),
+    ("Curve", "Linear", "curve: Linear"),
+    ("Curve", "CatmullRom", "curve: CatmullRom"),
     ("Instances", "Auto", "instances: Auto"),
     ("Instances", "Always", "instances: Always"),
     ("Instances", "Never", "instances: Never"),
@@ -217,12 +205,16 @@ const SNIPPETS: [(&str, &str, &str); 97] = [
     ("Scene", "Scene", ""),
 ];
 
-/// All of them in the order of [`CHOICES`]: the materials' before the metals'.
+/// All of them in the order of [`CHOICES`]: the materials' before the metals', the shapes' before the groups'.
 fn snippets() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-    let metals = SNIPPETS.iter().position(|(choice, ..)| *choice == "Metal").unwrap_or(SNIPPETS.len());
-    let (before, after) = SNIPPETS.split_at(metals);
-    let materials = Material::TOLD.iter().map(|&(kind, _, words)| (Material::DEF.name, kind, words));
-    before.iter().copied().chain(materials).chain(after.iter().copied())
+    let first = |name| SNIPPETS.iter().position(|(choice, ..)| *choice == name).unwrap_or(SNIPPETS.len());
+    let (before, others) = SNIPPETS.split_at(first(Metal::DEF.name));
+    let (between, after) = others.split_at(first(Object::DEF.name) - before.len());
+    let told =
+        |choice, all: &'static [(&str, &[&str], &str)]| all.iter().map(move |&(kind, _, words)| (choice, kind, words));
+    let (materials, shapes) = (told(Material::DEF.name, Material::TOLD), told(Object::DEF.name, Object::TOLD));
+    let written = |list: &'static [(&str, &str, &str)]| list.iter().copied();
+    written(before).chain(materials).chain(written(between)).chain(shapes).chain(written(after))
 }
 
 /// The words that show a kind.
@@ -261,6 +253,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             object = words.to_owned();
             files = if kind == "Include" { &[CHAIR] } else { &[TETRAHEDRON] };
         }
+        "Curve" => object = format!("Lathe(profile: [(0, -1), (1, -0.5), (0.5, 0.5), (0, 1)], {words})"),
         "Instances" => {
             object = mesh(&format!("placements: [[], [Translate((1, 0, 0))]], {words}"));
             files = &[TETRAHEDRON];

@@ -35,11 +35,13 @@ pub use materials::{
 };
 pub use name::Name;
 pub use object::Object;
+pub(crate) use object::ShapeWords;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Capsule, Cone, Cylinder, Disk, Faces, Groups, InlineMesh, Instances, Mesh, MeshSource, Moved, PlacementList,
-    PlacementPattern, Placements, RectBox, Rectangle, Shading, Sphere, Within,
+    Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
+    MeshSource, Moved, Outline, PlacementList, PlacementPattern, Placements, Polygon, Profile, RectBox, Rectangle,
+    Shading, Sphere, Within,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

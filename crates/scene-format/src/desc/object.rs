@@ -1,76 +1,115 @@
 //! Objects: what is to be seen.
 
-use super::shapes::{Capsule, Cone, Cylinder, Disk, Mesh, Placements, RectBox, Rectangle, Sphere};
+use super::shapes::{
+    Capsule, Cone, Cylinder, Disk, Extrude, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle, Sphere,
+};
 use super::{MaterialRef, Transform};
 use crate::diagnostic::Spanned;
-use crate::words::scene_enum;
+use crate::words::{Told, scene_enum};
+use std::path::Path;
+use std::sync::Arc;
 
-scene_enum! {
-    /// A thing in the scene.
-    pub enum Object, "object" {
-        /// A sphere.
-        Sphere(Box<Sphere>);
-        /// A flat rectangle: a floor, a wall, a picture, a square lamp.
-        Rectangle(Box<Rectangle>);
-        /// A box with right angles.
-        Box(Box<RectBox>);
-        /// A flat disk, or a ring.
-        Disk(Box<Disk>);
-        /// A round cylinder, closed or open.
-        Cylinder(Box<Cylinder>);
-        /// A round cone or a part of one, closed or open.
-        Cone(Box<Cone>);
-        /// A cylinder with round ends.
-        Capsule(Box<Capsule>);
-        /// A triangle mesh from a file.
-        Mesh(Mesh);
+/// What is asked of a shape's words.
+pub(crate) trait ShapeWords: Told {
+    /// What several of them are called where they are counted.
+    const MANY: &'static str;
+
+    /// The file that it is made of, if it is.
+    fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
+        None
     }
 }
 
-/// What every shape has, whichever it is.
-macro_rules! of_shape {
-    ($object:expr, $shape:ident => $what:expr) => {
-        match $object {
-            Object::Sphere($shape) => $what,
-            Object::Rectangle($shape) => $what,
-            Object::Box($shape) => $what,
-            Object::Disk($shape) => $what,
-            Object::Cylinder($shape) => $what,
-            Object::Cone($shape) => $what,
-            Object::Capsule($shape) => $what,
-            Object::Mesh($shape) => $what,
+impl<T: ShapeWords> ShapeWords for Box<T> {
+    const MANY: &'static str = T::MANY;
+
+    fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
+        T::named_file(self)
+    }
+}
+
+/// The choice between shapes, one line each, and what is the same for all of them.
+macro_rules! shapes {
+    ($( $(#[doc = $doc:literal])+ $Kind:ident($inner:ty); )+) => {
+        scene_enum! {
+            /// A thing in the scene.
+            pub enum Object, "object" {
+                $( $(#[doc = $doc])+ $Kind($inner); )+
+            }
+        }
+
+        impl Object {
+            /// By kind: names of other programs, an example.
+            pub(crate) const TOLD: &[(&str, &[&str], &str)] =
+                &[$((stringify!($Kind), <$inner as Told>::ALSO, <$inner as Told>::EXAMPLE),)+];
+
+            /// The kinds, and what several of each are called.
+            pub const KINDS: &[(&str, &str)] = &[$((stringify!($Kind), <$inner as ShapeWords>::MANY),)+];
+
+            /// Its kind, as it is written.
+            pub fn kind(&self) -> &'static str {
+                match self { $( Object::$Kind(_) => stringify!($Kind), )+ }
+            }
+
+            /// Its material.
+            pub fn material(&self) -> &MaterialRef {
+                match self { $( Object::$Kind(shape) => &shape.material, )+ }
+            }
+
+            /// Its material, to be changed.
+            pub fn material_mut(&mut self) -> &mut MaterialRef {
+                match self { $( Object::$Kind(shape) => &mut shape.material, )+ }
+            }
+
+            /// Its transforms, first to last.
+            pub fn transform(&self) -> &[Spanned<Transform>] {
+                match self { $( Object::$Kind(shape) => &shape.transform, )+ }
+            }
+
+            /// Its transforms, to be changed.
+            pub fn transform_mut(&mut self) -> &mut Vec<Spanned<Transform>> {
+                match self { $( Object::$Kind(shape) => &mut shape.transform, )+ }
+            }
+
+            /// Where its copies are.
+            pub fn placements(&self) -> &Placements {
+                match self { $( Object::$Kind(shape) => &shape.placements, )+ }
+            }
+
+            /// Where its copies are, to be changed.
+            pub fn placements_mut(&mut self) -> &mut Placements {
+                match self { $( Object::$Kind(shape) => &mut shape.placements, )+ }
+            }
+
+            /// The file that its shape is made of, if it is.
+            pub fn file(&self) -> Option<&Spanned<Arc<Path>>> {
+                match self { $( Object::$Kind(shape) => ShapeWords::named_file(shape), )+ }
+            }
         }
     };
 }
 
-impl Object {
-    /// Its material.
-    pub fn material(&self) -> &MaterialRef {
-        of_shape!(self, shape => &shape.material)
-    }
-
-    /// Its material, to be changed.
-    pub fn material_mut(&mut self) -> &mut MaterialRef {
-        of_shape!(self, shape => &mut shape.material)
-    }
-
-    /// Its transforms, first to last.
-    pub fn transform(&self) -> &[Spanned<Transform>] {
-        of_shape!(self, shape => &shape.transform)
-    }
-
-    /// Its transforms, to be changed.
-    pub fn transform_mut(&mut self) -> &mut Vec<Spanned<Transform>> {
-        of_shape!(self, shape => &mut shape.transform)
-    }
-
-    /// Where its copies are.
-    pub fn placements(&self) -> &Placements {
-        of_shape!(self, shape => &shape.placements)
-    }
-
-    /// Where its copies are, to be changed.
-    pub fn placements_mut(&mut self) -> &mut Placements {
-        of_shape!(self, shape => &mut shape.placements)
-    }
+shapes! {
+    /// A sphere.
+    Sphere(Box<Sphere>);
+    /// A flat rectangle: a floor, a wall, a picture, a square lamp.
+    Rectangle(Box<Rectangle>);
+    /// A box with right angles.
+    Box(Box<RectBox>);
+    /// A flat disk, or a ring.
+    Disk(Box<Disk>);
+    /// A round cylinder, closed or open.
+    Cylinder(Box<Cylinder>);
+    /// A round cone or a part of one, closed or open.
+    Cone(Box<Cone>);
+    /// A cylinder with round ends.
+    Capsule(Box<Capsule>);
+    /// What a profile passes over as it turns about an axis: a vase, a glass.
+    Lathe(Box<Lathe>);
+    /// An outline that is pushed along z: a letter, a star, a plate with holes.
+    Extrude(Box<Extrude>);
+    /// A flat face with any number of corners.
+    Polygon(Box<Polygon>);
+    /// A triangle mesh from a file.
+    Mesh(Mesh);
 }

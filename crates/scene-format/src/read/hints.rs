@@ -1,6 +1,6 @@
 //! What was meant by a word that is not there: the words of other programs, and the right place.
 
-use crate::desc::{Material, Scene};
+use crate::desc::{Material, Object, Scene};
 use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
 use crate::tree::Item;
@@ -90,16 +90,8 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 23] = [
-        ("Mesh", &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"]),
+    const SYNONYMS: [(&str, &[&str]); 15] = [
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
-        ("Sphere", &["ball"]),
-        ("Rectangle", &["quad", "square", "rect", "bilinearmesh", "wall"]),
-        ("Box", &["cube", "cuboid", "brick"]),
-        ("Disk", &["disc", "circle", "ring", "annulus"]),
-        ("Cylinder", &["rod", "pipe", "pole"]),
-        ("Cone", &["frustum", "truncatedcone"]),
-        ("Capsule", &["pill", "spherocylinder"]),
         ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
@@ -116,7 +108,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
     ];
     let lower = name.to_ascii_lowercase();
-    let told = Material::TOLD.iter().map(|(kind, others, _)| (kind, others));
+    let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, others, _)| (kind, others));
     let mut all = SYNONYMS.iter().map(|(kind, others)| (kind, others)).chain(told);
     let found = all.find(|(kind, others)| def.variant(kind).is_some() && others.contains(&lower.as_str()));
     found.map(|(kind, _)| *kind)
@@ -142,27 +134,10 @@ type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
     (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
-    (
-        &["triangle", "torus", "polygon", "pyramid", "prism"],
-        "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
-    ),
+    (&["torus", "pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
-        &[
-            "lathe",
-            "sor",
-            "extrude",
-            "revolve",
-            "heightfield",
-            "curve",
-            "curves",
-            "tube",
-            "spline",
-            "bezier",
-            "nurbs",
-            "sweep",
-            "text",
-        ],
+        &["heightfield", "curve", "curves", "tube", "spline", "bezier", "nurbs", "sweep", "text"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a `Mesh`",
     ),
     (

@@ -229,7 +229,41 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             2 => Placements::Pattern(Box::new(pattern(random).into())),
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
-        let object = match random.below(9) {
+        let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
+        let object = match random.below(12) {
+            10 => Object::Extrude(Box::new(Extrude {
+                outline: Outline(
+                    (0..1 + random.below(3))
+                        .map(|_| (0..3 + random.below(3)).map(|_| pair(random)).collect())
+                        .collect(),
+                )
+                .into(),
+                depth: length(random).into(),
+                curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
+            11 => Object::Polygon(Box::new(Polygon {
+                points: Corners((0..3 + random.below(3)).map(|_| vector(random)).collect()).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
+            9 => Object::Lathe(Box::new(Lathe {
+                profile: Profile(
+                    (0..2 + random.below(4)).map(|_| [length(random), number(random, -1e6, 1e6)]).collect(),
+                )
+                .into(),
+                curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
+                segments: (3 + random.below(4094) as u32).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
             0 | 1 => Object::Sphere(Box::new(Sphere {
                 center: vector(random).into(),
                 radius: length(random).into(),

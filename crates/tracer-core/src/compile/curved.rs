@@ -9,6 +9,7 @@ use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use tracer_kernels::scene::{Frame, NONE, Shape, Sphere};
 use tracer_kernels::shapes::UnitShape;
+use tracer_mesh::shapes::of_object;
 
 /// An object with curved sides, as it is written.
 struct Written {
@@ -32,7 +33,7 @@ fn written(object: &Object) -> Option<Written> {
         Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
         Object::Cone(cone) => Some(of_cone(cone)),
         Object::Capsule(capsule) => Some(of_capsule(capsule)),
-        Object::Rectangle(_) | Object::Box(_) | Object::Mesh(_) => None,
+        _ => None,
     }
 }
 
@@ -148,7 +149,7 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
             let article = if unit == UnitShape::Sphere { "" } else { "a " };
             diagnostics.push(
                 Diagnostic::error(codes::NO_LIGHT, span, format!("{article}{what} cannot shine"))
-                    .expected("`Emissive` on a sphere, a rectangle, a box or a mesh")
+                    .expected("`Emissive` on a sphere, or on a shape with flat sides or of triangles")
                     .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open"),
             );
         }
@@ -253,16 +254,19 @@ pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
             MaterialRef::Inline(material) => Some(&material.value),
         };
         let Some(Material::Transparent { .. }) = material else { continue };
-        if let Some(Written { unit, noun, .. }) = written(&object.value)
-            && !unit.is_closed()
-        {
+        let open = match (written(&object.value), of_object(&object.value)) {
+            (Some(Written { unit: unit @ UnitShape::Disk { .. }, noun, .. }), _) if !unit.is_closed() => {
+                Some((noun, "a pane of glass is a thin `Cylinder`"))
+            }
+            (Some(Written { unit, noun, .. }), _) if !unit.is_closed() => Some((noun, "close it: `caps: true`")),
+            (_, Some(shape)) if !shape.is_closed() => Some((shape.noun(), shape.way_to_close())),
+            _ => None,
+        };
+        if let Some((noun, hint)) = open {
             diagnostics.push(
                 Diagnostic::warning(codes::OPEN_GLASS, object.span, format!("glass of an open {noun} has no inside"))
                     .expected("a closed shape: a ray is bent by glass on its way in, and back on its way out")
-                    .hint(match unit {
-                        UnitShape::Disk { .. } => "a pane of glass is a thin `Cylinder`",
-                        _ => "close it: `caps: true`",
-                    }),
+                    .hint(hint),
             );
         }
     }

@@ -20,11 +20,12 @@ use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Shape, Triangles};
+use tracer_mesh::shapes::Triangulated;
 use tracer_mesh::{MeshData, NO_INDEX, mesh_of, normals::vertex_normals};
 
 /// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
 pub struct Loaded {
-    /// Each file once, then each mesh of the scene itself, then each shape once.
+    /// Each file once, then each mesh of the scene itself, then each shape that triangles are made for, then each unit shape once.
     files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
@@ -48,7 +49,8 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
     let mut inline: Vec<Result<MeshData, Box<Diagnostic>>> = Vec::new();
-    let mut geometry_of_object: Vec<Geometry<usize, usize>> = Vec::new();
+    let mut made: Vec<(&dyn Triangulated, Span)> = Vec::new();
+    let mut geometry_of_object: Vec<Geometry<usize, usize, usize>> = Vec::new();
     // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
     for object in polygonal(desc) {
@@ -73,6 +75,10 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
                 }
                 Geometry::Unit(shape)
             }
+            Geometry::Made(shape) => {
+                made.push((shape, object.span));
+                Geometry::Made(made.len() - 1)
+            }
         });
     }
     let results: Vec<_> = paths.par_iter().map(|(path, _)| load_mesh(kept, path)).collect();
@@ -92,25 +98,30 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
             }
         }
     }
-    let mut file_of_inline = Vec::new();
-    for result in inline {
-        match result {
+    let made: Vec<_> = made.par_iter().map(|(shape, span)| shape.mesh(*span)).collect();
+    let mut written = |results: Vec<Result<MeshData, Box<Diagnostic>>>| -> Vec<Option<usize>> {
+        let file_of = |result| match result {
             Ok(data) => {
+                let data: MeshData = data;
                 diagnostics.extend(data.warnings.iter().cloned());
-                file_of_inline.push(Some(files.len()));
                 files.push(Arc::new(data));
+                Some(files.len() - 1)
             }
             Err(fault) => {
+                let fault: Box<Diagnostic> = fault;
                 diagnostics.push(*fault);
-                file_of_inline.push(None);
+                None
             }
-        }
-    }
+        };
+        results.into_iter().map(file_of).collect()
+    };
+    let (file_of_inline, file_of_made) = (written(inline), written(made));
     let first_shape = files.len();
     files.extend(shapes.iter().map(|shape| Arc::new(shape.mesh())));
     let of_geometry = |geometry| match geometry {
         Geometry::File(path) => file_of_path[path],
         Geometry::Inline(mesh) => file_of_inline[mesh],
+        Geometry::Made(shape) => file_of_made[shape],
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
     };
     Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
@@ -179,16 +190,19 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
             let heights = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation.y);
             heights.reduce(|| f64::INFINITY, f64::min)
         };
-        let barycentre = object.local.transform_point3(DVec3::from(data.barycentre()));
-        let map = place_matrix(object.transform, barycentre, &lowest) * object.local;
-        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
-        let at = object.transform.first().map_or(object.span, |t| t.span);
-        check(&maps, at, object.noun, diagnostics);
-        placed.maps.push(maps);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in data.positions.iter().map(|p| DVec3::from(*p)) {
             (low, high) = (low.min(p), high.max(p));
         }
+        let middle = match object.geometry {
+            Geometry::Made(shape) => shape.middle().map_or(0.5 * (low + high), DVec3::from),
+            _ => object.local.transform_point3(DVec3::from(data.barycentre())),
+        };
+        let map = place_matrix(object.transform, middle, &lowest) * object.local;
+        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+        let at = object.transform.first().map_or(object.span, |t| t.span);
+        check(&maps, at, object.noun, diagnostics);
+        placed.maps.push(maps);
         placed.boxes.push([low, high]);
     }
     placed

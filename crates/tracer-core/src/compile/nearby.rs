@@ -1,7 +1,7 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
 use scene_format::codes;
-use scene_format::desc::{Material, MaterialRef, Object};
+use scene_format::desc::{Material, MaterialRef};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
 use scene_format::{Diagnostics, SceneDesc, nearest};
 use std::collections::{BTreeMap, VecDeque};
@@ -60,10 +60,7 @@ pub fn by_place(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
 /// All files that the scene names, in order of mention, also where it was built in code.
 pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = desc.objects.iter().flat_map(|object| {
-        let file = match &object.value {
-            Object::Mesh(mesh) => mesh.file(),
-            _ => None,
-        };
+        let file = object.value.file();
         let texture = match object.value.material() {
             MaterialRef::Inline(material) => texture_file(&material.value),
             MaterialRef::Default | MaterialRef::Named { .. } => None,
@@ -188,7 +185,7 @@ mod tests {
         fs::write(assets.join("cat.obj"), "v 0 0 0").expect("a file");
         let text = "Scene(background: 1, objects: [Mesh(file: \"cat.obj\")])";
         let desc = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, &scenes, &[]).expect("right").scene;
-        let Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
+        let scene_format::desc::Object::Mesh(mesh) = &desc.objects[0].value else { panic!("a mesh") };
         let mut faults = vec![scene_format::Diagnostic::error(
             codes::FILE_NOT_FOUND,
             mesh.file().expect("a file").span,

@@ -11,16 +11,19 @@ use scene_format::diagnostic::{Span, Spanned};
 use std::path::Path;
 use std::sync::Arc;
 use tracer_mesh::MeshData;
+use tracer_mesh::shapes::{Triangulated, of_object};
 
 /// Where triangles come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Geometry<F, I> {
+#[derive(Clone, Copy)]
+pub enum Geometry<F, I, M> {
     /// A file.
     File(F),
     /// The scene.
     Inline(I),
     /// A shape of a size of one about the origin.
     Unit(UnitShape),
+    /// A shape whose triangles are made for it.
+    Made(M),
 }
 
 /// A shape of a size of one about the origin.
@@ -37,7 +40,7 @@ pub struct Polygonal<'a> {
     /// Its place among the objects of the scene.
     pub number: u32,
     /// Its triangles, in a frame of their own.
-    pub geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>>,
+    pub geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>, &'a dyn Triangulated>,
     /// From that frame to the one that the object is written in.
     pub local: DAffine3,
     /// Its material.
@@ -92,7 +95,18 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 span: object.span,
                 noun: "mesh",
             }),
-            _ => None,
+            other => of_object(other).map(|shape| Polygonal {
+                number,
+                geometry: Geometry::Made(shape),
+                local: DAffine3::IDENTITY,
+                material: object.value.material(),
+                transform: object.value.transform(),
+                placements: object.value.placements(),
+                instances: Instances::Auto,
+                shading: Shading::Auto,
+                span: object.span,
+                noun: shape.noun(),
+            }),
         }
     })
 }

@@ -25,7 +25,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let span = match object.geometry {
             Geometry::File(file) => file.span,
             Geometry::Inline(mesh) => mesh.span,
-            Geometry::Unit(_) => continue,
+            Geometry::Unit(_) | Geometry::Made(_) => continue,
         };
         let Some(data) = loaded.file(k) else { continue };
         let material = material_of(&materials, object.material);
@@ -165,7 +165,7 @@ fn shut_in(
                 (map.transform_point3(middle), 0.0, object.span, format!("objects[{index}], which shines,"))
             };
             lamps.extend(maps.map(lamp));
-        } else if opaque && polygonal.geometry == Geometry::Unit(UnitShape::Cube) {
+        } else if opaque && matches!(polygonal.geometry, Geometry::Unit(UnitShape::Cube)) {
             solids.extend(maps.map(|map| (Solid::Cube(map.inverse()), index)));
         }
     }

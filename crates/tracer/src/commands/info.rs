@@ -88,7 +88,8 @@ impl Facts {
         let total = self.desc.objects.len();
         let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
         let flat_sided = self.count(|object| matches!(object, Object::Rectangle(_) | Object::Box(_)));
-        let curved = total - spheres - meshes - flat_sided;
+        let made = self.count(|object| tracer_core::mesh::shapes::of_object(object).is_some());
+        let curved = total - spheres - meshes - flat_sided - made;
         let tree = s.tree.map_or("none needed".to_owned(), |tree| {
             let (nodes, leaves) = (counted(tree.nodes as usize, "node"), counted(tree.leaves as usize, "leaf"));
             format!("{nodes}, {leaves}, {} deep, {}", tree.depth, human(tree.bytes))
@@ -102,7 +103,8 @@ impl Facts {
             format!("{} samples, {} bounces, seed {}", self.scene.samples, self.scene.max_bounces, self.scene.seed),
         );
         line("objects", {
-            let other = [(flat_sided, "flat-sided shape"), (curved, "other curved shape")];
+            let other =
+                [(flat_sided, "flat-sided shape"), (curved, "other curved shape"), (made, "shape made of triangles")];
             let other = other.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what));
             let spheres = std::iter::once(counted(spheres, "sphere"));
             let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();
@@ -145,6 +147,10 @@ impl Facts {
 
     fn as_json(&self) -> serde_json::Value {
         let s = &self.statistics;
+        let of_kind = |kind: &str| self.count(|object| object.kind() == kind);
+        let counts = Object::KINDS.iter().map(|&(kind, many)| (many.to_owned(), of_kind(kind).into()));
+        let total = ("total".to_owned(), self.desc.objects.len().into());
+        let objects: serde_json::Map<String, serde_json::Value> = std::iter::once(total).chain(counts).collect();
         json!({
             "scene": self.name,
             "hash": hash_hex(&self.desc),
@@ -154,17 +160,7 @@ impl Facts {
                 "max_bounces": self.scene.max_bounces,
                 "seed": self.scene.seed,
             },
-            "objects": {
-                "total": self.desc.objects.len(),
-                "spheres": self.count(|object| matches!(object, Object::Sphere(_))),
-                "rectangles": self.count(|object| matches!(object, Object::Rectangle(_))),
-                "boxes": self.count(|object| matches!(object, Object::Box(_))),
-                "disks": self.count(|object| matches!(object, Object::Disk(_))),
-                "cylinders": self.count(|object| matches!(object, Object::Cylinder(_))),
-                "cones": self.count(|object| matches!(object, Object::Cone(_))),
-                "capsules": self.count(|object| matches!(object, Object::Capsule(_))),
-                "meshes": self.count(|object| matches!(object, Object::Mesh(_))),
-            },
+            "objects": objects,
             "lights": s.lights,
             "meshes": s.meshes,
             "files": asset_files(&self.desc),

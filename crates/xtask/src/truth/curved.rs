@@ -8,7 +8,7 @@ use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
 /// Steps that turn a shape about its middle, and sometimes mirror it or make it longer.
-fn steps(random: &mut Random) -> Vec<Spanned<Transform>> {
+pub(super) fn steps(random: &mut Random) -> Vec<Spanned<Transform>> {
     let axis = random.direction().to_array();
     let turn = Transform::Rotate { axis, degrees: random.between(0.0, 360.0), about: None };
     let stretch = Transform::Scale { factor: [1.0, random.between(0.4, 1.0), -1.0], about: None };

@@ -211,7 +211,8 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
     if once_in(random, 2) {
         return world.sphere(center, radius, material);
     }
-    match random.below(8) {
+    match random.below(10) {
+        8 | 9 => return super::made::shape(world, center, radius, material, random),
         0 => return super::shining::cuboid(world, center, radius, material, random),
         5 | 6 => return super::curved::shape(world, center, radius, material, random),
         7 => return super::curved::ball(world, center, radius, material, random),

@@ -14,6 +14,7 @@ pub mod draw;
 pub mod examine;
 pub mod judge;
 pub mod kinds;
+pub mod made;
 pub mod meshes;
 pub mod pairs;
 pub mod receivers;

@@ -1,11 +1,11 @@
 //! Boxes.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, PerAxis, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0 to 1, as a
@@ -25,4 +25,13 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for RectBox {
+    const ALSO: &'static [&'static str] = &["cube", "cuboid", "brick"];
+    const EXAMPLE: &'static str = "Box(size: (1.5, 1, 2), transform: [Rotate(axis: (0, 1, 0), degrees: 30)])";
+}
+
+impl ShapeWords for RectBox {
+    const MANY: &'static str = "boxes";
 }

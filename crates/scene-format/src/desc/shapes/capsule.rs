@@ -1,11 +1,11 @@
 //! Capsules.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A cylinder with half spheres on its ends: all points at most `radius` away from the way between two points.
@@ -28,4 +28,13 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Capsule {
+    const ALSO: &'static [&'static str] = &["pill", "spherocylinder"];
+    const EXAMPLE: &'static str = "Capsule(from: (-1, -0.4, 0), to: (1, 0.4, 0), radius: 0.5)";
+}
+
+impl ShapeWords for Capsule {
+    const MANY: &'static str = "capsules";
 }

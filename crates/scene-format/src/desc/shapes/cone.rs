@@ -1,11 +1,11 @@
 //! Cones.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A round cone, or a part of one: a lampshade, a bucket. With its caps it is closed; without them it has no
@@ -31,4 +31,13 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Cone {
+    const ALSO: &'static [&'static str] = &["frustum", "truncatedcone"];
+    const EXAMPLE: &'static str = "Cone(from: (0, -1, 0), to: (0, 1, 0), radius: 1, tip_radius: 0.3, caps: false)";
+}
+
+impl ShapeWords for Cone {
+    const MANY: &'static str = "cones";
 }

@@ -1,11 +1,11 @@
 //! Cylinders.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from
@@ -30,4 +30,14 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Cylinder {
+    const ALSO: &'static [&'static str] = &["rod", "pipe", "pole"];
+    const EXAMPLE: &'static str =
+        "Cylinder(from: (0, -1, 0), to: (0.5, 1, 0), radius: 0.6, material: Diffuse(albedo: 0.6))";
+}
+
+impl ShapeWords for Cylinder {
+    const MANY: &'static str = "cylinders";
 }

@@ -1,11 +1,11 @@
 //! Flat disks and rings.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A flat disk, or a ring. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is
@@ -30,4 +30,13 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Disk {
+    const ALSO: &'static [&'static str] = &["disc", "circle", "ring", "annulus"];
+    const EXAMPLE: &'static str = "Disk(center: (0, 0.3, 0), normal: (0, 1, 2), radius: 1.3, inner_radius: 0.5)";
+}
+
+impl ShapeWords for Disk {
+    const MANY: &'static str = "disks";
 }

@@ -3,14 +3,14 @@
 use super::Placements;
 use super::inline_mesh::{InlineMesh, Points, Written, WrittenFaces};
 use crate::codes;
-use crate::desc::{MaterialRef, Name, Transform};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
-use crate::words::{Words, scene_struct, scene_words};
+use crate::words::{Told, Words, scene_struct, scene_words};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -76,6 +76,21 @@ scene_struct! {
         shading: Shading = Shading::Auto;
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
+    }
+}
+
+impl Told for Mesh {
+    const ALSO: &'static [&'static str] =
+        &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"];
+    const EXAMPLE: &'static str =
+        "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])";
+}
+
+impl ShapeWords for Mesh {
+    const MANY: &'static str = "meshes";
+
+    fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
+        self.file()
     }
 }
 

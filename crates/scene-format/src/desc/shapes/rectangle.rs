@@ -1,11 +1,11 @@
 //! Flat rectangles.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, PerAxis, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A flat rectangle. Seen against its normal, its sides run to the right and upwards: to the right is (0, 1, 0) x normal,
@@ -28,4 +28,14 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Rectangle {
+    const ALSO: &'static [&'static str] = &["quad", "square", "rect", "bilinearmesh", "wall"];
+    const EXAMPLE: &'static str =
+        "Rectangle(center: (0, 0.5, 0), normal: (1, 1, 2), size: (3, 2), material: Diffuse(albedo: 0.6))";
+}
+
+impl ShapeWords for Rectangle {
+    const MANY: &'static str = "rectangles";
 }

@@ -1,11 +1,11 @@
 //! Spheres.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, Transform, Vec3};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
-use crate::words::scene_struct;
+use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A sphere; an ellipsoid by `Scale` in `transform`.
@@ -24,4 +24,13 @@ scene_struct! {
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
+}
+
+impl Told for Sphere {
+    const ALSO: &'static [&'static str] = &["ball"];
+    const EXAMPLE: &'static str = "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))";
+}
+
+impl ShapeWords for Sphere {
+    const MANY: &'static str = "spheres";
 }

@@ -1,0 +1,116 @@
+//! Outlines that are pushed along z.
+
+use super::{Curve, Placements, points};
+use crate::codes;
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
+use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::files::FileKind;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::{Item, Kind};
+use crate::words::{Told, Words, scene_struct};
+
+scene_struct! {
+    /// An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, and made of triangles. Texture coordinates:
+    /// of the ends from 0 to 1 over the square around the outline, as of a rectangle that faces outwards; of the sides u goes round, v along z.
+    pub struct Extrude as "Extrude", "an extrude" {
+        /// Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets itself or another.
+        outline: Spanned<Outline> => Rule::point();
+        /// How far it is pushed: from z = 0 to this.
+        depth: Spanned<f64> => Rule::length("a length");
+        /// How the points of each ring are joined.
+        curve: Curve = Curve::Linear;
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
+        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.depth=2` finds it where no other has this name.
+        name: Name = Name::default();
+    }
+}
+
+impl Told for Extrude {
+    const ALSO: &'static [&'static str] = &["prism", "extrusion", "extruded", "linearextrude", "linear_extrude"];
+    const EXAMPLE: &'static str =
+        "Extrude(outline: [[(-1, -1), (1, -1), (0, 1)], [(-0.3, -0.5), (0.3, -0.5), (0, 0.2)]], depth: 0.5)";
+}
+
+impl ShapeWords for Extrude {
+    const MANY: &'static str = "extrudes";
+}
+
+/// Rings of points (x, y), each of three or more.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Outline(pub Vec<Vec<[f64; 2]>>);
+
+/// A point of a ring.
+static POINT: FieldDef = FieldDef {
+    name: "",
+    noun: "a point of the outline",
+    doc: &[],
+    kind: Type::Pair,
+    rule: Rule::point(),
+    default: None,
+};
+
+/// A ring.
+static RING: FieldDef = FieldDef {
+    name: "",
+    noun: "a ring of the outline",
+    doc: &[],
+    kind: Type::List(&Type::Pair),
+    rule: Rule::point(),
+    default: None,
+};
+
+/// Whether this is a ring where there should be a list of rings: its first item is two numbers.
+fn is_ring(item: Item<'_, '_>) -> bool {
+    let number = |item: Item<'_, '_>| matches!(item.kind(), Kind::Integer | Kind::Float);
+    let first = if item.kind() == Kind::List { item.children().next() } else { None };
+    first.is_some_and(|point| {
+        matches!(point.kind(), Kind::Tuple | Kind::List)
+            && point.name().is_none()
+            && point.children().next().is_some_and(number)
+    })
+}
+
+impl Words for Outline {
+    const TYPE: Type = Type::List(&Type::List(&Type::Pair));
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if is_ring(item) {
+            let mut fault =
+                Diagnostic::error(codes::WRONG_TYPE, item.head(), "the outline cannot be one ring by itself")
+                    .expected("a list of rings of points: [[(x, y), ..], ..]")
+                    .hint("put square brackets around it");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("[{}]", item.lexeme()) });
+            reader.report(fault);
+            return None;
+        }
+        let (mut rings, mut whole) = (Vec::new(), true);
+        reader.items(item, at, |reader, child| {
+            match points::read(reader, child, &RING, &POINT, ("a ring of the outline", 3)) {
+                Some(ring) => rings.push(ring),
+                None => whole = false,
+            }
+        })?;
+        if !whole || item.is_damaged() {
+            return None;
+        }
+        if rings.is_empty() {
+            let fault =
+                Diagnostic::error(codes::WRONG_COUNT, item.head(), "the outline has at least one ring, not none");
+            reader.report(fault.expected("a list of rings of points: [[(x, y), ..], ..]"));
+            return None;
+        }
+        Some(Outline(rings))
+    }
+
+    fn form(&self, all: bool) -> Form {
+        self.0.form(all)
+    }
+}

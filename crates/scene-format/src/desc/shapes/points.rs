@@ -1,0 +1,38 @@
+//! Lists of points that shapes are made of.
+
+use crate::codes;
+use crate::diagnostic::Diagnostic;
+use crate::read::{Reader, make_room};
+use crate::schema::FieldDef;
+use crate::tree::Item;
+use crate::words::Words;
+
+/// Reads a list of `least` points or more, each by the rule of `point`; `noun`: what the list is. `None`: something was wrong, and told.
+pub(super) fn read<P: Words>(
+    reader: &mut Reader<'_>,
+    item: Item<'_, '_>,
+    at: &'static FieldDef,
+    point: &'static FieldDef,
+    (noun, least): (&str, usize),
+) -> Option<Vec<P>> {
+    let (mut points, mut whole) = (Vec::new(), true);
+    reader.passed_over = false;
+    reader.items(item, at, |reader, child| {
+        make_room(&mut points, item, child);
+        match P::read(reader, child, point) {
+            Some(point) => points.push(point),
+            None => whole = false,
+        }
+    })?;
+    if !whole || reader.passed_over || item.is_damaged() {
+        return None;
+    }
+    if points.len() < least {
+        let message = format!("{noun} has at least {least} points, not {}", points.len());
+        let fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message);
+        reader.report(fault.expected(format!("{least} points or more")));
+        return None;
+    }
+    points.shrink_to_fit();
+    Some(points)
+}

@@ -1,0 +1,88 @@
+//! Shapes that become triangles when they are compiled.
+
+use super::curved::steps;
+use super::draw::once_in;
+use super::meshes::Point;
+use super::world::{World, inline};
+use scene_format::desc::{
+    Corners, Curve, Extrude, Lathe, Material, Name, Object, Outline, Placements, Polygon, Profile, Transform,
+};
+use tracer_reference::Random;
+
+/// Adds such a shape within a sphere. Glass is closed.
+pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let glass = material.transmits();
+    let curve = if once_in(random, 2) { Curve::CatmullRom } else { Curve::Linear };
+    let segments = if once_in(random, 2) { 128 } else { 3 + random.below(30) as u32 };
+    let transform = if once_in(random, 2) { steps(random) } else { Vec::new() };
+    let there = vec![Transform::Translate(center).into()];
+    let placements = Placements::List(Box::new(std::iter::once(there).collect()));
+    let (material, name) = (inline(material), Name::default());
+    let object = match random.below(5) {
+        0 if !glass => Object::Polygon(Box::new(Polygon {
+            points: Corners(star(radius, random).into_iter().map(|[x, y]| [x, 0.6 * y, 0.8 * y]).collect()).into(),
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        0..=2 => Object::Extrude(Box::new(Extrude {
+            outline: Outline(plate(radius, random)).into(),
+            depth: (random.between(0.1, 0.8) * radius).into(),
+            curve,
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        _ => Object::Lathe(Box::new(Lathe {
+            profile: Profile(profile(radius, random)).into(),
+            curve,
+            segments: segments.into(),
+            material,
+            transform,
+            placements,
+            name,
+        })),
+    };
+    world.desc.objects.push(object.into());
+}
+
+/// A body between two ends of the axis, or a ring about it.
+fn profile(radius: f64, random: &mut Random) -> Vec<[f64; 2]> {
+    let mut wide = || random.between(0.2, 0.7) * radius;
+    if wide() < 0.4 * radius {
+        return vec![
+            [0.0, -0.6 * radius],
+            [wide(), -0.6 * radius],
+            [0.5 * wide(), 0.1 * radius],
+            [wide(), 0.5 * radius],
+            [0.0, 0.6 * radius],
+        ];
+    }
+    let (out, high) = (0.3 * wide(), 0.5 * wide());
+    let first = [0.6 * radius + out, -high];
+    vec![first, [0.6 * radius + out, high], [0.6 * radius - out, high], [0.6 * radius - out, -high], first]
+}
+
+/// A star, or a polygon that is nearly regular.
+fn star(radius: f64, random: &mut Random) -> Vec<[f64; 2]> {
+    let tips = 3 + random.below(5);
+    let inner = random.between(0.3, 0.6) * radius;
+    let corner = |k: usize| {
+        let angle = std::f64::consts::PI * k as f64 / tips as f64;
+        let r = if k % 2 == 0 { 0.65 * radius } else { inner };
+        [r * angle.cos(), r * angle.sin()]
+    };
+    (0..2 * tips).map(corner).collect()
+}
+
+/// A star, sometimes with a hole.
+fn plate(radius: f64, random: &mut Random) -> Vec<Vec<[f64; 2]>> {
+    let outer = star(radius, random);
+    if once_in(random, 2) {
+        return vec![outer];
+    }
+    let hole = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]].map(|p| p.map(|x| x * radius));
+    vec![outer, hole.to_vec()]
+}
