@@ -6,7 +6,7 @@ mod toml;
 
 pub(crate) use json::{json, json_value};
 pub(crate) use ron::{ron, ron_value};
-pub(crate) use toml::{toml, toml_value};
+pub(crate) use toml::{key as toml_key, text as toml_text, toml, toml_value};
 
 use crate::form::{BLANK_LINE, Entry, Form};
 use crate::syntax::Syntax;

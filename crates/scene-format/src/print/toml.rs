@@ -180,11 +180,13 @@ fn end_line(out: &mut String, comment: Option<&str>) {
     out.push('\n');
 }
 
-fn text(text: &str) -> String {
+/// A text between quotes.
+pub(crate) fn text(text: &str) -> String {
     quoted(text, |c| format!("\\u{:04x}", u32::from(c)))
 }
 
-fn key(name: &str) -> String {
+/// A name, between quotes where it needs them.
+pub(crate) fn key(name: &str) -> String {
     let bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-'));
     if bare { name.to_owned() } else { text(name) }
 }

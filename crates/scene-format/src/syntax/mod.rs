@@ -3,8 +3,10 @@
 mod arithmetic;
 mod bare_numbers;
 mod brackets;
+mod constructs;
 pub(crate) mod decode;
 pub(crate) mod foreign;
+mod from_ron;
 mod json;
 mod json_literal;
 mod json_scan;

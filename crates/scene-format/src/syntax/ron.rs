@@ -62,7 +62,7 @@ pub(super) struct Parser<'p> {
     /// Whether an open bracket was reported at the end of the file.
     pub at_end_reported: bool,
     /// The comma after the entry was read already, inside a bracket that was never closed.
-    separated: bool,
+    pub separated: bool,
     trust: Trust,
     /// Where the current line begins, and how far its first word is indented.
     pub line: usize,
@@ -156,6 +156,7 @@ impl<'p> Parser<'p> {
                 self.at += 2;
                 self.value();
             }
+            _ if self.construct_elsewhere() => {}
             _ => {
                 let length = self.word_length();
                 if length == 0 {
@@ -346,9 +347,11 @@ impl<'p> Parser<'p> {
                     break;
                 }
                 Some(_) => {
+                    let (mark, begin) = (self.builder.nodes.len(), self.at);
                     if !self.entry(bracket, &mut shape) {
                         break;
                     }
+                    self.comprehension(mark, begin);
                     self.separator();
                 }
             }
@@ -392,7 +395,11 @@ impl<'p> Parser<'p> {
             self.number_literal();
             return true;
         }
-        let named = self.field_ahead().or_else(|| {
+        let name = self.field_ahead();
+        if name.is_none() && self.construct_elsewhere() {
+            return true;
+        }
+        let named = name.or_else(|| {
             let fields = bracket == b'(' && matches!(*shape, Shape::Unknown | Shape::Named);
             fields.then(|| self.field_without_colon()).flatten()
         });

@@ -1,7 +1,7 @@
 //! Names and their values in RON: fields, entries of `{ .. }`, and names that are missing, mistaken or out of place.
 
 use super::ron::Parser;
-use super::{Syntax, bare_numbers};
+use super::{Syntax, bare_numbers, constructs};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
@@ -55,6 +55,46 @@ impl Parser<'_> {
         };
         fault = fault.expected("name: value").hint("write `:`");
         self.sink.push(fault);
+    }
+
+    /// A loop, or a block of POV-Ray, which is reported and passed over with the comma after it.
+    pub(super) fn construct_elsewhere(&mut self) -> bool {
+        if !self.peek().is_some_and(|byte| byte.is_ascii_lowercase()) {
+            return false;
+        }
+        let Some(found) = constructs::at_beginning(self.rest(), Syntax::Ron) else { return false };
+        self.pass_over(found);
+        self.trivia();
+        if self.peek() == Some(b',') {
+            self.at += 1;
+        }
+        self.separated = true;
+        true
+    }
+
+    /// `for i in range(8)` after a value, whose nodes begin at `mark` and which begins at `begin`: reported, and nothing is said of the value.
+    #[inline]
+    pub(super) fn comprehension(&mut self, mark: usize, begin: usize) {
+        if !matches!(self.peek(), Some(b' ' | b'\n' | b'\r')) || !self.rest().trim_start().starts_with("for ") {
+            return;
+        }
+        let at = self.at + (self.rest().len() - self.rest().trim_start().len());
+        let Some(found) = constructs::loop_of(&self.text[at..], Syntax::Ron) else { return };
+        self.trivia();
+        self.builder.nodes.truncate(mark);
+        self.builder.leaf(Kind::Broken, begin, at);
+        self.pass_over(found);
+    }
+
+    fn pass_over(&mut self, found: constructs::Construct) {
+        let (start, end) = (self.at, self.at + found.length);
+        let fault = found.fault(start, |from, to| self.span(from, to));
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, end);
+        if let Some(newline) = self.text[start..end].rfind('\n') {
+            self.line = start + newline + 1;
+        }
+        self.at = end;
     }
 
     pub(super) fn value_without_name(&mut self) {

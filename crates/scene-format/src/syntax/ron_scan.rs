@@ -1,7 +1,7 @@
 //! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
 use super::ron::Parser;
-use super::span;
+use super::{constructs, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 
@@ -150,6 +150,13 @@ impl Parser<'_> {
     /// `# ..`, as comments are written elsewhere.
     fn foreign_comment(&mut self) {
         let sign = if self.rest().starts_with("--") { "--" } else { &self.rest()[..1] };
+        if let Some((length, way)) = constructs::directive(self.rest()) {
+            let found = self.span(self.at, self.at + length);
+            let message = format!("`{}` is of another language", &self.rest()[..length]);
+            self.sink.push(Diagnostic::error(codes::OTHER_LANGUAGE, found, message).hint(way));
+            self.at += self.rest().find('\n').unwrap_or(self.rest().len());
+            return;
+        }
         let found = self.span(self.at, self.at + sign.len());
         let message = format!("comments begin with `//` in RON, not `{sign}`");
         let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("write `//`");

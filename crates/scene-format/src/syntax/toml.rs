@@ -146,6 +146,9 @@ impl Parser<'_> {
 
     /// `path = value`.
     pub(super) fn statement(&mut self) {
+        if self.construct_elsewhere() {
+            return self.tables.add_broken(self.values);
+        }
         let path = self.key_path();
         if path.is_empty() {
             self.tables.add_broken(self.values);

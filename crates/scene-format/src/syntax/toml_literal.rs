@@ -2,7 +2,7 @@
 
 use super::ron_literal::{number_kind, plain_number};
 use super::toml::Parser;
-use super::{arithmetic, decode};
+use super::{Syntax, arithmetic, constructs, decode, from_ron};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
@@ -155,35 +155,24 @@ impl Parser<'_> {
         (plain && words.starts_with(' ') && !words.trim().is_empty()).then(|| end + words.len())
     }
 
-    /// `Diffuse(albedo = 1)`: a kind as RON writes it.
+    /// `Diffuse(albedo: 1)`: a kind as RON writes it.
     fn kind_with_brackets(&mut self) -> bool {
         let start = self.span.start();
-        let Some(open) = self.lexeme().find('(') else { return false };
-        let (name, line) = (&self.lexeme()[..open], super::line_ahead(self.text, start));
-        let mut depth = 0usize;
-        let close = line.bytes().enumerate().skip(open).find(|(_, byte)| {
-            depth += usize::from(*byte == b'(');
-            depth -= usize::from(*byte == b')');
-            depth == 0
-        });
-        let Some((close, _)) = close else { return false };
-        let end = start + close + 1;
-        let found = self.range(start, end);
-        let inner = line[open + 1..close].trim();
+        let Some(length) = from_ron::length(&self.text[start..]) else { return false };
+        let name = &self.text[start..start + self.text[start..].find('(').unwrap_or(0)];
         let kind = name.starts_with(|c: char| c.is_ascii_uppercase());
-        let vector = inner.split(',').all(|number| number_kind(number.trim()).is_some());
-        let mended = match (kind, vector) {
-            (true, true) => Some(format!("{{ {name} = [{inner}] }}")),
-            (true, false) if !inner.contains('(') && (inner.is_empty() || inner.contains([':', '='])) => {
-                Some(format!("{{ {name} = {{ {} }} }}", inner.replace(':', " =")))
-            }
-            (false, true) => Some(format!("[{inner}]")),
-            _ => None,
+        let end = start + length;
+        let text = &self.text[start..end];
+        let mended = match kind {
+            true => from_ron::in_toml(text).or_else(|| from_ron::in_toml(&text.replace(" =", ":"))),
+            // `vec3(0, 1, 2)`
+            false => from_ron::in_toml(&text[name.len()..]).filter(|mended| mended.starts_with('[')),
         };
         let expected = match kind {
             true => format!("{{ {name} = {{ field = value }} }}"),
             false => "[x, y, z] for vectors and lists, { name = value } for fields".to_owned(),
         };
+        let found = self.range(start, end);
         let mut fault =
             Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "TOML has no round brackets").expected(expected);
         if let Some(mended) = mended {
@@ -193,6 +182,43 @@ impl Parser<'_> {
         self.sink.push(fault);
         self.values.leaf(Kind::Broken, start, end);
         self.resume(end);
+        true
+    }
+
+    /// `Sphere(center: (0, 0, 0), radius: 1)` in the place of `name = value`, a loop or a block of POV-Ray, which is reported.
+    pub(super) fn construct_elsewhere(&mut self) -> bool {
+        let start = self.span.start();
+        let rest = &self.text[start..];
+        let end;
+        if let Some(found) = constructs::at_beginning(rest, Syntax::Toml) {
+            end = start + found.length;
+            let fault = found.fault(start, |from, to| self.range(from, to));
+            self.sink.push(fault);
+        } else if let Some(length) =
+            from_ron::length(rest).filter(|_| rest.starts_with(|c: char| c.is_ascii_uppercase()))
+        {
+            end = start + length;
+            let found = self.range(start, end);
+            let name = &rest[..rest.find('(').unwrap_or(0)];
+            let mut fault = Diagnostic::error(codes::OTHER_LANGUAGE, found, format!("this is RON: `{name}(..)`"))
+                .expected(format!("{name} = {{ field = value }}, in TOML"));
+            let mended = from_ron::in_toml(&rest[..length]);
+            let inner = mended.as_deref().and_then(|mended| mended.strip_prefix("{ ")?.strip_suffix(" }"));
+            if let Some(inner) = inner.filter(|inner| inner.starts_with(name)) {
+                fault = fault.hint(format!("write {inner}"));
+                fault.edit = Some(Edit { span: found, replacement: inner.to_owned() });
+            }
+            self.sink.push(fault);
+        } else {
+            return false;
+        }
+        self.resume(end);
+        // A comma after it is RON's, too.
+        self.space();
+        if self.kind == TokenKind::Comma {
+            self.bump();
+        }
+        self.skip_line();
         true
     }
 
@@ -273,6 +299,9 @@ impl Parser<'_> {
     /// `(1, 2, 3)`: a vector as RON writes it.
     fn round_brackets(&mut self) {
         let start = self.span.start();
+        if self.kind_with_brackets() {
+            return;
+        }
         let mut depth = 0usize;
         let mut end;
         loop {
