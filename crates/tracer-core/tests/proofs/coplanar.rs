@@ -233,6 +233,9 @@ fn flat_sided(kind: &str, material: Material, transform: Vec<Transform>) -> Obje
     }
 }
 
+/// A plane of a material, which steps put in its place.
+type Support = fn(Material, Vec<Transform>) -> Object;
+
 /// Glass that changes nothing and stands on a table by the cap of a cylinder, a rug on a floor and a lid flush with it show no speckle: under a
 /// white sky all is of one albedo. Whatever holds them up, and in any attitude.
 #[test]
@@ -242,7 +245,7 @@ fn flat_sides_of_curved_shapes_do_not_speckle() {
         Attitude { axis: DVec3::X, degrees: 0.0, place: DVec3::ZERO },
         Attitude { axis: DVec3::new(0.48, 0.6, 0.64), degrees: 47.0, place: DVec3::new(1.3, -2.7, 3.1) },
     ];
-    let supports: [(&str, fn(Material, Vec<Transform>) -> Object); 3] = [
+    let supports: [(&str, Support); 3] = [
         ("rectangle", |material, steps| rectangle(80.0, material, steps)),
         ("disk", |material, steps| {
             let mut whole = flat_sided("disk", material, steps);
