@@ -243,5 +243,5 @@ fn mutants_of(scene: &Scene) {
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
     later[8] = 5;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(4))));
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(5))));
 }
