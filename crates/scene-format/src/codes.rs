@@ -3,59 +3,9 @@
 //! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never changes its
 //! meaning and is never given twice.
 
-use std::fmt;
+mod code;
 
-/// The code of a diagnostic: one of the constants of this module.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Code(&'static str);
-
-impl Code {
-    /// `E0301`
-    pub const fn as_str(self) -> &'static str {
-        self.0
-    }
-
-    /// Whether it is one of the syntax: brackets, quotes, commas.
-    pub fn is_syntax(self) -> bool {
-        self.0.starts_with("E01")
-    }
-
-    /// Whether brackets do not match, as it seems.
-    pub(crate) fn is_of_brackets(self) -> bool {
-        matches!(self, UNCLOSED_BRACKET | STRAY_BRACKET | TEXT_AFTER_END)
-    }
-
-    /// Whether it is one of a value that is of the right kind but out of its range.
-    pub fn is_value(self) -> bool {
-        self.0.starts_with("E03")
-    }
-}
-
-impl fmt::Display for Code {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.0)
-    }
-}
-
-impl fmt::Debug for Code {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(self.0, f)
-    }
-}
-
-/// As it is written: for tests and scripts.
-impl PartialEq<str> for Code {
-    fn eq(&self, other: &str) -> bool {
-        self.0 == other
-    }
-}
-
-/// As it is written: for tests and scripts.
-impl PartialEq<&str> for Code {
-    fn eq(&self, other: &&str) -> bool {
-        self.0 == *other
-    }
-}
+pub use code::Code;
 
 /// A code with its documentation.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +23,7 @@ macro_rules! codes {
         $(
             #[doc = concat!($code, ": ", $title, ".\n")]
             $(#[doc = $doc])+
-            pub const $NAME: Code = Code($code);
+            pub const $NAME: Code = Code::new($code);
         )+
 
         /// All codes in order.

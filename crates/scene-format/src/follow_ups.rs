@@ -13,6 +13,8 @@ use std::ops::Range;
 const MANY: usize = 300;
 /// Bytes that are read again at most, all trials together: a fiftieth of a second.
 const BUDGET: usize = 1 << 20;
+/// To tell of so many faults takes as long as to read the text of them: names are compared with all that is known, and with each other.
+const FAULTS_OF_A_READING: usize = 32;
 /// Longer files are told as they are.
 const LONG: usize = 1 << 16;
 /// Lines with faults whose brackets are looked at, and how long they may be.
@@ -79,7 +81,8 @@ struct Trials<'t, R> {
 impl<R: Fn(&str) -> Vec<Diagnostic>> Trials<'_, R> {
     /// The errors after an edit of the scene file, as long as there is time.
     fn after(&mut self, edit: &Edit) -> Option<Vec<Diagnostic>> {
-        self.budget = self.budget.checked_sub(self.text.len()).filter(|_| edit.span.source == 0)?;
+        let cost = self.text.len() * (1 + self.errors.len() / FAULTS_OF_A_READING);
+        self.budget = self.budget.checked_sub(cost).filter(|_| edit.span.source == 0)?;
         Some((self.read)(&apply_edits(self.text, std::slice::from_ref(edit))))
     }
 

@@ -141,15 +141,17 @@ fn soonest(mut run: impl FnMut()) -> Duration {
 fn mutants_neither_panic_nor_hang() {
     let count = std::env::var("SCENE_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(4000);
     let mut random = Random(5);
-    let (mut right, mut slowest) = (0, Duration::ZERO);
+    let (mut right, mut slowest) = (0, (Duration::ZERO, 0));
     for index in 0..count {
         let (source, syntax) = FULL[index % FULL.len()];
         let mutant = mutate(source, &mut random);
-        slowest = slowest.max(soonest(|| right += usize::from(exercise(mutant.clone(), syntax, &[]))));
+        let took = soonest(|| right += usize::from(exercise(mutant.clone(), syntax, &[])));
+        slowest = slowest.max((took, index));
     }
     // Most mutants are wrong, but a test that never gets beyond the syntax would prove little.
     assert!(right > count / 100, "{right} of {count} are right");
-    assert!(slowest < Duration::from_secs(1), "the slowest took {slowest:?}");
+    let (took, index) = slowest;
+    assert!(took < Duration::from_secs(1), "mutant {index} took {took:?}");
 }
 
 #[test]

@@ -41,6 +41,16 @@ fn shells_of_index_one_change_nothing() {
 }
 
 #[test]
+fn tumblers_of_index_one_on_the_floor_change_nothing() {
+    hold("tumblers");
+}
+
+#[test]
+fn what_is_flush_with_the_floor_and_alike_changes_nothing() {
+    hold("rugs");
+}
+
+#[test]
 fn a_flat_mirror_is_the_mirrored_world() {
     hold("flat mirror");
 }

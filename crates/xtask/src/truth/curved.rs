@@ -74,6 +74,40 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     world.desc.objects.push(object.into());
 }
 
+/// Adds a closed cylinder that stands, or hangs where `height` is below 0, with one of its caps at the height of its foot.
+pub fn standing(world: &mut World, foot: Point, height: f64, radius: f64, material: Material) {
+    world.desc.objects.push(
+        Object::Cylinder(Box::new(Cylinder {
+            from: foot.into(),
+            to: [foot[0], foot[1] + height, foot[2]].into(),
+            radius: radius.into(),
+            caps: true,
+            material: inline(material),
+            transform: Vec::new(),
+            placements: Placements::One,
+            name: Name::default(),
+        }))
+        .into(),
+    );
+}
+
+/// Adds a disk that lies flat.
+pub fn lying(world: &mut World, center: Point, radius: f64, inner_radius: f64, material: Material) {
+    world.desc.objects.push(
+        Object::Disk(Box::new(Disk {
+            center: center.into(),
+            normal: [0.0, 1.0, 0.0].into(),
+            radius: radius.into(),
+            inner_radius: inner_radius.into(),
+            material: inline(material),
+            transform: Vec::new(),
+            placements: Placements::One,
+            name: Name::default(),
+        }))
+        .into(),
+    );
+}
+
 /// Adds a sphere that is turned and copied, or an ellipsoid.
 pub fn ball(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
     world.sphere([0.0; 3], radius, material);

@@ -155,6 +155,23 @@ fn shells(pairs: &mut Vec<Pair>) {
     }
 }
 
+/// What lies in the floor's plane changes nothing where it is as the floor is, or glass of index 1.0: rugs, lids let into the floor, tumblers.
+fn flush(pairs: &mut Vec<Pair>) {
+    for receiver in [Receiver::Grass, Receiver::LowPoly] {
+        let name = name_of(receiver);
+        let mut world = lit(receiver);
+        super::curved::standing(&mut world, [0.9, 0.0, 1.3], 0.6, 0.35, glass(1.0));
+        super::curved::standing(&mut world, [1.9, 0.0, 1.2], 0.3, 0.3, glass(1.0));
+        pairs.push(related(format!("tumblers on the floor: {name}"), world, Relation::Shells));
+        let mut world = lit(receiver);
+        super::curved::lying(&mut world, [1.2, 0.0, 0.2], 1.4, 0.5, matt(0.4));
+        super::curved::lying(&mut world, [0.3, 0.0, 1.2], 0.5, 0.0, matt(0.4));
+        super::curved::standing(&mut world, [2.1, 0.0, 1.2], -0.05, 0.4, matt(0.4));
+        let (name, theirs) = (format!("rugs and a lid: {name}"), vec![lit(receiver)]);
+        pairs.push(Pair { name, ours: world, theirs, claim: Claim::Equal });
+    }
+}
+
 /// A flat mirror shows the mirrored world. A black screen keeps the lamp's own light from the receiver.
 fn mirrors(pairs: &mut Vec<Pair>) {
     for receiver in RECEIVERS {
@@ -287,6 +304,7 @@ fn dark(pairs: &mut Vec<Pair>) {
 pub fn all() -> Vec<Pair> {
     let mut pairs = Vec::new();
     shells(&mut pairs);
+    flush(&mut pairs);
     mirrors(&mut pairs);
     tints(&mut pairs);
     rewritten(&mut pairs);

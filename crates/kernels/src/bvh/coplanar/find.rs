@@ -12,8 +12,7 @@
 
 use super::super::geometry::{Geometry, NONE};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks};
-use crate::shapes::FlatFace;
-use crate::shapes::Row;
+use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -24,8 +23,8 @@ const MOST_TRIANGLES: usize = 1 << 18;
 /// Scenes with more curved shapes have theirs left out.
 const MOST_SHAPES: usize = 1 << 16;
 
-/// What the arithmetic of a shape's map, in double precision, may move a point by, in parts of its coordinates: some ten roundings of 2^-53. In a
-/// plane through the origin the roundings of single precision are none.
+/// What the arithmetic of a shape's map, in double precision, may move a point by, in parts of its coordinates: some ten
+/// roundings of 2^-53. In a plane through the origin the roundings of single precision are none.
 const MAPPED: f64 = 16.0 / 9_007_199_254_740_992.0;
 
 /// 2^-24.
@@ -308,7 +307,9 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     let first = first_primitive(geometry);
     let end = geometry.meshes.iter().map(|mesh| mesh.first_primitive + mesh.triangles.len() as u32).max().unwrap_or(0);
     let mut triangles = Offsets { first, of: vec![0f32; (end - first) as usize] };
-    let mut shapes = Offsets { first: geometry.first_shape, of: Vec::new() };
+    let curved = named.iter().any(|&k| faces[k as usize].curved.is_some());
+    let mut shapes =
+        Offsets { first: geometry.first_shape, of: vec![0.0; if curved { geometry.shapes.len() } else { 0 }] };
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
     for &(winner, loser, gap) in pairs {
         lists[member_of(loser)].push(member_of(winner) as u32);
@@ -320,7 +321,6 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
                 None => &mut triangles,
                 Some(_) => &mut shapes,
             };
-            offsets.of.resize(offsets.of.len().max(if face.curved.is_some() { geometry.shapes.len() } else { 0 }), 0.0);
             let place = (face.primitive - offsets.first) as usize;
             offsets.of[place] = offsets.of[place].max(offset);
         }

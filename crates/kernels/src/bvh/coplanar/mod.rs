@@ -15,8 +15,8 @@
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
 //! triangles pays for one question a batch.
 //!
-//! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a cap if the line meets the
-//! cap's plane at the t of the hit.
+//! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a cap if
+//! the line meets the cap's plane at the t of the hit.
 //!
 //! What lies farther apart than rounding takes it stays apart: two triangles are in one plane if the corners of one
 //! are no farther from the plane of the other than twice what the rounding of both may have moved them.
@@ -125,7 +125,7 @@ impl Coplanar {
         &self.triangles.of
     }
 
-    /// How far rays start off each curved shape at least, by its place among the shapes; empty where none of them takes part.
+    /// How far rays start off each curved shape at least, by its place among the shapes; empty where none takes part.
     pub fn shape_offsets(&self) -> &[f32] {
         &self.shapes.of
     }
