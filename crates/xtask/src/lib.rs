@@ -7,7 +7,6 @@
 pub mod cat;
 mod file;
 pub mod gallery;
-pub mod golden;
 pub mod layers;
 pub mod mutants;
 pub mod noise;
