@@ -3,12 +3,14 @@
 mod bench;
 mod denoise;
 mod fmt;
+mod golden;
 mod merge;
 mod preview;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use denoise::DenoiseArgs;
 pub use fmt::FmtArgs;
+pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use merge::MergeArgs;
 pub use preview::PreviewArgs;
 
@@ -76,6 +78,8 @@ pub enum Command {
     New(NewArgs),
     /// Measure how two pictures differ
     Compare(CompareArgs),
+    /// Keep pictures what they are: run, accept, new
+    Golden(GoldenArgs),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings
