@@ -54,10 +54,12 @@ fn count(faults: &[Diagnostic]) -> (usize, usize) {
     (errors, faults.len() - errors)
 }
 
-/// Takes back edits on lines where an error stands for which there is none: what is meant there nobody knows.
+/// Takes back edits on lines where an error of the syntax stands for which there is none: what is meant there nobody knows.
 pub(crate) fn withhold(text: &str, faults: &mut [Diagnostic]) {
-    let unclear =
-        |fault: &&Diagnostic| fault.severity == Severity::Error && fault.edit.is_none() && fault.span.source == 0;
+    // What is missing or too much where the syntax is right hides nothing.
+    let unclear = |fault: &&Diagnostic| {
+        fault.severity == Severity::Error && fault.code.is_syntax() && fault.edit.is_none() && fault.span.source == 0
+    };
     let mut lines: Vec<Range<u32>> = Vec::new();
     for fault in faults.iter().filter(unclear) {
         let line = lines_of(text, fault.span.start, fault.span.end);

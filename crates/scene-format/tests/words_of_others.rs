@@ -38,7 +38,6 @@ fn kinds_of_objects() {
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
         ("Torus(radius: 1)", "`Mesh`"),
         ("Ellipsoid(radius: 1)", "`transform: [Scale((1, 2, 1))]`"),
-        ("Lathe(points: [])", "`Mesh`"),
         ("Collection(objects: [])", "did you mean `Group`?"),
         ("Instance(of: 1)", "`placements`"),
         ("Difference(a: 1)", "cannot be cut"),
