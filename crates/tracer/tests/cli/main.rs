@@ -7,6 +7,7 @@ mod examples;
 mod faults;
 mod fmt;
 mod goals;
+mod golden;
 mod habits;
 #[cfg(unix)]
 mod interrupt;
