@@ -4,6 +4,7 @@ mod bench_acceleration;
 mod bench_figures;
 mod check;
 mod compare;
+mod compare_folders;
 mod completions;
 mod convert;
 mod explain;
