@@ -49,7 +49,8 @@ pub enum FolderError {
         b: PathBuf,
     },
     /// There is none.
-    #[error("there is no scene in {}; put some there, or name them in its {FILE}: scenes = [\"../room.ron\"]", .0.display())]
+    #[error("there is no scene in {}; put some there, or name them in its {FILE}: scenes = [\"../room.ron\"]",
+        .0.display())]
     Empty(PathBuf),
 }
 
@@ -103,7 +104,8 @@ impl Folder {
     }
 }
 
-/// All files below, in order of their names; hidden ones are left out, and links to folders, which may lead in a circle.
+/// All files below, in order of their names; hidden ones are left out, and links to folders, which may lead in a
+/// circle.
 fn list(folder: &Path, skipped: &[PathBuf], files: &mut Vec<PathBuf>) -> io::Result<()> {
     let mut paths = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<PathBuf>>>()?;
     paths.sort();

@@ -3,15 +3,19 @@
 /// Pixels along a side of a cell, the smallest region whose light is compared.
 pub const CELL: u32 = 8;
 
-/// Most batches that the samples are divided into. With 64 the exact test of signs ([`crate::noise`]) gets below any level that a
+/// Most batches that the samples are divided into. With 64 the exact test of signs ([`crate::noise`]) gets below any
+/// level that a
 /// picture of 65536x65536 pixels asks for.
 pub const MOST_BATCHES: u32 = 64;
 
 /// A picture, linear and exposed as EXR files have it, with its noise.
 ///
-/// What one sample index brings to a region holds all that pixels have in common at that index: what they share, light paths, the
-/// pixel filter. Different indices have nothing in common but the stratification of the sampler, which makes their mean better than
-/// that of independent ones. So the spread over batches of indices is the noise of a region of any shape, bounded from above, without
+/// What one sample index brings to a region holds all that pixels have in common at that index: what they share, light
+/// paths, the
+/// pixel filter. Different indices have nothing in common but the stratification of the sampler, which makes their mean
+/// better than
+/// that of independent ones. So the spread over batches of indices is the noise of a region of any shape, bounded from
+/// above, without
 /// a model of how neighbours correlate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
@@ -21,13 +25,15 @@ pub struct Measured {
     pub height: u32,
     /// Samples of each pixel.
     pub samples: u32,
-    /// How the picture becomes display values, in words: pictures that are developed otherwise are not compared by their light.
+    /// How the picture becomes display values, in words: pictures that are developed otherwise are not compared by
+    /// their light.
     pub look: String,
     /// Red, green, blue of each pixel, row by row from the top.
     pub rgb: Vec<f32>,
     /// Estimated variance of each pixel's luminance, were its samples independent; in the square of `rgb`'s unit.
     pub variance: Vec<f32>,
-    /// Mean over the pixels of a cell and the samples of a batch: red, green, blue of each cell, row by row, batch after batch.
+    /// Mean over the pixels of a cell and the samples of a batch: red, green, blue of each cell, row by row, batch
+    /// after batch.
     pub batches: Vec<f32>,
 }
 
@@ -82,7 +88,8 @@ impl Recorder {
         }
     }
 
-    /// Whether a batch ends where every pixel has so many samples: then, and only then, [`Recorder::see`] wants to see the picture.
+    /// Whether a batch ends where every pixel has so many samples: then, and only then, [`Recorder::see`] wants to see
+    /// the picture.
     pub fn wants(&self, samples: u32) -> bool {
         self.full < batch_count(self.samples) && samples == batch_start(self.samples, self.full + 1)
     }

@@ -82,7 +82,8 @@ impl Default for Settings {
 #[derive(Debug, thiserror::Error)]
 pub enum SettingsError {
     /// There is no such file.
-    #[error("{} is no folder of expected pictures: it has no {FILE}; `tracer golden new {}` makes it one", .0.display(), .0.display())]
+    #[error("{} is no folder of expected pictures: it has no {FILE}; `tracer golden new {}` makes it one",
+        .0.display(), .0.display())]
     None(PathBuf),
     /// It cannot be read.
     #[error("cannot read {}", path.display())]

@@ -1,7 +1,9 @@
 //! An expected picture with its noise, as an OpenEXR file of two parts.
 //!
-//! The part `picture` has R, G, B and `variance.Y` of each pixel, as `tracer render --layers variance` writes them, for any program that reads
-//! EXR. The part `batches` has a pixel for each cell of 8x8 pixels, and R, G, B of each batch of samples: `00.R` to `63.B`.
+//! The part `picture` has R, G, B and `variance.Y` of each pixel, as `tracer render --layers variance` writes them, for
+//! any program that reads
+//! EXR. The part `batches` has a pixel for each cell of 8x8 pixels, and R, G, B of each batch of samples: `00.R` to
+//! `63.B`.
 
 use crate::measured::{Measured, batch_count, cells};
 use exr::image::{Blocks, Encoding};

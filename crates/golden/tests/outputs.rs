@@ -95,7 +95,8 @@ fn a_line_each() {
     assert_eq!(lines::summary(&all), "2 passed (1 within noise), 4 failed\n");
 }
 
-/// The page holds all that it needs, says what a person does next, and is well-formed: read as XML but for what HTML writes otherwise.
+/// The page holds all that it needs, says what a person does next, and is well-formed: read as XML but for what HTML
+/// writes otherwise.
 #[test]
 fn the_page_is_whole() {
     let html = html::page(&outcomes(), &|x| [(x * 255.0) as u8; 3]).expect("a page");

@@ -6,7 +6,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
-use crate::mend;
 use crate::overrides::{self, Override};
 use crate::read;
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
@@ -147,7 +146,7 @@ fn load_string(
         });
     }
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
-    mend::withhold(&sources[0].text, &mut diagnostics);
+    follow_ups::withhold(&sources[0].text, &mut diagnostics);
     match scene {
         Some(scene) => {
             let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();

@@ -4,7 +4,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Severity};
 use crate::load::{LoadError, load_str};
 use crate::render::apply_edits;
 use crate::syntax::Syntax;
-use std::ops::Range;
 use std::path::Path;
 
 /// Edits of one round that are tried by themselves, where all of them together make nothing better.
@@ -52,37 +51,4 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
 fn count(faults: &[Diagnostic]) -> (usize, usize) {
     let errors = faults.iter().filter(|fault| fault.severity == Severity::Error).count();
     (errors, faults.len() - errors)
-}
-
-/// Takes back edits on lines where an error of the syntax stands for which there is none: what is meant there nobody knows.
-pub(crate) fn withhold(text: &str, faults: &mut [Diagnostic]) {
-    // What is missing or too much where the syntax is right hides nothing.
-    let unclear = |fault: &&Diagnostic| {
-        fault.severity == Severity::Error && fault.code.is_syntax() && fault.edit.is_none() && fault.span.source == 0
-    };
-    let mut lines: Vec<Range<u32>> = Vec::new();
-    for fault in faults.iter().filter(unclear) {
-        let line = lines_of(text, fault.span.start, fault.span.end);
-        match lines.last_mut() {
-            // Faults are in order of position.
-            Some(last) if line.start < last.end => last.end = last.end.max(line.end),
-            _ => lines.push(line),
-        }
-    }
-    for fault in faults.iter_mut() {
-        fault.edit.take_if(|edit| {
-            let edited = lines_of(text, edit.span.start, edit.span.end);
-            let at = lines.partition_point(|line| line.end <= edited.start);
-            edit.span.source == 0 && lines.get(at).is_some_and(|line| line.start < edited.end)
-        });
-    }
-}
-
-/// The lines that a range of bytes touches, with the ends of these lines.
-fn lines_of(text: &str, start: u32, end: u32) -> Range<u32> {
-    let bytes = text.as_bytes();
-    let (start, end) = ((start as usize).min(bytes.len()), (end as usize).min(bytes.len()));
-    let first = bytes[..start].iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
-    let last = bytes[end..].iter().position(|&byte| byte == b'\n').map_or(bytes.len() + 1, |newline| end + newline + 1);
-    first as u32..last as u32
 }

@@ -1,5 +1,6 @@
 //! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`],
-//! [`sweeps`] and [`mod@denoise`] its pictures, [`layers`] its source, [`prove`] all that takes longer. [`cat`] and [`gallery`] are pure
+//! [`sweeps`] and [`mod@denoise`] its pictures, [`layers`] its source, [`prove`] all that takes longer. [`cat`] and
+//! [`gallery`] are pure
 //! functions from nothing to files: no randomness, no network.
 
 #![forbid(unsafe_code)]

@@ -3,14 +3,17 @@
 //! Three questions, each asked so that pictures that differ by noise alone answer one of them wrongly in at most a
 //! thousandth of all comparisons ([`FALSE_ALARMS`] in all), whatever the distribution of their samples:
 //!
-//! - *Light*: regions of 8x8 pixels, of 16x16 and so on up to the whole picture, each channel of each region. If the picture is the same, what
-//!   batch k of one brings more than batch k of the other may as well be negative, for all k at once. [`signs`] says how rarely coins bring so large a
+//! - *Light*: regions of 8x8 pixels, of 16x16 and so on up to the whole picture, each channel of each region. If the
+//!   picture is the same, what
+//!   batch k of one brings more than batch k of the other may as well be negative, for all k at once. [`signs`] says
+//!   how rarely coins bring so large a
 //!   sum. Regions of a size, and sizes, share the level ([`level_of_one`]).
 //! - *Pixels far out*: a firefly is in one batch, of which the signs say nothing. [`tail`] asks whether the largest
 //!   differences go on where the others end.
 //! - *Pixels without noise*: where all samples of both are the same number, the numbers are compared.
 //!
-//! A change of less than [`LEAST_CHANGE`] of a region's light is taken for none: rounding that shows in every sample alike (another
+//! A change of less than [`LEAST_CHANGE`] of a region's light is taken for none: rounding that shows in every sample
+//! alike (another
 //! compiler, another sine) is no change of a picture.
 
 pub mod signs;
@@ -25,13 +28,15 @@ pub const FALSE_ALARMS: f64 = 1e-3;
 const OF_REGIONS: f64 = 0.7e-3;
 /// A change of a region's light, as share of it, that is none.
 pub const LEAST_CHANGE: f64 = 1e-3;
-/// The rarest signs of so many batches are so many times rarer than a test's level, or the test is not made: it would need each batch to agree.
+/// The rarest signs of so many batches are so many times rarer than a test's level, or the test is not made: it would
+/// need each batch to agree.
 const SPARE: f64 = 16.0;
 /// Where a pixel's samples are all alike, rounding leaves no more than this share of the square as their variance.
 const ROUNDING: f64 = 1e-10;
 /// Differences are measured by the noise of the pixels around, this far.
 const REACH: i64 = 2;
-/// Where too few pixels differ to tell a tail, a difference of so many standard deviations of both pictures is too large.
+/// Where too few pixels differ to tell a tail, a difference of so many standard deviations of both pictures is too
+/// large.
 const FAR_OUT: f64 = 12.0;
 
 /// A finding.
@@ -208,7 +213,8 @@ fn scales(of: &Measured) -> Vec<Scale> {
     }
 }
 
-/// How probable, at most, the difference of a region's channel is by noise, with both signs; and the difference as share of the light. `None`
+/// How probable, at most, the difference of a region's channel is by noise, with both signs; and the difference as
+/// share of the light. `None`
 /// where that is not worth asking.
 fn light(expected: &Measured, actual: &Measured, region: &Region, c: usize, level: f64) -> Option<(f64, f64)> {
     let [columns, rows] = cells(expected.width, expected.height);
@@ -303,7 +309,8 @@ fn pixels(expected: &Measured, actual: &Measured) -> (f64, Vec<Finding>) {
     (if findings.is_empty() { probability } else { findings[0].probability.min(probability) }, findings)
 }
 
-/// How many of the differences, in descending order and in units of their noise, lie too far out, and how probable that is.
+/// How many of the differences, in descending order and in units of their noise, lie too far out, and how probable that
+/// is.
 fn far_out(differences: &[f64]) -> (f64, usize) {
     let level = FALSE_ALARMS - OF_REGIONS;
     match tail::widest_gap(differences) {

@@ -3,10 +3,13 @@
 /// Steps that the sum of the magnitudes is divided into.
 const STEPS: usize = 4096;
 
-/// The probability, at most, that numbers of these magnitudes with signs drawn by tossing a coin sum to what they sum to or more.
+/// The probability, at most, that numbers of these magnitudes with signs drawn by tossing a coin sum to what they sum
+/// to or more.
 ///
-/// It is exact but for rounding the magnitudes to [`STEPS`], which is rounded so that the probability is never too small: Fisher's
-/// randomisation test (The Design of Experiments, 1935, section 21). It asks for no distribution, so that fireflies and black pixels
+/// It is exact but for rounding the magnitudes to [`STEPS`], which is rounded so that the probability is never too
+/// small: Fisher's
+/// randomisation test (The Design of Experiments, 1935, section 21). It asks for no distribution, so that fireflies and
+/// black pixels
 /// cannot mislead it: one that is far out makes the sum large and so is it with half of the signs.
 pub fn probability(numbers: &[f64]) -> f64 {
     let total: f64 = numbers.iter().map(|x| x.abs()).sum();
@@ -35,7 +38,8 @@ pub fn probability(numbers: &[f64]) -> f64 {
     chances.iter().skip(least).sum::<f64>().min(1.0)
 }
 
-/// Whether it is worth asking: signs that bring a sum of z times the root of the squares' sum are no rarer than 2^-z^2 as far as is
+/// Whether it is worth asking: signs that bring a sum of z times the root of the squares' sum are no rarer than 2^-z^2
+/// as far as is
 /// known (equal numbers with one sign reach that). What is wrongly thought not worth it passes.
 pub fn may_reach(numbers: &[f64], level: f64) -> bool {
     let sum: f64 = numbers.iter().sum();

@@ -21,9 +21,12 @@ pub struct Gap {
 
 /// Looks for a gap; `differences` are positive, in descending order. `None` where too few are there to tell a tail.
 ///
-/// Of Pareto tails (and the heaviest of all light ones are theirs; Gaussian ones are lighter and steepen further out) the logarithms are
-/// exponential, and j times the j-th gap between them is exponential of one and the same mean for all j, each independent of all others
-/// (Rényi 1953). The mean comes of the gaps below (Hill 1975), and the gap above is compared with it: with k of them the
+/// Of Pareto tails (and the heaviest of all light ones are theirs; Gaussian ones are lighter and steepen further out)
+/// the logarithms are
+/// exponential, and j times the j-th gap between them is exponential of one and the same mean for all j, each
+/// independent of all others
+/// (Rényi 1953). The mean comes of the gaps below (Hill 1975), and the gap above is compared with it: with k of them
+/// the
 /// probability of one as wide is (1 + gap / (k mean))^-k.
 pub fn widest_gap(differences: &[f64]) -> Option<Gap> {
     let length = tail_length(differences.len());
@@ -61,7 +64,8 @@ mod tests {
         numbers
     }
 
-    /// Of 4000 drawings of Pareto's distribution with its heaviest index as many as promised have such a gap: 40, with a standard
+    /// Of 4000 drawings of Pareto's distribution with its heaviest index as many as promised have such a gap: 40, with
+    /// a standard
     /// deviation of 6.3, and fewer for what the three groups have in common.
     #[test]
     fn gaps_are_as_rare_as_promised() {

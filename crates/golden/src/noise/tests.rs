@@ -16,7 +16,8 @@ impl Random {
     }
 }
 
-/// A picture whose samples are one distribution, of mean one, times the light of a pixel. `shared` of each sample is common to 8x8 pixels, at
+/// A picture whose samples are one distribution, of mean one, times the light of a pixel. `shared` of each sample is
+/// common to 8x8 pixels, at
 /// places that differ by sample: the correlation that sharing brings, at its worst.
 fn picture(
     seed: u64,
@@ -83,7 +84,8 @@ fn is_noise(judgement: &Judgement) -> bool {
     matches!(judgement, Judgement::Noise { .. })
 }
 
-/// None in 300 pairs for each distribution, the heavy ones and those that share among them: with one in a thousand one would be seen
+/// None in 300 pairs for each distribution, the heavy ones and those that share among them: with one in a thousand one
+/// would be seen
 /// among 900 with 59 %; what is promised is a bound, and the tests of signs stay far below it for few batches.
 #[test]
 fn noise_is_no_alarm() {
@@ -110,7 +112,8 @@ fn noise_is_no_alarm() {
 fn changes_are_found() {
     let size = [48, 32];
     let expected = picture(1, size, 32, 0.0, exponential, grey);
-    // All of it two per cent darker: the standard error of the mean of 48x32x32 samples is 0.45 %, that of the difference 0.64 %.
+    // All of it two per cent darker: the standard error of the mean of 48x32x32 samples is 0.45 %, that of the
+    // difference 0.64 %.
     let darker = picture(2, size, 32, 0.0, |random| 0.3 * exponential(random) + 0.7, |x, y| 0.98 * grey(x, y));
     let plain = picture(3, size, 32, 0.0, |random| 0.3 * exponential(random) + 0.7, grey);
     assert!(!is_noise(&judge(&plain, &darker)));

@@ -30,7 +30,8 @@ pub fn report(outcomes: &[Outcome]) -> String {
     let seconds = |of: &[&Outcome]| of.iter().map(|outcome| outcome.seconds).sum::<f64>();
     let all: Vec<&Outcome> = outcomes.iter().collect();
     let mut xml = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"tracer golden\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3}\">\n",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"tracer golden\" tests=\"{}\" \
+            failures=\"{}\" errors=\"{}\" time=\"{:.3}\">\n",
         all.len(),
         count(&all, false),
         count(&all, true),

@@ -50,7 +50,7 @@ impl Triangulated for Polygon {
             let expected = format!("points in one plane, to a ten-thousandth of its size: {:.2e} here", FLAT * size);
             return Err(Box::new(fault.expected(expected).hint("bent faces are a `Mesh` with `points` and `faces`")));
         }
-        let triangles = fill(&[plane.clone()]).map_err(|fault| {
+        let triangles = fill(std::slice::from_ref(&plane)).map_err(|fault| {
             let message = match fault {
                 Fault::Flat | Fault::Outside(_) | Fault::WithinHole(_) => return flat(),
                 Fault::Crossing([a, b]) => {

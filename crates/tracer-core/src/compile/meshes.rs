@@ -44,6 +44,7 @@ impl Loaded {
 }
 
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
+// Long: one arm for each way that triangles come into a scene.
 pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();

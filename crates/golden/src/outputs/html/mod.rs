@@ -21,11 +21,15 @@ const SHOWN_WIDTH: u32 = 384;
 pub fn page(outcomes: &[Outcome], colours: &dyn Fn(f32) -> [u8; 3]) -> Result<String, png::EncodingError> {
     let [passed, failed] = counts(outcomes);
     let mut page = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{failed} failed, {passed} passed</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>Golden pictures: {failed} failed, {passed} passed</h1>\n"
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+            content=\"width=device-width\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{failed} failed, {passed} \
+         passed</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>Golden pictures: {failed} failed, {passed} \
+         passed</h1>\n"
     );
-    page += "<table>\n<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">verdict</th><th scope=\"col\">what came of it</th></tr></thead>\n<tbody>\n";
+    page += "<table>\n<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">verdict</th><th scope=\"col\">what \
+        came of it</th></tr></thead>\n<tbody>\n";
     // What asks for a person stands first.
     let failures = || outcomes.iter().enumerate().filter(|(_, outcome)| !outcome.verdict.passes());
     let passes = || outcomes.iter().enumerate().filter(|(_, outcome)| outcome.verdict.passes());
@@ -71,8 +75,10 @@ fn section(
     {
         let _ = writeln!(
             page,
-            "<figure style=\"width:{}px\"><div class=\"wipe\"><img alt=\"expected\" src=\"{}\"><img alt=\"actual\" src=\"{}\"></div>\
-             <input type=\"range\" min=\"0\" max=\"100\" step=\"any\" value=\"50\" aria-label=\"wipe of {name}: how much of the expected picture shows\">\
+            "<figure style=\"width:{}px\"><div class=\"wipe\"><img alt=\"expected\" src=\"{}\"><img alt=\"actual\" \
+            src=\"{}\"></div>\
+             <input type=\"range\" min=\"0\" max=\"100\" step=\"any\" value=\"50\" aria-label=\"wipe of {name}: how \
+             much of the expected picture shows\">\
              <figcaption>wipe: expected on the left, actual on the right</figcaption></figure>",
             shown_width(actual),
             data(expected)?,
@@ -106,7 +112,8 @@ fn figure(page: &mut String, picture: &Rgb8, caption: &str, legend: &str) -> Res
     let (width, caption) = (shown_width(picture), escaped(caption));
     let _ = writeln!(
         page,
-        "<figure style=\"width:{width}px\"><img alt=\"{caption}\" src=\"{}\"><figcaption>{caption}</figcaption>{legend}</figure>",
+        "<figure style=\"width:{width}px\"><img alt=\"{caption}\" \
+            src=\"{}\"><figcaption>{caption}</figcaption>{legend}</figure>",
         data(picture)?
     );
     Ok(())

@@ -44,7 +44,8 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
             let io = |error| Failure::could_not(format!("cannot make {}: {error}", folder.display()));
             std::fs::create_dir_all(folder).map_err(io)?;
         }
-        // The reason comes first: should the program be ended here, there is a reason without a picture, and never a picture without one.
+        // The reason comes first: should the program be ended here, there is a reason without a picture, and never a
+        // picture without one.
         let old = match std::fs::read_to_string(&log) {
             Ok(old) => old,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
@@ -65,7 +66,8 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
     Ok(ExitCode::from(exit::DONE))
 }
 
-/// What the scenes of a folder read, as far as they say: their own files, what they name, and what runs found that these name.
+/// What the scenes of a folder read, as far as they say: their own files, what they name, and what runs found that
+/// these name.
 fn files_of_scenes(opened: &Opened) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for case in &opened.folder.cases {
@@ -110,7 +112,8 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
         if read.iter().any(|file| is_one_file(file, target)) {
             let shown = target.display();
             return Err(Failure::wrong(format!(
-                "{folder}/{name}: {shown} is read by a scene and is not replaced; give the scene or that file another name"
+                "{folder}/{name}: {shown} is read by a scene and is not replaced; give the scene or that file \
+                another name"
             )));
         }
     }

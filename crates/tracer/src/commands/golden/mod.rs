@@ -1,4 +1,5 @@
-//! `tracer golden`: pictures that must stay what they are. The pictures of this repository (`golden/`) go through [`Opened`], too.
+//! `tracer golden`: pictures that must stay what they are. The pictures of this repository (`golden/`) go through
+//! [`Opened`], too.
 
 mod accept;
 mod examine;

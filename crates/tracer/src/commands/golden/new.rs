@@ -24,7 +24,8 @@ pub(super) fn run(args: &GoldenNewArgs, shell: &Shell) -> Result<ExitCode, Failu
     if shell.is_told() {
         let folder = quoted(&folder.to_string_lossy());
         shell.say(&format!(
-            "made {}; next: tracer golden run {folder}, then: tracer golden accept {folder} --all-failed --reason \"first pictures\"",
+            "made {}; next: tracer golden run {folder}, then: tracer golden accept {folder} --all-failed --reason \
+            \"first pictures\"",
             file.display()
         ));
     }

@@ -79,7 +79,8 @@ pub fn load(case: &Case, settings: &Settings) -> Result<SceneDesc, NoPicture> {
     Ok(desc)
 }
 
-/// What a picture is known by: the scene with its settings, and the contents of the files that it uses. A file that cannot be read any
+/// What a picture is known by: the scene with its settings, and the contents of the files that it uses. A file that
+/// cannot be read any
 /// more is none.
 pub fn stamp(desc: &SceneDesc, files: &[PathBuf]) -> String {
     let mut known = hash_hex(desc);
@@ -103,7 +104,8 @@ pub fn make(case: &Case, settings: &Settings, threads: usize, level: Level) -> R
     files.extend(scene.files.iter().cloned());
     files.sort();
     files.dedup();
-    // A clock makes other pictures every time; where noise is kept, pictures have the samples that they are said to have.
+    // A clock makes other pictures every time; where noise is kept, pictures have the samples that they are said to
+    // have.
     scene.time = None;
     if settings.noise {
         scene.noise = None;
