@@ -71,7 +71,7 @@ fn star(radius: f64, random: &mut Random) -> Vec<[f64; 2]> {
     let inner = random.between(0.3, 0.6) * radius;
     let corner = |k: usize| {
         let angle = std::f64::consts::PI * k as f64 / tips as f64;
-        let r = if k % 2 == 0 { 0.65 * radius } else { inner };
+        let r = if k.is_multiple_of(2) { 0.65 * radius } else { inner };
         [r * angle.cos(), r * angle.sin()]
     };
     (0..2 * tips).map(corner).collect()
