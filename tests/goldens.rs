@@ -1,8 +1,10 @@
-//! Golden pictures: every `golden/<family>/<case>.ron` is rendered and compared with the `.png` beside it, byte for byte.
+//! Golden pictures: every `golden/<family>/<case>.ron` is rendered and compared with the `.png` beside it, byte for
+//! byte.
 //!
-//! All of it is what `tracer golden run golden` does (`golden/golden.toml` has the settings), a test for each scene. A missing picture fails, and so do
-//! a picture without a scene and a combination of material, shape and effect that no scene shows. A failure keeps what was made and one page
-//! that shows it (`target/goldens/<family>/<case>/index.html`), and prints the command that accepts the new picture.
+//! All of it is what `tracer golden run golden` does (`golden/golden.toml` has the settings), a test for each scene. A
+//! missing picture fails, and so do a picture without a scene and a combination of material, shape and effect that no
+//! scene shows. A failure keeps what was made and one page that shows it (`target/goldens/<family>/<case>/index.html`),
+//! and prints the command that accepts the new picture.
 
 #[path = "goldens/coverage.rs"]
 mod coverage;

@@ -4,19 +4,15 @@
 pub const CELL: u32 = 8;
 
 /// Most batches that the samples are divided into. With 64 the exact test of signs ([`crate::noise`]) gets below any
-/// level that a
-/// picture of 65536x65536 pixels asks for.
+/// level that a picture of 65536x65536 pixels asks for.
 pub const MOST_BATCHES: u32 = 64;
 
 /// A picture, linear and exposed as EXR files have it, with its noise.
 ///
 /// What one sample index brings to a region holds all that pixels have in common at that index: what they share, light
-/// paths, the
-/// pixel filter. Different indices have nothing in common but the stratification of the sampler, which makes their mean
-/// better than
-/// that of independent ones. So the spread over batches of indices is the noise of a region of any shape, bounded from
-/// above, without
-/// a model of how neighbours correlate.
+/// paths, the pixel filter. Different indices have nothing in common but the stratification of the sampler, which makes
+/// their mean better than that of independent ones. So the spread over batches of indices is the noise of a region of
+/// any shape, bounded from above, without a model of how neighbours correlate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Pixels across.
@@ -25,6 +21,8 @@ pub struct Measured {
     pub height: u32,
     /// Samples of each pixel.
     pub samples: u32,
+    /// What no sample is brighter than: the brightest light or background, in `rgb`'s unit.
+    pub brightest: f32,
     /// How the picture becomes display values, in words: pictures that are developed otherwise are not compared by
     /// their light.
     pub look: String,

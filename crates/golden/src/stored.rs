@@ -1,9 +1,8 @@
 //! An expected picture with its noise, as an OpenEXR file of two parts.
 //!
 //! The part `picture` has R, G, B and `variance.Y` of each pixel, as `tracer render --layers variance` writes them, for
-//! any program that reads
-//! EXR. The part `batches` has a pixel for each cell of 8x8 pixels, and R, G, B of each batch of samples: `00.R` to
-//! `63.B`.
+//! any program that reads EXR. The part `batches` has a pixel for each cell of 8x8 pixels, and R, G, B of each batch of
+//! samples: `00.R` to `63.B`.
 
 use crate::measured::{Measured, batch_count, cells};
 use exr::image::{Blocks, Encoding};
@@ -30,6 +29,7 @@ const MOST_SAMPLES: u32 = 1_000_000_000;
 struct Head {
     version: u32,
     samples: u32,
+    brightest: f32,
     look: String,
 }
 
@@ -38,7 +38,12 @@ struct Head {
 /// # Errors
 /// What the encoder says.
 pub fn encode(measured: &Measured) -> Result<Vec<u8>, String> {
-    let head = Head { version: VERSION, samples: measured.samples, look: measured.look.clone() };
+    let head = Head {
+        version: VERSION,
+        samples: measured.samples,
+        brightest: measured.brightest,
+        look: measured.look.clone(),
+    };
     let head = serde_json::to_string(&head).map_err(|error| error.to_string())?;
     let channel = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
     let every = |numbers: &[f32], c: usize| numbers.iter().skip(c).step_by(3).copied().collect::<Vec<f32>>();
@@ -119,6 +124,7 @@ pub fn decode(bytes: &[u8]) -> Result<Measured, String> {
         width,
         height,
         samples: head.samples,
+        brightest: head.brightest,
         look: head.look,
         rgb: interleaved(picture, &["R", "G", "B"]).ok_or_else(other)?,
         variance: numbers(picture, "variance.Y").ok_or_else(other)?.to_vec(),
@@ -129,7 +135,8 @@ pub fn decode(bytes: &[u8]) -> Result<Measured, String> {
         let names = names.each_ref().map(String::as_str);
         measured.batches.extend(interleaved(batches, &names).ok_or_else(other)?);
     }
-    let mut all = measured.rgb.iter().chain(&measured.variance).chain(&measured.batches);
+    let brightest = [measured.brightest];
+    let mut all = brightest.iter().chain(&measured.rgb).chain(&measured.variance).chain(&measured.batches);
     if !all.all(|x| x.is_finite()) {
         return Err("a number in it is not finite".to_owned());
     }
@@ -166,6 +173,7 @@ mod tests {
             width,
             height,
             samples,
+            brightest: 20.5,
             look: "exposure 0, tone map filmic".to_owned(),
             rgb: numbers(3 * pixels),
             variance: numbers(pixels),

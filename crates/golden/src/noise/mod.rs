@@ -4,40 +4,32 @@
 //! thousandth of all comparisons ([`FALSE_ALARMS`] in all), whatever the distribution of their samples:
 //!
 //! - *Light*: regions of 8x8 pixels, of 16x16 and so on up to the whole picture, each channel of each region. If the
-//!   picture is the same, what
-//!   batch k of one brings more than batch k of the other may as well be negative, for all k at once. [`signs`] says
-//!   how rarely coins bring so large a
-//!   sum. Regions of a size, and sizes, share the level ([`level_of_one`]).
-//! - *Pixels far out*: a firefly is in one batch, of which the signs say nothing. [`tail`] asks whether the largest
-//!   differences go on where the others end.
-//! - *Pixels without noise*: where all samples of both are the same number, the numbers are compared.
+//!   picture is the same, what batch k of one brings more than batch k of the other may as well be negative, for all k
+//!   at once. [`signs`] says how rarely coins bring so large a sum. Regions of a size, and sizes, share the level
+//!   ([`level_of_one`]).
+//! - *Pixels whose samples agree*: where nearly all samples of a pixel say another light, as where an edge has moved,
+//!   or nothing is noisy.
+//! - *Pixels brighter than light*: more than samples as bright as the brightest light can make of it. One bright sample
+//!   is noise, however rare ([`pixels`] says why).
 //!
 //! A change of less than [`LEAST_CHANGE`] of a region's light is taken for none: rounding that shows in every sample
-//! alike (another
-//! compiler, another sine) is no change of a picture.
+//! alike (another compiler, another sine) is no change of a picture.
 
+mod pixels;
 pub mod signs;
-pub mod tail;
 
 use crate::measured::{CELL, Measured, batch_count, batch_start, cells, pixels_of_cell};
 use serde::Serialize;
 
 /// How often, at most, pictures that differ by noise alone are said to differ.
 pub const FALSE_ALARMS: f64 = 1e-3;
-/// Of these, those of regions; the others are of pixels far out.
+/// Of these, those of regions; the others are of pixels.
 const OF_REGIONS: f64 = 0.7e-3;
 /// A change of a region's light, as share of it, that is none.
 pub const LEAST_CHANGE: f64 = 1e-3;
 /// The rarest signs of so many batches are so many times rarer than a test's level, or the test is not made: it would
 /// need each batch to agree.
 const SPARE: f64 = 16.0;
-/// Where a pixel's samples are all alike, rounding leaves no more than this share of the square as their variance.
-const ROUNDING: f64 = 1e-10;
-/// Differences are measured by the noise of the pixels around, this far.
-const REACH: i64 = 2;
-/// Where too few pixels differ to tell a tail, a difference of so many standard deviations of both pictures is too
-/// large.
-const FAR_OUT: f64 = 12.0;
 
 /// A finding.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -116,9 +108,14 @@ pub fn judge(expected: &Measured, actual: &Measured) -> Judgement {
             }
         }
     }
-    let (probability, found) = pixels(expected, actual);
-    least = least.min(probability);
-    findings.extend(found);
+    let level = FALSE_ALARMS - OF_REGIONS;
+    let (probability, found) = pixels::far_out(expected, actual, level);
+    least = least.min(probability * FALSE_ALARMS / level);
+    findings.extend(found.into_iter().map(|pixel| {
+        let ([x, y], [e, a]) = (pixel.at, pixel.is);
+        let what = format!("pixel ({x}, {y}) {}: {a:.4}, expected {e:.4}", pixel.what);
+        Finding { what, region: [x, y, 1, 1], probability: (pixel.probability * FALSE_ALARMS / level).min(1.0) }
+    }));
     if findings.is_empty() {
         return Judgement::Noise { probability: least };
     }
@@ -214,8 +211,7 @@ fn scales(of: &Measured) -> Vec<Scale> {
 }
 
 /// How probable, at most, the difference of a region's channel is by noise, with both signs; and the difference as
-/// share of the light. `None`
-/// where that is not worth asking.
+/// share of the light. `None` where that is not worth asking.
 fn light(expected: &Measured, actual: &Measured, region: &Region, c: usize, level: f64) -> Option<(f64, f64)> {
     let [columns, rows] = cells(expected.width, expected.height);
     let count = batch_count(expected.samples);
@@ -243,83 +239,6 @@ fn light(expected: &Measured, actual: &Measured, region: &Region, c: usize, leve
         return None;
     }
     Some(((2.0 * signs::probability(&differences)).min(1.0), sum / light.max(f64::MIN_POSITIVE)))
-}
-
-fn luminance(rgb: &[f32]) -> f64 {
-    0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2])
-}
-
-/// Pixels far out, and pixels without noise.
-fn pixels(expected: &Measured, actual: &Measured) -> (f64, Vec<Finding>) {
-    let (width, height) = (i64::from(expected.width), i64::from(expected.height));
-    let at = |x: i64, y: i64| (y * width + x) as usize;
-    let of_pixel = |m: &Measured, i: usize| luminance(&m.rgb[3 * i..3 * i + 3]);
-    let variance = |i: usize| f64::from(expected.variance[i]) + f64::from(actual.variance[i]);
-    let mut findings = Vec::new();
-    let mut differences: Vec<(f64, [u32; 2])> = Vec::new();
-    for y in 0..height {
-        for x in 0..width {
-            let i = at(x, y);
-            let (e, a) = (of_pixel(expected, i), of_pixel(actual, i));
-            let place = [x as u32, y as u32];
-            let channels = 3 * i..3 * i + 3;
-            if expected.rgb[channels.clone()] == actual.rgb[channels.clone()] {
-                continue;
-            }
-            if variance(i) <= ROUNDING * (e * e + a * a) {
-                let pairs = expected.rgb[channels.clone()].iter().zip(&actual.rgb[channels]);
-                if pairs
-                    .into_iter()
-                    .any(|(e, a)| f64::from((e - a).abs()) > LEAST_CHANGE * f64::from(e.abs().max(a.abs())))
-                {
-                    let what = format!("pixel ({x}, {y}) has no noise and is {a:.4}, expected {e:.4}");
-                    findings.push(Finding { what, region: [place[0], place[1], 1, 1], probability: 0.0 });
-                }
-                continue;
-            }
-            // The pixel's own variance is left out: a firefly makes it as large as itself.
-            let (mut noise, mut light, mut count) = (0.0, 0.0, 0.0);
-            for near_y in (y - REACH).max(0)..(y + REACH + 1).min(height) {
-                for near_x in (x - REACH).max(0)..(x + REACH + 1).min(width) {
-                    let near = at(near_x, near_y);
-                    if near != i {
-                        noise += variance(near);
-                        light += of_pixel(expected, near).abs() + of_pixel(actual, near).abs();
-                        count += 1.0;
-                    }
-                }
-            }
-            // Where all around is without noise, the light around is the measure.
-            let scale =
-                if count > 0.0 { (noise / count).sqrt().max(LEAST_CHANGE * light / count) } else { variance(i).sqrt() };
-            let difference = (e - a).abs() / scale.max(f64::MIN_POSITIVE);
-            if difference > 0.0 {
-                differences.push((difference, place));
-            }
-        }
-    }
-    differences.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let numbers: Vec<f64> = differences.iter().map(|(difference, _)| *difference).collect();
-    let (probability, far) = far_out(&numbers);
-    findings.extend(differences.iter().take(far).map(|(difference, [x, y])| {
-        let (e, a) = (of_pixel(expected, at((*x).into(), (*y).into())), of_pixel(actual, at((*x).into(), (*y).into())));
-        let what = format!("pixel ({x}, {y}) is {a:.4}, expected {e:.4}: {difference:.0} times the noise around");
-        Finding { what, region: [*x, *y, 1, 1], probability }
-    }));
-    (if findings.is_empty() { probability } else { findings[0].probability.min(probability) }, findings)
-}
-
-/// How many of the differences, in descending order and in units of their noise, lie too far out, and how probable that
-/// is.
-fn far_out(differences: &[f64]) -> (f64, usize) {
-    let level = FALSE_ALARMS - OF_REGIONS;
-    match tail::widest_gap(differences) {
-        Some(gap) => {
-            let probability = gap.probability * FALSE_ALARMS / level;
-            (probability.min(1.0), if gap.probability <= level { gap.above } else { 0 })
-        }
-        None => (1.0, differences.iter().filter(|difference| **difference > FAR_OUT).count()),
-    }
 }
 
 #[cfg(test)]

@@ -7,10 +7,9 @@ const STEPS: usize = 4096;
 /// to or more.
 ///
 /// It is exact but for rounding the magnitudes to [`STEPS`], which is rounded so that the probability is never too
-/// small: Fisher's
-/// randomisation test (The Design of Experiments, 1935, section 21). It asks for no distribution, so that fireflies and
-/// black pixels
-/// cannot mislead it: one that is far out makes the sum large and so is it with half of the signs.
+/// small: Fisher's randomisation test (The Design of Experiments, 1935, section 21). It asks for no distribution, so
+/// that fireflies and black pixels cannot mislead it: one that is far out makes the sum large and so is it with half of
+/// the signs.
 pub fn probability(numbers: &[f64]) -> f64 {
     let total: f64 = numbers.iter().map(|x| x.abs()).sum();
     let sum: f64 = numbers.iter().sum();
@@ -39,8 +38,7 @@ pub fn probability(numbers: &[f64]) -> f64 {
 }
 
 /// Whether it is worth asking: signs that bring a sum of z times the root of the squares' sum are no rarer than 2^-z^2
-/// as far as is
-/// known (equal numbers with one sign reach that). What is wrongly thought not worth it passes.
+/// as far as is known (equal numbers with one sign reach that). What is wrongly thought not worth it passes.
 pub fn may_reach(numbers: &[f64], level: f64) -> bool {
     let sum: f64 = numbers.iter().sum();
     let squares: f64 = numbers.iter().map(|x| x * x).sum();

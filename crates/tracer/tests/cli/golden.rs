@@ -230,8 +230,8 @@ fn outputs_for_programs() {
     assert!(Ran::of(command.env("GITHUB_ACTIONS", "true")).ends(1).out_text().contains("::error file="));
 }
 
-/// The commands of docs/golden.md, one after the other in one folder, as a person and as its workflow run them; its settings and its workflow are
-/// read.
+/// The commands of docs/golden.md, one after the other in one folder, as a person and as its workflow run them; its
+/// settings and its workflow are read.
 #[test]
 fn the_page_of_the_manual() {
     let page = std::fs::read_to_string(repository().join("docs/golden.md")).expect("the page");

@@ -80,8 +80,7 @@ pub fn load(case: &Case, settings: &Settings) -> Result<SceneDesc, NoPicture> {
 }
 
 /// What a picture is known by: the scene with its settings, and the contents of the files that it uses. A file that
-/// cannot be read any
-/// more is none.
+/// cannot be read any more is none.
 pub fn stamp(desc: &SceneDesc, files: &[PathBuf]) -> String {
     let mut known = hash_hex(desc);
     for file in files {
@@ -168,6 +167,8 @@ impl Watch {
             width,
             height,
             samples: scene.samples,
+            // The unit is the power of two below the brightest light.
+            brightest: (2.0 * scene.radiance_unit * self.gain).min(f64::from(f32::MAX)) as f32,
             look: format!("exposure {}, tone map {:?}", scene.look.exposure, scene.look.tone_map),
             rgb: linear,
             variance: pixels.map(variance).collect(),
