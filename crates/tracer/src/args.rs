@@ -3,12 +3,14 @@
 mod bench;
 mod denoise;
 mod fmt;
+mod golden;
 mod merge;
 mod preview;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use denoise::DenoiseArgs;
 pub use fmt::FmtArgs;
+pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use merge::MergeArgs;
 pub use preview::PreviewArgs;
 
@@ -76,6 +78,8 @@ pub enum Command {
     New(NewArgs),
     /// Measure how two pictures differ
     Compare(CompareArgs),
+    /// Keep pictures what they are: run, accept, new
+    Golden(GoldenArgs),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings
@@ -382,19 +386,20 @@ pub struct NewArgs {
 const COMPARE_EXAMPLES: &str = "\
 Examples:
   tracer compare a.png b.png -o difference.png
-  tracer compare new.exr old.exr --fail-above flip-mean=0.01
+  tracer compare new old --fail-above flip-mean=0.01
 
 Metrics: max, rmse, relmse, flip-mean, flip-max. Two EXR, HDR or PFM files are
 compared in linear radiance, others in display values of 0 to 1.
+Of two folders, pictures of one name are compared, and none may be missing.
 Exit codes: 0 within the limits, 1 above one, 2 no pictures or two sizes";
 
 /// `tracer compare`
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_EXAMPLES)]
 pub struct CompareArgs {
-    /// Picture
+    /// Picture, or a folder of pictures
     pub a: PathBuf,
-    /// Picture that it is measured against
+    /// Picture or folder that it is measured against
     pub b: PathBuf,
     /// Write a map of the difference in false colours (.png)
     #[arg(short, long, value_name = "FILE")]

@@ -12,6 +12,9 @@ use tracer_core::mesh::MeshFormat;
 /// The parts of a command's help, without headings.
 const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{options}{after-help}";
 
+/// The same of a command that has commands itself.
+const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
+
 /// The commands that a screen of help names in its line "More" alone.
 const MORE: [&str; 5] = ["bench-acceleration", "bench-figures", "schema", "completions", "man"];
 
@@ -20,6 +23,9 @@ pub fn command() -> Command {
     MORE.into_iter()
         .fold(Cli::command(), |cli, name| cli.mut_subcommand(name, |command| command.hide(true)))
         .mut_subcommands(|command| command.help_template(TEMPLATE))
+        .mut_subcommand("golden", |golden| {
+            golden.help_template(TEMPLATE_OF_COMMANDS).mut_subcommands(|command| command.help_template(TEMPLATE))
+        })
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
             ["syntax", "diagnostics", "seed", "exposure", "every", "format", "bits", "stats", "part", "split", "crop"]

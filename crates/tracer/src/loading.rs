@@ -59,7 +59,8 @@ pub fn load_counting(args: &SceneArgs, shell: &Shell) -> Result<(SceneDesc, usiz
 }
 
 /// The same error with what is wrong with the files that the text names: all mistakes in one run.
-fn with_faults_of_files(mut error: LoadError, folder: &Path) -> LoadError {
+/// For those who tell it themselves.
+pub(crate) fn with_faults_of_files(mut error: LoadError, folder: &Path) -> LoadError {
     if let LoadError::Invalid { diagnostics, sources, files } = &mut error {
         diagnostics.extend(tracer_core::check_files(files, folder, sources));
         diagnostics.sort_by_key(|fault| fault.span);

@@ -8,7 +8,6 @@ pub mod cat;
 pub mod denoise;
 mod file;
 pub mod gallery;
-pub mod golden;
 pub mod layers;
 pub mod mutants;
 pub mod noise;

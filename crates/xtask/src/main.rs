@@ -28,9 +28,6 @@ enum Command {
         #[arg(long, default_value = "")]
         name: String,
     },
-    /// Golden pictures.
-    #[command(subcommand)]
-    Golden(Golden),
     /// Shows which room of each crate uses which, and fails where an arrow points upward (crates/xtask/layers.toml).
     Layers,
     /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not
@@ -122,20 +119,6 @@ enum Command {
     },
 }
 
-/// What can be done with golden pictures.
-#[derive(clap::Subcommand)]
-enum Golden {
-    /// Takes the picture that the last test run made as the golden one.
-    Accept {
-        /// FAMILY/CASE, as the test names it; several are accepted for the same reason.
-        #[arg(required = true)]
-        cases: Vec<String>,
-        /// Why the picture is right; kept in golden/log.md.
-        #[arg(long)]
-        reason: String,
-    },
-}
-
 fn main() -> anyhow::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let files = match Command::parse() {
@@ -147,7 +130,6 @@ fn main() -> anyhow::Result<()> {
             anyhow::ensure!(worse == 0, "{worse} pictures have become worse");
             return Ok(());
         }
-        Command::Golden(Golden::Accept { cases, reason }) => return xtask::golden::accept(&root, &cases, &reason),
         Command::Layers => {
             let findings = xtask::layers::examine(&root, &xtask::layers::Rules::read(&root)?)?;
             print!("{}", xtask::layers::table(&findings));

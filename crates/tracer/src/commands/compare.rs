@@ -1,5 +1,6 @@
 //! `tracer compare`: how two pictures differ, in numbers and in false colours.
 
+use super::compare_folders;
 use crate::args::CompareArgs;
 use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
@@ -12,6 +13,9 @@ use std::process::ExitCode;
 
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let limits = args.fail_above.iter().map(|text| limit(text)).collect::<Result<Vec<Limit>, Failure>>()?;
+    if args.a.is_dir() && args.b.is_dir() {
+        return compare_folders::run(args, &limits);
+    }
     if let Some(path) = &args.output {
         if !matches!(Encoding::from_path(path, Bits::Eight), Ok(Encoding::Png(_))) {
             return Err(Failure::wrong(format!("-o {}: the map is a PNG; name it .png", path.display())));
@@ -44,10 +48,10 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
         let provenance = Provenance { scene_name, ..Provenance::default() };
         write(&map, Encoding::Png(Bits::Eight), &Place::File(path.clone()), &provenance)?;
     }
-    let above: Vec<&Limit> = limits.iter().filter(|limit| limit.metric.of(&difference) > limit.most).collect();
+    let above: Vec<&Limit> = limits.iter().filter(|limit| limit.is_exceeded_by(&difference)).collect();
     let mut out = std::io::stdout().lock();
     if args.json {
-        writeln!(out, "{:#}", as_json(&difference, &above))?;
+        writeln!(out, "{:#}", as_json(&difference, &above.iter().map(|limit| limit.name()).collect::<Vec<_>>()))?;
     } else {
         out.write_all(as_text(&difference, &above).as_bytes())?;
     }
@@ -56,9 +60,19 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
 }
 
 /// What `--fail-above` says.
-struct Limit {
+pub(super) struct Limit {
     metric: Metric,
     most: f64,
+}
+
+impl Limit {
+    pub(super) fn is_exceeded_by(&self, difference: &Difference) -> bool {
+        self.metric.of(difference) > self.most
+    }
+
+    pub(super) fn name(&self) -> &'static str {
+        self.metric.name()
+    }
 }
 
 fn limit(text: &str) -> Result<Limit, Failure> {
@@ -76,10 +90,12 @@ fn limit(text: &str) -> Result<Limit, Failure> {
 }
 
 /// Whatever is wrong with a picture ends with 2: 1 says that both were compared.
-fn picture(path: &Path) -> Result<Picture, Failure> {
+pub(super) fn picture(path: &Path) -> Result<Picture, Failure> {
     let shown = path.display();
     if path.is_dir() {
-        return Err(Failure::wrong(format!("cannot read {shown}: it is a folder; name a picture in it")));
+        return Err(Failure::wrong(format!(
+            "cannot read {shown}: it is a folder; name a picture in it, or two folders"
+        )));
     }
     if !path.exists() {
         let is_picture = |name: &Path| {
@@ -118,7 +134,7 @@ fn as_text(d: &Difference, above: &[&Limit]) -> String {
     text
 }
 
-fn as_json(d: &Difference, above: &[&Limit]) -> serde_json::Value {
+pub(super) fn as_json(d: &Difference, above: &[&str]) -> serde_json::Value {
     json!({
         "compared": kind(d),
         "max": d.max,
@@ -129,6 +145,6 @@ fn as_json(d: &Difference, above: &[&Limit]) -> serde_json::Value {
         "psnr": d.psnr.is_finite().then_some(d.psnr),
         "flip_mean": d.flip_mean,
         "flip_max": d.flip_max,
-        "above": above.iter().map(|limit| limit.metric.name()).collect::<Vec<_>>(),
+        "above": above,
     })
 }

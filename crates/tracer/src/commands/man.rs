@@ -13,7 +13,8 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
     cli.build();
     let command = match &args.command {
         None => cli,
-        Some(name) => cli.find_subcommand(name).cloned().ok_or_else(|| {
+        // Pages of commands within commands are named as git's are: golden-run.
+        Some(name) => found(&cli, name).cloned().ok_or_else(|| {
             let names: Vec<&str> = cli.get_subcommands().map(|command| command.get_name()).collect();
             Failure::wrong(format!("there is no command `{name}`; expected one of {}", names.join(", ")))
         })?,
@@ -24,4 +25,10 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
     out.write_all(&page)?;
     out.flush()?;
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// A command, or one of a command: `golden-run`.
+fn found<'a>(cli: &'a clap::Command, name: &str) -> Option<&'a clap::Command> {
+    let within = || name.split_once(['-', ' ']).and_then(|(of, name)| cli.find_subcommand(of)?.find_subcommand(name));
+    cli.find_subcommand(name).or_else(within)
 }

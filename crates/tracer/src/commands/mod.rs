@@ -4,11 +4,13 @@ mod bench_acceleration;
 mod bench_figures;
 mod check;
 mod compare;
+mod compare_folders;
 mod completions;
 mod convert;
 mod explain;
 mod fix;
 mod fmt;
+pub mod golden;
 mod info;
 mod lsp;
 mod man;
@@ -42,6 +44,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),
         Command::Compare(args) => compare::run(args),
+        Command::Golden(args) => golden::run(&args.command, shell),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),
         Command::BenchFigures(args) => bench_figures::run(args, shell),
         Command::Explain(args) => explain::run(args),

@@ -42,7 +42,7 @@ fn find(folder: &Path, scenes: &mut Vec<PathBuf>) {
 }
 
 /// TOML and JSON files are many things.
-fn is_scene(path: &Path) -> bool {
+pub(super) fn is_scene(path: &Path) -> bool {
     match Syntax::from_path(path) {
         Some(Syntax::Ron) => true,
         Some(Syntax::Toml) => std::fs::read(path).is_ok_and(|bytes| bytes.windows(7).any(|word| word == b"objects")),

@@ -3,7 +3,7 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 16] = [
+pub const COMMANDS: [&str; 17] = [
     "render",
     "preview",
     "merge",
@@ -13,6 +13,7 @@ pub const COMMANDS: [&str; 16] = [
     "fmt",
     "new",
     "compare",
+    "golden",
     "bench-acceleration",
     "bench-figures",
     "explain",
@@ -27,7 +28,9 @@ fn version_and_help() {
     let sandbox = Sandbox::new();
     let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
     assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
-    for arguments in COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]) {
+    let of_golden = ["run", "accept", "new"].map(|command| vec!["golden", command, "--help"]);
+    let of_all = COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]);
+    for arguments in of_all.chain(of_golden) {
         let help = Ran::of(sandbox.command(&arguments).env("COLUMNS", "80")).ends(0).silent().out_text();
         assert!(help.lines().count() <= 24, "{arguments:?} does not fit a screen:\n{help}");
         assert!(help.lines().all(|line| line.chars().count() <= 80), "{arguments:?} is too wide:\n{help}");
@@ -229,6 +232,7 @@ fn schema_completions_and_man_pages() {
     }
     assert!(sandbox.run(&["man"]).ends(0).silent().out_text().contains(".TH tracer 1"));
     assert!(sandbox.run(&["man", "render"]).ends(0).silent().out_text().contains("\\-\\-samples"));
+    assert!(sandbox.run(&["man", "golden-run"]).ends(0).silent().out_text().contains("\\-\\-junit"));
     sandbox.run(&["man", "nothing"]).ends(2).says(&["nothing", "render"]);
 }
 

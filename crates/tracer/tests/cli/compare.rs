@@ -76,3 +76,36 @@ fn what_cannot_be_compared() {
     sandbox.write("nan.pfm", pixels);
     sandbox.run(&["compare", "nan.pfm", "nan.pfm"]).ends(2).says(&["pixel (0, 0) is not finite"]);
 }
+
+/// Pictures of the same names; one that is in one folder alone fails.
+#[test]
+fn folders() {
+    let sandbox = with_pictures();
+    for (folder, deep) in [("new", "new/deep"), ("old", "old/deep"), ("empty", "empty")] {
+        std::fs::create_dir_all(sandbox.path(deep)).expect("folders");
+        if folder != "empty" {
+            sandbox.write(&format!("{folder}/a.png"), sandbox.read("a.png"));
+        }
+    }
+    sandbox.write("new/deep/b.exr", sandbox.read("a.exr"));
+    sandbox.write("old/deep/b.exr", sandbox.read("b.exr"));
+    let table = sandbox.run(&["compare", "new", "old"]).ends(0).silent().out_text();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 4, "{table}");
+    assert!(lines[1].starts_with("a.png ") && lines[1].ends_with(" equal"), "{table}");
+    assert!(lines[2].starts_with("deep/b.exr ") && lines[2].ends_with(" differs"), "{table}");
+    assert_eq!(lines[3], "2 pictures, 1 equal, 0 failed");
+    let table = sandbox.run(&["compare", "new", "old", "--fail-above", "max=0"]).ends(1).out_text();
+    assert!(table.contains("max above the limit") && table.contains("1 failed"), "{table}");
+    sandbox.write("new/extra.png", sandbox.read("b.png"));
+    let ran = sandbox.run(&["compare", "new", "old", "--json"]).ends(1);
+    let pairs: Value = serde_json::from_str(&ran.out_text()).expect("JSON");
+    assert_eq!((&pairs[0]["verdict"], &pairs[0]["max"]), (&"equal".into(), &0.0.into()));
+    assert_eq!((&pairs[2]["picture"], &pairs[2]["verdict"]), (&"extra.png".into(), &"is in new alone".into()));
+    assert_eq!(pairs[2]["passed"], false);
+    sandbox.run(&["compare", "new", "old", "-o", "map.png"]).ends(2).says(&["two folders"]);
+    sandbox.run(&["compare", "new", "a.png"]).ends(2).says(&["new: it is a folder", "two folders"]);
+    sandbox.run(&["compare", "empty", "empty"]).ends(2).says(&["there is no picture in empty"]);
+    sandbox.write("old/extra.png", "no picture");
+    sandbox.run(&["compare", "new", "old"]).ends(2).says(&["old/extra.png is not a picture"]);
+}

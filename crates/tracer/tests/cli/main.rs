@@ -8,6 +8,7 @@ mod examples;
 mod faults;
 mod fmt;
 mod goals;
+mod golden;
 mod habits;
 #[cfg(unix)]
 mod interrupt;

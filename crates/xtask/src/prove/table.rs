@@ -33,6 +33,7 @@ const BROWSER: &[Need] = &[Program("chromium", "chromium"), Program("node", "nod
 pub const PROOFS: &[Proof] = &[
     proof("instructions", Always, "the instructions of the hot paths stay below their limits; four minutes", GUNGRAUN, &["cd bench && cargo bench --locked --bench instructions"]),
     proof("preview", Asked, "`tracer preview` in a real browser: saves, faults, keys, two pages, a phone's width; two minutes", BROWSER, &["cargo build --locked -p tracer", "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1", "node crates/preview/tests/browser/main.mjs"]),
+    proof("golden", Asked, "the page of `tracer golden` in a real browser: wipe by mouse and keys, dark and light, a phone's width, nothing asked of anybody; a minute", BROWSER, &["cargo build --locked -p tracer", "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1", "node crates/golden/tests/browser/main.mjs"]),
     proof("pairs", Always, "scenes that must look the same, in exact pairs; four minutes", &[], &["cargo test --locked -p xtask --test pairs"]),
     proof("random-scenes", Always, "twenty random scenes against the truth; a minute", &[], &["cargo test --locked -p xtask --test truth"]),
     proof("pairs-long", Asked, "the same pairs with four times the pictures; a quarter of an hour", &[], &["cargo xtask truth --pairs 40"]),
