@@ -23,6 +23,8 @@ fn printing() -> Vec<Vec<&'static str>> {
         vec!["compare", "b.png", "b.png", "--json"],
         vec!["bench-acceleration", "scene.ron", "--size", "8x8"],
         vec!["bench-figures", "8", "--samples", "1", "--scenes", concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")],
+        vec!["golden", "accept", "shots", "ball", "--reason", "first"],
+        vec!["golden", "run", "shots"],
         vec!["explain"],
         vec!["explain", "E0201"],
         vec!["lsp"],
@@ -40,6 +42,10 @@ fn printing() -> Vec<Vec<&'static str>> {
 fn a_closed_pipe_is_no_fault() {
     let sandbox = Sandbox::new();
     sandbox.run(&["render", "scene.ron", "-o", "b.png", "--checkpoint", "b.film"]).ends(0);
+    std::fs::create_dir(sandbox.path("shots")).expect("a folder");
+    sandbox.write("shots/ball.ron", SCENE);
+    sandbox.run(&["golden", "new", "shots"]).ends(0);
+    sandbox.run(&["golden", "run", "shots"]).ends(1);
     let commands = printing();
     for command in COMMANDS {
         assert!(commands.iter().any(|arguments| arguments[0] == command), "{command} is not tried");
