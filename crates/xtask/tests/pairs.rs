@@ -97,6 +97,8 @@ fn all_pairs_are_tested() {
         "bulb",
         "pane",
         "shells",
+        "tumblers",
+        "rugs",
         "flat mirror",
         "tinted",
         "two lamps",
