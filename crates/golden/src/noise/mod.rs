@@ -6,11 +6,11 @@
 //! - *Light*: regions of 8x8 pixels, of 16x16 and so on up to the whole picture, each channel of each region. If the
 //!   picture is the same, what batch k of one brings more than batch k of the other may as well be negative, for all k
 //!   at once. [`signs`] says how rarely coins bring so large a sum. Regions of a size, and sizes, share the level
-//!   ([`level_of_one`]).
+//!   (`level_of_one`).
 //! - *Pixels whose samples agree*: where nearly all samples of a pixel say another light, as where an edge has moved,
 //!   or nothing is noisy.
 //! - *Pixels brighter than light*: more than samples as bright as the brightest light can make of it. One bright sample
-//!   is noise, however rare ([`pixels`] says why).
+//!   is noise, however rare (`pixels` says why).
 //!
 //! A change of less than [`LEAST_CHANGE`] of a region's light is taken for none: rounding that shows in every sample
 //! alike (another compiler, another sine) is no change of a picture.

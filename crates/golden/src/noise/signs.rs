@@ -6,7 +6,7 @@ const STEPS: usize = 4096;
 /// The probability, at most, that numbers of these magnitudes with signs drawn by tossing a coin sum to what they sum
 /// to or more.
 ///
-/// It is exact but for rounding the magnitudes to [`STEPS`], which is rounded so that the probability is never too
+/// It is exact but for rounding the magnitudes to `STEPS`, which is rounded so that the probability is never too
 /// small: Fisher's randomisation test (The Design of Experiments, 1935, section 21). It asks for no distribution, so
 /// that fireflies and black pixels cannot mislead it: one that is far out makes the sum large and so is it with half of
 /// the signs.
