@@ -41,7 +41,7 @@ pub use ray_space::{PAD, SMALLEST_COMPONENT};
 use crate::level::Level;
 use arena::Arena;
 use coplanar::Coplanar;
-pub use coplanar::Ranks;
+pub use coplanar::{Materials, Ranks, TRANSMITS};
 use kernels::{Batch, MeshRecord, TreeView};
 use layout::{INSTANCE_UNITS, InstanceRecord, Ref};
 
@@ -261,6 +261,22 @@ impl Accel {
     /// As [`coplanar_offsets`](Self::coplanar_offsets) off each curved shape, by its place among the shapes; `None` where none has any.
     pub fn coplanar_shape_offsets(&self) -> Option<&[f32]> {
         self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
+    }
+
+    /// Whether bodies that let light through touch anywhere: then [`touching`](Self::touching) has to be asked.
+    pub fn has_touching(&self) -> bool {
+        self.coplanar.as_ref().is_some_and(Coplanar::has_touching)
+    }
+
+    /// Which body begins where the closest hits of some rays are on another one that lets light through: its material + 1
+    /// is written to `behind`, which is left alone elsewhere.
+    ///
+    /// # Panics
+    /// If an index is beyond a slice.
+    pub fn touching(&self, rays: &Rays, active: &[u32], hits: &Hits, behind: &mut [u32]) {
+        if let Some(coplanar) = &self.coplanar {
+            coplanar.touching(rays, active, hits, behind);
+        }
     }
 
     /// The tree's bytes, for comparing builds.

@@ -162,6 +162,9 @@ pub struct Hits {
     pub primitive: Column<u32>,
     /// Instance, or NONE.
     pub instance: Column<u32>,
+    /// Where a body begins behind the one that is hit, its material + 1, else 0; kept where bodies touch
+    /// ([`Accel::has_touching`](crate::bvh::Accel::has_touching)).
+    pub behind: Column<u32>,
 }
 
 /// Shadow rays: from surfaces to points on lights.
@@ -428,7 +431,7 @@ impl Batch {
                 y: floats(),
             },
             aimers: Members::new(),
-            hits: Hits { t: floats(), primitive: words(), instance: words() },
+            hits: Hits { t: floats(), primitive: words(), instance: words(), behind: words() },
             shadows: Shadows::new(),
             segments: Shadows::new(),
             radiance: columns(),

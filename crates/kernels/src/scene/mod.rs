@@ -130,6 +130,11 @@ impl Scene {
         self.tables.textures.view(index)
     }
 
+    /// Whether bodies that let light through touch anywhere.
+    pub fn has_touching(&self) -> bool {
+        self.accel.as_deref().is_some_and(crate::bvh::Accel::has_touching)
+    }
+
     /// A texture that is reckoned, by the index in [`Albedo::Pattern`].
     pub fn pattern(&self, index: u32) -> Option<&Pattern> {
         self.tables.patterns.patterns.get(index as usize)

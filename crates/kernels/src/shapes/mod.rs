@@ -213,6 +213,11 @@ impl FlatFace {
         [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| DVec3::from(self.row.anchor) + map * DVec3::new(x, y, self.z))
     }
 
+    /// The unit normal to the outside of the shape; `None`: it has no inside.
+    pub fn outward(&self) -> Option<DVec3> {
+        (self.z != 0.0).then(|| (self.row.object_from_render().transpose() * DVec3::Z * self.z).normalize())
+    }
+
     /// t where a ray's line passes through it.
     pub fn passed(&self, origin: [f32; 3], direction: [f32; 3]) -> Option<f64> {
         let map = self.row.object_from_render();

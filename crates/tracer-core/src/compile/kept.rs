@@ -161,6 +161,12 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
     add(&ranks.shapes);
     let whole: Vec<u8> = ranks.instances.iter().map(|rank| rank.unwrap_or(u8::MAX)).collect();
     add(&whole);
+    if let Some(materials) = &ranks.materials {
+        add(bytemuck::cast_slice(&materials.triangles));
+        add(bytemuck::cast_slice(&materials.shapes));
+        let whole: Vec<u32> = materials.instances.iter().map(|of| of.unwrap_or(u32::MAX)).collect();
+        add(bytemuck::cast_slice(&whole));
+    }
     hash.digest128()
 }
 

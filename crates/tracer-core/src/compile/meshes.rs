@@ -451,7 +451,7 @@ impl Built {
     /// Who wins where surfaces lie in one place: what shines, then what lets no light through.
     fn ranks(&self, shapes: &[Shape], materials: &[Material]) -> bvh::Ranks {
         let of_material = |index: u32| match materials.get(index as usize) {
-            Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => 2,
+            Some(material) if material.traits().flags.has(BxdfFlags::TRANSMISSION) => bvh::TRANSMITS,
             _ => 1,
         };
         let t = &self.triangles;
@@ -462,6 +462,11 @@ impl Built {
             triangles: t.material.iter().enumerate().map(of_triangle).collect(),
             instances: self.instances.iter().map(of_instance).collect(),
             shapes: shapes.iter().map(|shape| of_material(shape.material)).collect(),
+            materials: (0..materials.len() as u32).any(|k| of_material(k) == bvh::TRANSMITS).then(|| bvh::Materials {
+                triangles: t.material.clone(),
+                instances: self.instances.iter().map(|i| (i.material != NONE).then_some(i.material)).collect(),
+                shapes: shapes.iter().map(|shape| shape.material).collect(),
+            }),
         }
     }
 

@@ -69,6 +69,10 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     let counters = accel.closest_at(level, &rays, active, &mut hits, coherence);
+    if accel.has_touching() {
+        batch.hits.behind[..len].fill(0);
+        accel.touching(&rays, active, &hits, &mut batch.hits.behind[..len]);
+    }
     if batch.watch.is_on() {
         batch.watch.statistics.closest.add(active.len(), &counters);
     }

@@ -7,8 +7,8 @@ use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Amount, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, RectBox,
-    Rectangle, Shading, Transform,
+    Amount, Camera, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
+    RectBox, Rectangle, Shading, Transform,
 };
 use scene_format::diagnostic::Spanned;
 
@@ -282,6 +282,95 @@ fn flat_sides_of_curved_shapes_do_not_speckle() {
                     assert!(same, "{kind} on a {support}, first: {first}, {attitude:?}, pixel {k}: {seen:?}");
                 }
             }
+        }
+    }
+}
+
+fn block(center: [f64; 3], size: [f64; 3], material: Material, transform: Vec<Transform>) -> Object {
+    Object::Box(Box::new(RectBox {
+        center: center.into(),
+        size: PerAxis(size).into(),
+        material: of(material),
+        transform: transform.into_iter().map(Spanned::from).collect(),
+        placements: Placements::One,
+        name: Name::default(),
+    }))
+}
+
+/// In a white furnace glass is invisible, also where bodies touch: what leaves one enters the other, whichever comes
+/// first, seen from above, from below and from the side. One face of two stands for both; were it only that of the one,
+/// radiance would be off by the square of an index at each joint.
+#[test]
+fn glass_that_touches_glass_is_invisible_in_a_white_furnace() {
+    let (flint, water) = (1.5, 1.33);
+    let attitudes = [
+        Attitude { axis: DVec3::X, degrees: 0.0, place: DVec3::ZERO },
+        Attitude { axis: DVec3::new(0.48, 0.6, 0.64), degrees: 47.0, place: DVec3::new(1.3, -2.7, 3.1) },
+    ];
+    for attitude in &attitudes {
+        let steps = |mirrored: bool| {
+            let mut steps = attitude.steps(0.0, [0.0; 3]);
+            let factor = [if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0];
+            steps.insert(0, Transform::Scale { factor, about: Some(Box::new([0.0; 3])) });
+            steps
+        };
+        let half =
+            |y: f64, ior: f64, mirrored: bool| block([0.0, y, 0.0], [1.4, 0.5, 1.4], glass(ior), steps(mirrored));
+        let round = |kind: &str, ior: f64| flat_sided(kind, glass(ior), attitude.steps(0.0, [0.1, 0.0, 0.1]));
+        let stacks = [
+            ("two blocks", vec![half(-0.25, flint, false), half(0.25, flint, false)]),
+            ("two blocks, one mirrored", vec![half(0.25, flint, true), half(-0.25, water, false)]),
+            ("three blocks", vec![half(-0.25, flint, false), half(0.25, water, false), half(0.75, flint, false)]),
+            ("a cylinder on a block", vec![half(-0.25, flint, false), round("above", water)]),
+            ("cylinders", vec![round("below", flint), round("above", water)]),
+        ];
+        for (name, objects) in stacks {
+            for eye in [DVec3::new(0.1, 6.0, 0.05), DVec3::new(0.1, -6.0, 0.05), DVec3::new(5.0, 1.9, 2.0)] {
+                let mut desc = scene(SIZE, vec![], objects.clone())
+                    .background([1.0; 3])
+                    .camera(attitude.point(eye).to_array(), attitude.place.to_array(), 8.0)
+                    .bounces(200)
+                    .filter(PixelFilter::None);
+                desc.camera.up = (attitude.point(DVec3::Z) - attitude.place).to_array().into();
+                let film = film(&compiled(&desc), 8, 1);
+                // Rays that go round within corners for ever are seen by some pixels; others are one but for rounding.
+                let white = (0..SIZE * SIZE).filter(|k| (film.radiance(k % SIZE, k / SIZE)[0] - 1.0).abs() < 1e-3);
+                let white = white.count() as f64 / f64::from(SIZE * SIZE);
+                let mean = (0..SIZE * SIZE).map(|k| film.radiance(k % SIZE, k / SIZE)[0]).sum::<f64>();
+                let mean = mean / f64::from(SIZE * SIZE);
+                assert!(white > 0.97 && (mean - 1.0).abs() < 0.01, "{name} from {eye}: {mean}, {white} of the pixels");
+            }
+        }
+    }
+}
+
+/// Planes through the middle of what is seen, whose coordinates are zero and so have no rounding: in squares of some
+/// sizes the normal of one is a rounding off, and they must meet all the same.
+#[test]
+fn planes_through_the_origin_have_one_winner() {
+    for size in [2.0, 3.4, 3.7, 4.9, 5.9, 7.0, 7.4, 9.8, 11.3, 20.0] {
+        for shape in ["square", "disk"] {
+            let floor = rectangle(size, diffuse(RED), vec![]);
+            let tile = match shape {
+                "square" => rectangle(1.5, diffuse(BLUE), vec![]),
+                _ => flat_sided("disk", diffuse(BLUE), vec![]),
+            };
+            let desc = scene(SIZE, vec![], vec![floor, tile])
+                .background([1.0; 3])
+                .camera([0.01, 5.0, 0.0], [0.0; 3], 20.0)
+                .bounces(2)
+                .filter(PixelFilter::None);
+            let desc = SceneDesc { camera: Camera { up: [0.0, 0.0, -1.0].into(), ..desc.camera }, ..desc };
+            let film = film(&compiled(&desc), 1, 1);
+            let (mut red, mut blue) = (0, 0);
+            for k in 0..SIZE * SIZE {
+                let seen = film.radiance(k % SIZE, k / SIZE);
+                let is = |color: [f64; 3]| (0..3).all(|c| (seen[c] - color[c]).abs() < 1e-4);
+                (red, blue) = (red + usize::from(is(RED)), blue + usize::from(is(BLUE)));
+            }
+            // Of squares the first wins; a disk comes before all of them.
+            assert!(if shape == "square" { blue == 0 } else { blue > 300 }, "{shape} on {size}: {blue} pixels");
+            assert_eq!(red + blue, (SIZE * SIZE) as usize, "{shape} on {size}");
         }
     }
 }

@@ -11,7 +11,7 @@
 //! each plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
 
 use super::super::geometry::{Geometry, NONE};
-use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks};
+use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, TRANSMITS};
 use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -23,9 +23,9 @@ const MOST_TRIANGLES: usize = 1 << 18;
 /// Scenes with more curved shapes have theirs left out.
 const MOST_SHAPES: usize = 1 << 16;
 
-/// What the arithmetic of a shape's map, in double precision, may move a point by, in parts of its coordinates: some ten
-/// roundings of 2^-53. In a plane through the origin the roundings of single precision are none.
-const MAPPED: f64 = 16.0 / 9_007_199_254_740_992.0;
+/// What the arithmetic in double precision, a shape's map among it, may move a point by, in parts of its coordinates: some
+/// ten roundings of 2^-53. In a plane through the origin the roundings of single precision are none.
+const DOUBLE: f64 = 16.0 / 9_007_199_254_740_992.0;
 
 /// 2^-24.
 const UNIT: f64 = 1.0 / 16_777_216.0;
@@ -44,6 +44,9 @@ struct Face {
     part: u8,
     /// What it is half of the square about.
     curved: Option<FlatFace>,
+    /// To the outside of its body; `None`: it bounds none.
+    outward: Option<DVec3>,
+    material: Option<u32>,
     corners: [DVec3; 3],
     normal: DVec3,
     centre: DVec3,
@@ -118,7 +121,8 @@ fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
         (0u32..).zip(triangles).filter_map(move |(k, triangle)| {
             let corners = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
             let id = (mesh.first_primitive + k, index as u32);
-            face(corners, instance.placement, id, ranks.of(id.0 - first, id.1))
+            let material = ranks.materials.as_ref().and_then(|of| of.of(id.0 - first, id.1));
+            face(corners, instance.placement, id, ranks.of(id.0 - first, id.1)).map(|face| Face { material, ..face })
         })
     };
     let mut faces: Vec<Face> = (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect();
@@ -132,20 +136,22 @@ fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
 fn of_shape(geometry: &Geometry, ranks: &Ranks, k: u32, row: &Row) -> impl Iterator<Item = Face> + use<> {
     let rank = ranks.shapes.get(k as usize).copied().unwrap_or(0);
     let id = (geometry.first_shape + k, NONE);
+    let material = ranks.materials.as_ref().and_then(|of| of.shapes.get(k as usize)).copied();
     (0..).zip(row.flat_faces()).flat_map(move |(part, curved)| {
         let [a, b, c, d] = curved.corners();
         let half = move |corners| face(corners, None, id, rank);
         [half([a, b, c]), half([a, c, d])].into_iter().flatten().map(move |face| Face {
             part,
             curved: Some(curved),
-            error: face.error + MAPPED * face.reach,
+            outward: curved.outward(),
+            material,
             ..face
         })
     })
 }
 
 fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), rank: u8) -> Option<Face> {
-    let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2.0, corners);
+    let (mut terms, mut units, mut placed, mut mirrored) = (DVec3::ZERO, 2.0, corners, false);
     match placement {
         None => corners.iter().for_each(|corner| terms = terms.max(corner.abs())),
         Some(rows) => {
@@ -155,13 +161,14 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
             corners.iter().for_each(|corner| terms = terms.max(size * corner.abs() + column(3).abs()));
             placed = corners.map(|corner| matrix * corner + column(3));
             units = 16.0;
+            mirrored = matrix.determinant() < 0.0;
         }
     }
     let [a, b, c] = placed;
     let across = (b - a).cross(c - a);
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let (area, normal) = (across.length(), across.normalize_or_zero());
-    let error = units * UNIT * normal.abs().dot(terms);
+    let error = units * UNIT * normal.abs().dot(terms) + DOUBLE * terms.max_element();
     let height = area / longest;
     let centre = (a + b + c) / 3.0;
     let face = Face {
@@ -169,6 +176,8 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
         instance: id.1,
         part: 0,
         curved: None,
+        outward: Some(if mirrored { -normal } else { normal }),
+        material: None,
         corners: placed,
         normal,
         centre,
@@ -311,7 +320,13 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     let mut shapes =
         Offsets { first: geometry.first_shape, of: vec![0.0; if curved { geometry.shapes.len() } else { 0 }] };
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
+    let mut touching: Vec<Vec<[u32; 2]>> = vec![Vec::new(); named.len()];
     for &(winner, loser, gap) in pairs {
+        for (one, other) in [(winner, loser), (loser, winner)] {
+            if let Some(material) = touches(&faces[one as usize], &faces[other as usize]) {
+                touching[member_of(one)].push([member_of(other) as u32, material + 1]);
+            }
+        }
         lists[member_of(loser)].push(member_of(winner) as u32);
         // A ray that starts near a plane is off across it by some five units of the farthest corner (see `RaySpace`).
         let reach = faces[winner as usize].reach.max(faces[loser as usize].reach);
@@ -325,9 +340,14 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
             offsets.of[place] = offsets.of[place].max(offset);
         }
     }
-    let mut winners: Vec<u32> = Vec::new();
+    let (mut winners, mut all_touching): (Vec<u32>, Vec<[u32; 2]>) = (Vec::new(), Vec::new());
     let mut members = Vec::with_capacity(named.len());
-    for (&k, mut list) in named.iter().zip(lists) {
+    for ((&k, mut list), mut touching) in named.iter().zip(lists).zip(touching) {
+        touching.sort_unstable();
+        touching.dedup();
+        let begin = all_touching.len() as u32;
+        all_touching.append(&mut touching);
+        let touching = [begin, all_touching.len() as u32];
         list.sort_unstable_by_key(|&member| {
             let face = &faces[named[member as usize] as usize];
             (face.rank, face.id())
@@ -345,10 +365,18 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
             },
             normal: face.normal.as_vec3().to_array(),
             winners: [begin, winners.len() as u32],
+            touching,
             grid: (list.len() > LONG).then(|| grid(face, &list, faces, &named)),
         });
     }
-    Coplanar { triangles, shapes, members, winners }
+    Coplanar { triangles, shapes, members, winners, touching: all_touching }
+}
+
+/// The material of the other one, where light passes from one body into another.
+fn touches(face: &Face, other: &Face) -> Option<u32> {
+    let transmit = face.rank == TRANSMITS && other.rank == TRANSMITS;
+    let opposite = transmit && face.outward?.dot(other.outward?) < 0.0;
+    other.material.filter(|_| opposite)
 }
 
 /// A grid over the winners of a triangle, some one to a cell. Each reaches a quarter of a cell beyond its box: the

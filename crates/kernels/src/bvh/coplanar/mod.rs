@@ -11,6 +11,10 @@
 //! What wins is what shines, then what lets no light through, then what lets it through, then the smaller
 //! (primitive, instance). A lamp let into the ceiling shines, and glass on a table shows the table.
 //!
+//! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but the
+//! other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes from
+//! body to body would leave twice, or enter twice, and carry the square of an index too much or too little.
+//!
 //! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
 //! triangles pays for one question a batch.
@@ -38,6 +42,29 @@ pub struct Ranks {
     pub instances: Vec<Option<u8>>,
     /// Of each curved shape; none: 0.
     pub shapes: Vec<u8>,
+    /// Materials, where any of them lets light through.
+    pub materials: Option<Materials>,
+}
+
+/// Rank of what lets light through.
+pub const TRANSMITS: u8 = 2;
+
+/// Which material things have.
+#[derive(Debug, Default)]
+pub struct Materials {
+    /// Of each triangle, in the order of their primitives.
+    pub triangles: Vec<u32>,
+    /// Of all triangles of an instance that do not have their own.
+    pub instances: Vec<Option<u32>>,
+    /// Of each curved shape.
+    pub shapes: Vec<u32>,
+}
+
+impl Materials {
+    fn of(&self, k: u32, instance: u32) -> Option<u32> {
+        let whole = self.instances.get(instance as usize).copied().flatten();
+        whole.or_else(|| self.triangles.get(k as usize).copied())
+    }
 }
 
 impl Ranks {
@@ -61,6 +88,8 @@ pub struct Coplanar {
     members: Vec<Member>,
     /// Of all members: indices into `members`.
     winners: Vec<u32>,
+    /// Of bodies that touch: indices into `members`, and material + 1 of these.
+    touching: Vec<[u32; 2]>,
 }
 
 /// How far rays start off primitives whose ids follow each other; 0 where nothing else lies in their planes.
@@ -83,6 +112,16 @@ enum Outline {
     Curved(FlatFace),
 }
 
+impl Outline {
+    /// Whether a ray's line passes within it.
+    fn is_passed(&self, space: &RaySpace, origin: [f32; 3], direction: [f32; 3]) -> bool {
+        match self {
+            Outline::Triangle(corners) => passes(space, *corners),
+            Outline::Curved(face) => face.passed(origin, direction).is_some(),
+        }
+    }
+}
+
 struct Member {
     primitive: u32,
     instance: u32,
@@ -90,7 +129,17 @@ struct Member {
     normal: [f32; 3],
     /// Where those that win over it stand in `Coplanar::winners`, the first to win first.
     winners: [u32; 2],
+    /// Where those that face it from another body stand in `Coplanar::touching`.
+    touching: [u32; 2],
     grid: Option<Grid>,
+}
+
+impl Member {
+    /// How much of a direction leads across its plane.
+    fn across(&self, d: [f32; 3]) -> f32 {
+        let n = self.normal;
+        (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).abs()
+    }
 }
 
 /// Squares over a triangle, for those that have hundreds of others on them.
@@ -130,8 +179,15 @@ impl Coplanar {
         &self.shapes.of
     }
 
-    /// The member that a primitive is in which a ray goes to or hits, at t.
-    fn member(&self, primitive: u32, instance: u32, rays: &Rays, ray: usize, t: f32) -> Option<&Member> {
+    /// The member that a primitive is in which a ray goes to or hits, at t, which may be that of a plane so far beside.
+    fn member(
+        &self,
+        (primitive, instance): (u32, u32),
+        rays: &Rays,
+        ray: usize,
+        t: f32,
+        slack: f32,
+    ) -> Option<&Member> {
         if primitive == NONE {
             return None;
         }
@@ -146,9 +202,10 @@ impl Coplanar {
         let from = self.members.partition_point(|m| m.primitive < primitive);
         self.members[from..].iter().take_while(|m| m.primitive == primitive).find(|m| match &m.outline {
             // Not the side of the shape: t is that of the plane, rounded.
-            Outline::Curved(face) => {
-                face.passed(origin, direction).is_some_and(|at| (at as f32 - t).abs() <= t * f32::EPSILON)
-            }
+            Outline::Curved(face) => face.passed(origin, direction).is_some_and(|at| {
+                let beside = (at as f32 - t).abs();
+                beside <= t * f32::EPSILON || beside * m.across(direction) <= slack
+            }),
             Outline::Triangle(_) => false,
         })
     }
@@ -167,21 +224,43 @@ impl Coplanar {
             Some(grid) => grid.near(origin, direction, t),
             None => &self.winners[first as usize..end as usize],
         };
-        list.iter().map(|&k| &self.members[k as usize]).find(|m| match &m.outline {
-            Outline::Triangle(corners) => (m.primitive, m.instance) != from && passes(&space, *corners),
-            // A ray may leave one of its caps and come to the other.
-            Outline::Curved(face) => face.passed(origin, direction).is_some(),
-        })
+        // A ray may leave one cap of a shape and come to the other.
+        let left = |m: &Member| matches!(m.outline, Outline::Triangle(_)) && (m.primitive, m.instance) == from;
+        let mut others = list.iter().map(|&k| &self.members[k as usize]).filter(|m| !left(m));
+        others.find(|m| m.outline.is_passed(&space, origin, direction))
     }
 
     /// Gives the closest hits of some rays to those who win there.
     pub fn settle(&self, rays: &Rays, active: &[u32], hits: &mut Hits) {
         for ray in active.iter().map(|&ray| ray as usize) {
             let hit = (hits.primitive[ray], hits.instance[ray]);
-            let Some(member) = self.member(hit.0, hit.1, rays, ray, hits.t[ray]) else { continue };
+            let Some(member) = self.member(hit, rays, ray, hits.t[ray], 0.0) else { continue };
             if let Some(winner) = self.winner(member, rays, ray, hits.t[ray]) {
                 hits.primitive[ray] = winner.primitive;
                 hits.instance[ray] = winner.instance;
+            }
+        }
+    }
+
+    /// Whether bodies that let light through touch anywhere.
+    pub fn has_touching(&self) -> bool {
+        !self.touching.is_empty()
+    }
+
+    /// The body that begins where some rays meet one that lets light through, for hits that were settled: its material + 1.
+    /// Nothing is written where nothing touches.
+    pub fn touching(&self, rays: &Rays, active: &[u32], hits: &Hits, behind: &mut [u32]) {
+        for ray in active.iter().map(|&ray| ray as usize) {
+            let hit = (hits.primitive[ray], hits.instance[ray]);
+            let slack = self.shapes.get(hit.0);
+            let Some(member) = self.member(hit, rays, ray, hits.t[ray], slack) else { continue };
+            let [first, end] = member.touching;
+            let (origin, direction) = ray_of(rays, ray);
+            let Some(space) = RaySpace::new(origin, direction) else { continue };
+            let touching = &self.touching[first as usize..end as usize];
+            let passed = |other: u32| self.members[other as usize].outline.is_passed(&space, origin, direction);
+            if let Some([_, material]) = touching.iter().find(|[other, _]| passed(*other)) {
+                behind[ray] = *material;
             }
         }
     }
@@ -192,11 +271,10 @@ impl Coplanar {
         let mut ends = occlusion.tmax.to_vec();
         for ray in active.iter().map(|&ray| ray as usize) {
             let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
-            let Some(member) = self.member(primitive, instance, rays, ray, occlusion.tmax[ray]) else { continue };
+            let target = (primitive, instance);
+            let Some(member) = self.member(target, rays, ray, occlusion.tmax[ray], 0.0) else { continue };
             let (_, d) = ray_of(rays, ray);
-            let n = member.normal;
-            let across = (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).abs();
-            let before = self.triangles.get(primitive) / across;
+            let before = self.triangles.get(primitive) / member.across(d);
             // Along the plane nothing is left, nor is anything to be seen there.
             ends[ray] = if before < ends[ray] { ends[ray] - before } else { 0.0 };
         }
@@ -207,7 +285,8 @@ impl Coplanar {
     pub fn cover(&self, rays: &Rays, active: &[u32], occlusion: &mut Occlusion) {
         for ray in active.iter().map(|&ray| ray as usize) {
             let (primitive, instance) = (occlusion.target_primitive[ray], occlusion.target_instance[ray]);
-            let Some(member) = self.member(primitive, instance, rays, ray, occlusion.tmax[ray]) else { continue };
+            let target = (primitive, instance);
+            let Some(member) = self.member(target, rays, ray, occlusion.tmax[ray], 0.0) else { continue };
             if self.winner(member, rays, ray, occlusion.tmax[ray]).is_some() {
                 occlusion.occluded[ray] = 1;
             }

@@ -32,6 +32,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
+    let touching = scene.has_touching();
     let items = &batch.items;
     let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items);
     let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items);
@@ -126,6 +127,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
 
         let mut bsdf = Bsdf::at(tables, &s, surfaces);
+        if touching {
+            bsdf.touch(&tables.materials, F::U::load(&batch.hits.behind[i..]));
+        }
         if pass.task == Task::Chains {
             // Chains end at all other surfaces.
             surfaces = surfaces & bsdf.specular();

@@ -133,6 +133,22 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         bsdf
     }
 
+    /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none. Light passes from one
+    /// body into the other, and takes on the colour of both.
+    #[inline(always)]
+    pub fn touch(&mut self, table: &MaterialTable, behind: F::U) {
+        let none = F::U::splat(0);
+        let on = self.transparent & !behind.eq(none);
+        if !on.any() {
+            return;
+        }
+        let other = F::U::select(on, behind - F::U::splat(1), none);
+        let [ior, _] = table.parameters.row::<F>(other);
+        let [red, green, blue, ..] = table.rows.row::<F>(other);
+        self.parameter = F::select(on, self.parameter / ior, self.parameter);
+        self.color = V3::select(on, self.color.mul(V3(red, green, blue)), self.color);
+    }
+
     /// Lanes with a lobe that is not specular: [`Bsdf::evaluate`] and [`Bsdf::sample_rough`] are for them.
     #[inline(always)]
     pub fn rough(&self) -> F::M {
