@@ -28,6 +28,8 @@ pub struct Chosen {
     /// Estimated squared errors of radiance, of the noisy picture and of what was chosen; summed over the channels.
     pub before: Plane,
     pub after: Plane,
+    /// Estimated variance of what was chosen, which its squared error is not below.
+    pub variance: Plane,
 }
 
 impl Chosen {
@@ -35,7 +37,7 @@ impl Chosen {
     pub fn nothing(prepared: &Prepared) -> Self {
         let halves = prepared.halves.clone();
         let before = error(prepared, |half, c, k| halves[half][c].values[k]);
-        Chosen { after: before.clone(), before, halves }
+        Chosen { after: before.clone(), variance: before.clone(), before, halves }
     }
 }
 
@@ -56,6 +58,18 @@ fn error(prepared: &Prepared, irradiance: impl Fn(usize, usize, usize) -> f32 + 
             let others = a * square(filtered[0], noisy[1]) + b * square(filtered[1], noisy[0]);
             let own = (a * a + b * b) * square(noisy[0], noisy[1]) + a * b * square(filtered[0], filtered[1]);
             albedo * albedo * (others - own)
+        };
+        of_channel(0) + of_channel(1) + of_channel(2)
+    })
+}
+
+/// Variance of the mean of two filtered halves, radiance summed over the channels: a b E.
+fn variance(prepared: &Prepared, halves: &[Colours; 2]) -> Plane {
+    let share = prepared.share * (1.0 - prepared.share);
+    Plane::of(prepared.width, prepared.height, |k| {
+        let of_channel = |c: usize| {
+            let difference = (halves[0][c].values[k] - halves[1][c].values[k]) * prepared.albedo[c].values[k];
+            share * difference * difference
         };
         of_channel(0) + of_channel(1) + of_channel(2)
     })
@@ -95,7 +109,8 @@ pub fn choose(prepared: &Prepared, last: &Chosen, filtered: &Filtered) -> Chosen
     });
     let halves = with_peaks(prepared, blended);
     let after = error(prepared, |half, c, k| halves[half][c].values[k]);
-    Chosen { halves, before: last.before.clone(), after }
+    let variance = variance(prepared, &halves);
+    Chosen { halves, before: last.before.clone(), after, variance }
 }
 
 /// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror,
@@ -127,7 +142,7 @@ fn brightness(prepared: &Prepared) -> Plane {
         let channel = |c: usize| {
             let [one, other] = prepared.halves.each_ref().map(|half| half[c].values[k]);
             let irradiance = prepared.share * one + (1.0 - prepared.share) * other;
-            irradiance * prepared.albedo[c].values[k] + prepared.emission[c].values[k]
+            irradiance * prepared.albedo[c].values[k] + prepared.lamps[c].values[k]
         };
         ((channel(0) + channel(1) + channel(2)) * (1.0 / 3.0)).max(0.0)
     });

@@ -9,14 +9,15 @@ pub struct Input<'a> {
     pub width: usize,
     /// Pixels down.
     pub height: usize,
-    /// Means of two halves of each pixel's samples, linear RGB: of one expectation, and independent of each other.
+    /// Means of two halves of each pixel's samples, linear RGB, without what is seen of lamps themselves: of one
+    /// expectation, and independent of each other.
     pub halves: [&'a [f32]; 2],
     /// How many of the samples are the first half's, from 0 to 1, neither included: the picture is the first half times
     /// this and the second times the rest.
     pub share: f32,
-    /// What the surface that is seen sends by itself, linear RGB, in the halves' unit, as a mean over all their
-    /// samples. There is no noise of light in it, so it is left as it is.
-    pub emission: &'a [f32],
+    /// What is seen of lamps themselves, linear RGB, in the halves' unit, as a mean over all their samples. There is no
+    /// noise of light in it, so it is left as it is.
+    pub lamps: &'a [f32],
     /// Colour without light, textures included, in 0..=1; zero where nothing is hit.
     pub albedo: &'a [f32],
     /// Shading normal; shorter than one where samples differ, zero where nothing is hit.
@@ -47,7 +48,7 @@ impl Input<'_> {
     pub(crate) fn check(&self) -> Result<(), WrongSize> {
         let pixels = self.width.checked_mul(self.height).filter(|&pixels| pixels <= usize::MAX / 64);
         let pixels = pixels.ok_or(WrongSize("size"))?;
-        let three = [self.halves[0], self.halves[1], self.emission, self.albedo, self.normal];
+        let three = [self.halves[0], self.halves[1], self.lamps, self.albedo, self.normal];
         let right = three.iter().all(|picture| picture.len() == 3 * pixels)
             && self.depth.len() == pixels
             && self.variance.len() == pixels;
@@ -59,6 +60,6 @@ impl Input<'_> {
 
     /// A number of the picture that is denoised.
     pub(crate) fn mean(&self, k: usize) -> f32 {
-        self.share * self.halves[0][k] + (1.0 - self.share) * self.halves[1][k]
+        self.share * self.halves[0][k] + (1.0 - self.share) * self.halves[1][k] + self.lamps[k]
     }
 }

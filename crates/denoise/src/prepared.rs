@@ -23,7 +23,7 @@ pub struct Prepared {
     /// What irradiance is multiplied by.
     pub albedo: Colours,
     /// What is added then.
-    pub emission: Colours,
+    pub lamps: Colours,
     /// Irradiance of both halves.
     pub halves: [Colours; 2],
     /// Variance of a half's irradiance, were they of one size; summed over the channels.
@@ -46,12 +46,12 @@ impl Prepared {
         let number = |x: f32| if x.is_nan() { 0.0 } else { (x / scale).clamp(-MOST, MOST) };
         let feature = |x: f32| if x.is_finite() { x } else { 0.0 };
         let tint = [0, 1, 2].map(|c| plane(&|k| feature(input.albedo[3 * k + c]).clamp(0.0, 1.0)));
-        let albedo =
-            [0, 1, 2].map(|c| plane(&|k| if tint[c].values[k] > 0.0 { tint[c].values[k].max(DARK) } else { 1.0 }));
-        let emission = [0, 1, 2].map(|c| plane(&|k| number(input.emission[3 * k + c])));
-        let halves = input.halves.map(|half| {
-            [0, 1, 2].map(|c| plane(&|k| (number(half[3 * k + c]) - emission[c].values[k]) / albedo[c].values[k]))
-        });
+        // What is black is so by its texture; what is behind everything has none.
+        let is_hit = |k: usize| input.depth[k] < f32::INFINITY;
+        let albedo = [0, 1, 2].map(|c| plane(&|k| if is_hit(k) { tint[c].values[k].max(DARK) } else { 1.0 }));
+        let lamps = [0, 1, 2].map(|c| plane(&|k| number(input.lamps[3 * k + c])));
+        let halves =
+            input.halves.map(|half| [0, 1, 2].map(|c| plane(&|k| number(half[3 * k + c]) / albedo[c].values[k])));
         let shape = plane(&|k| {
             let [r, g, b] = [0, 1, 2].map(|c| albedo[c].values[k]);
             let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -68,7 +68,7 @@ impl Prepared {
             share: input.share,
             scale,
             albedo,
-            emission,
+            lamps,
             halves,
             variance,
             normal,

@@ -64,22 +64,30 @@ pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
     let Crop { x: left, y: top, width, height } = film.crop();
     let pixels = width as usize * height as usize;
     let at = |k: usize| (left + (k % width.max(1) as usize) as u32, top + (k / width.max(1) as usize) as u32);
-    let halves: Option<Vec<[[f64; 3]; 2]>> =
-        (0..pixels).into_par_iter().map(|k| film.radiance_of_halves(at(k).0, at(k).1)).collect();
+    let of_pixel = |(x, y): (u32, u32)| {
+        let (radiance, lamps) = (film.radiance_of_halves(x, y)?, film.lamps_of_halves(x, y));
+        Some([0, 1].map(|half| [0, 1, 2].map(|c| radiance[half][c] - lamps[half][c])))
+    };
+    let halves: Option<Vec<[[f64; 3]; 2]>> = (0..pixels).into_par_iter().map(|k| of_pixel(at(k))).collect();
     let halves = halves.ok_or(DenoiseError::Samples)?;
     let counts = (0..pixels).map(|k| film.samples_of_halves(at(k).0, at(k).1).map(f64::from));
     let [first, second] = counts.fold([0.0; 2], |sum, [one, two]| [sum[0] + one, sum[1] + two]);
     let picture = |half: usize| -> Vec<f32> { halves.iter().flat_map(|of| of[half].map(finite)).collect() };
+    let lamps = |(x, y): (u32, u32)| {
+        let (lamps, [first, second]) = (film.lamps_of_halves(x, y), film.samples_of_halves(x, y).map(f64::from));
+        [0, 1, 2].map(|c| finite((lamps[0][c] * first + lamps[1][c] * second) / (first + second)))
+    };
+    let lamps: Vec<f32> = (0..pixels).flat_map(|k| lamps(at(k))).collect();
     let variance: Vec<f32> = (0..pixels).into_par_iter().map(|k| finite(film.variance(at(k).0, at(k).1))).collect();
     // All of them are there: else the film would lack them.
     let layer = |layer| film.layer(layer).map(|image| image.values).unwrap_or_default();
-    let [albedo, normal, depth, emission] = GUIDES.map(layer);
+    let [albedo, normal, depth] = [Layer::Albedo, Layer::Normal, Layer::Depth].map(layer);
     let denoised = filtered(&Input {
         width: width as usize,
         height: height as usize,
         halves: [&picture(0), &picture(1)],
         share: if pixels == 0 { 0.5 } else { (first / (first + second)) as f32 },
-        emission: &emission,
+        lamps: &lamps,
         albedo: &albedo,
         normal: &normal,
         depth: &depth,

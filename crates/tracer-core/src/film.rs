@@ -193,10 +193,10 @@ impl Tile {
     }
 
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool, light_paths: bool, kept: Kept, halves: bool) -> usize {
+    fn bytes(clamped: bool, light_paths: bool, kept: Kept, half: usize) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
         let optional = of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>());
-        size_of::<Tile>() + optional + TileLayers::bytes(kept) + of(halves, TileHalf::bytes(light_paths))
+        size_of::<Tile>() + optional + TileLayers::bytes(kept) + half
     }
 }
 
@@ -384,7 +384,8 @@ impl Film {
         let kept = self.layers().kept();
         let of_layers = |tile: &Tile| if tile.layers.is_some() { kept } else { Kept::default() };
         let of_tile = |tile: &Tile| {
-            Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile), tile.half.is_some())
+            let half = tile.half.as_ref().map_or(0, |half| half.bytes());
+            Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile), half)
         };
         self.tiles.iter().map(of_tile).sum()
     }
@@ -393,7 +394,8 @@ impl Film {
     /// paths fall everywhere or nowhere, with these layers, with halves or not.
     pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet, halves: bool) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
-        let of_tile = Tile::bytes(clamped, light_paths, layers.kept(), halves);
+        let half = if halves { TileHalf::most_bytes(light_paths) } else { 0 };
+        let of_tile = Tile::bytes(clamped, light_paths, layers.kept(), half);
         tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * of_tile as u64
     }
 

@@ -26,9 +26,17 @@ pub struct DenoiseReport {
 impl DenoiseReport {
     /// A line for people.
     pub fn to_text(self) -> String {
-        let [change, before, after] =
-            [self.change, self.error_before, self.error_after].map(|share| format!("{:.2} %", 100.0 * share));
+        let [change, before, after] = [self.change, self.error_before, self.error_after].map(percent);
         format!("denoised in {:.2} s: changed by {change}, error from about {before} to {after}", self.seconds)
+    }
+}
+
+/// A share as people read it: no error is told as none.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        0.0 => "0 %".into(),
+        small if small < 0.01 => "less than 0.01 %".into(),
+        percent => format!("{percent:.2} %"),
     }
 }
 

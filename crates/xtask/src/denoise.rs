@@ -1,7 +1,7 @@
 //! `cargo xtask denoise`: what `--denoise` does to ten scenes, as the table of docs/denoise.md has it; fails where it makes one worse.
 
 use crate::truth::written::loaded_at;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tracer_core::{Crop, Film, GUIDES, Layer, RenderOptions, Scene, Unobserved, denoise, render};
 
 /// Chosen before anything was measured: rooms with one lamp, textures, mirrors and glass, a lens.
@@ -29,6 +29,8 @@ pub struct Options {
     pub size: [u32; 2],
     /// Only scenes whose names contain this.
     pub name: String,
+    /// Scene files instead of the ten.
+    pub files: Vec<PathBuf>,
 }
 
 /// How much less the squared error is: of the picture, without its worst thousandth, at edges, in textures.
@@ -39,14 +41,20 @@ type Gains = [f64; 4];
 /// # Errors
 /// A scene is refused; nothing has such a name.
 pub fn run(root: &Path, options: &Options) -> anyhow::Result<usize> {
-    let scenes: Vec<&str> = SCENES.into_iter().filter(|name| name.contains(&options.name)).collect();
+    let ours = SCENES.iter().map(|name| root.join("scenes").join(name).with_extension("ron"));
+    let all: Vec<PathBuf> = if options.files.is_empty() { ours.collect() } else { options.files.clone() };
+    let name = |path: &Path| {
+        let path = path.with_extension("");
+        path.strip_prefix(root.join("scenes")).unwrap_or(&path).display().to_string()
+    };
+    let scenes: Vec<&PathBuf> = all.iter().filter(|path| name(path).contains(&options.name)).collect();
     anyhow::ensure!(!scenes.is_empty(), "no scene has {:?} in its name", options.name);
     println!("| scene | integrator | relMSE before | after | gain | trimmed | at edges | in textures | energy |");
     println!("|---|---|---:|---:|---:|---:|---:|---:|---:|");
     let (mut worse, mut all) = (0, [Vec::new(), Vec::new()]);
-    for name in scenes {
-        let path = root.join("scenes").join(name).with_extension("ron");
-        let scene = loaded_at(&path, Some(options.size))?;
+    for path in scenes {
+        let name = name(path);
+        let scene = loaded_at(path, Some(options.size))?;
         let reference = picture(&rendered(&scene, options.reference, 77, false));
         for (plain, gains) in [false, true].into_iter().zip(&mut all) {
             let film = rendered(&scene, options.samples, 1, plain);

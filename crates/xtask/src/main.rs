@@ -27,6 +27,8 @@ enum Command {
         /// Only scenes whose names contain this.
         #[arg(long, default_value = "")]
         name: String,
+        /// Scene files instead of the ten.
+        files: Vec<std::path::PathBuf>,
     },
     /// Shows which room of each crate uses which, and fails where an arrow points upward (crates/xtask/layers.toml).
     Layers,
@@ -124,8 +126,8 @@ fn main() -> anyhow::Result<()> {
     let files = match Command::parse() {
         Command::Cat => xtask::cat::files()?,
         Command::Gallery => xtask::gallery::files()?,
-        Command::Denoise { samples, reference, size, name } => {
-            let options = xtask::denoise::Options { samples, reference, size: [size[0], size[1]], name };
+        Command::Denoise { samples, reference, size, name, files } => {
+            let options = xtask::denoise::Options { samples, reference, size: [size[0], size[1]], name, files };
             let worse = xtask::denoise::run(&root, &options)?;
             anyhow::ensure!(worse == 0, "{worse} pictures have become worse");
             return Ok(());

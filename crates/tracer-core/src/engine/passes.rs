@@ -142,6 +142,8 @@ pub struct Painter<'a> {
     pub statistics: bool,
     /// The most that samples count, in the film's unit.
     pub limit: Option<f64>,
+    /// Where the layer `emission` stands among the sums of samples, where halves are kept.
+    pub lamps: Option<usize>,
     /// When the rendering ends at the latest.
     pub until: Option<Instant>,
     /// Samples that are on the film, and all that are asked for.
@@ -239,7 +241,7 @@ impl Painter<'_> {
             if let Some(limit) = self.limit {
                 clamp_samples(limit, cells, batch);
             }
-            let added = add_samples(cells, batch);
+            let added = self.add_samples(cells, batch);
             batch.watch.lap(Stage::Film);
             batch.watch.costs.total += start.elapsed().as_secs_f64();
             if !self.tell(added) {
@@ -265,6 +267,31 @@ impl Painter<'_> {
         }
     }
 
+    /// Adds the samples of a batch to the film; how many they are.
+    fn add_samples(&self, cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+        let mut added = 0;
+        for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+            let slots = slots_of_block(first);
+            cells.each(&batch.pixels, slots.start, |tile, common| {
+                let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+                let left_out = tile.add(samples, common);
+                batch.counters.dropped += left_out.dropped;
+                batch.counters.beyond += left_out.beyond;
+                tile.add_layers(&batch.layers, first, common);
+                let half = half_of(batch.items[first].sample);
+                if half == 1 {
+                    tile.add_half(samples, common);
+                }
+                if let Some(place) = self.lamps {
+                    let lamps = [0, 1, 2].map(|c| &batch.layers.sums[place + c][slots.clone()]);
+                    tile.add_lamps(half, lamps, common, self.limit);
+                }
+                added += common.len() as u64;
+            });
+        }
+        added
+    }
+
     /// Tells the observer of so many samples more; whether it goes on.
     fn tell(&self, added: u64) -> bool {
         let samples_done = self.done.fetch_add(added, Ordering::Relaxed) + added;
@@ -276,26 +303,6 @@ impl Painter<'_> {
         }
         goes_on
     }
-}
-
-/// Adds the samples of a batch to the film; how many they are.
-fn add_samples(cells: &Cells<'_>, batch: &mut Batch) -> u64 {
-    let mut added = 0;
-    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-        let slots = slots_of_block(first);
-        cells.each(&batch.pixels, slots.start, |tile, common| {
-            let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
-            let left_out = tile.add(samples, common);
-            batch.counters.dropped += left_out.dropped;
-            batch.counters.beyond += left_out.beyond;
-            tile.add_layers(&batch.layers, first, common);
-            if half_of(batch.items[first].sample) == 1 {
-                tile.add_half(samples, common);
-            }
-            added += common.len() as u64;
-        });
-    }
-    added
 }
 
 /// Clamps the samples of a batch before they are added. A pass of its own, so that its time is known and nothing is

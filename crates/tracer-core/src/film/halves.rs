@@ -10,6 +10,7 @@ use super::pack::{pack, unpack};
 use super::{Film, PIXELS, Tile, counts};
 use bytemuck::Zeroable;
 use std::ops::Range;
+use tracer_kernels::layers::{Layer, LayerSet};
 
 /// What a tile holds of the second half of its samples.
 #[derive(Clone, Debug, PartialEq, Zeroable)]
@@ -18,6 +19,8 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
+    /// What camera rays of either half have met of lamps, where they have.
+    lamps: Option<Box<[Sums; 2]>>,
 }
 
 /// The half that a sample index is of: 0 or 1.
@@ -45,9 +48,16 @@ fn second_of(samples: Range<u32>) -> u32 {
 }
 
 impl TileHalf {
-    /// Bytes of memory that it takes in a tile.
-    pub fn bytes(light_paths: bool) -> usize {
-        size_of::<TileHalf>() + if light_paths { size_of::<Sums>() } else { 0 }
+    /// Bytes of memory that it takes in a tile at most.
+    pub fn most_bytes(light_paths: bool) -> usize {
+        size_of::<TileHalf>() + size_of::<[Sums; 2]>() + if light_paths { size_of::<Sums>() } else { 0 }
+    }
+
+    /// Bytes of memory that it takes.
+    pub fn bytes(&self) -> usize {
+        let of = |there: bool, size: usize| if there { size } else { 0 };
+        let optional = of(self.splats.is_some(), size_of::<Sums>()) + of(self.lamps.is_some(), size_of::<[Sums; 2]>());
+        size_of::<TileHalf>() + optional
     }
 
     /// Adds what another has of the same pixels.
@@ -58,13 +68,18 @@ impl TileHalf {
         if let Some(from) = &other.splats {
             add(self.splats.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
         }
+        if let Some(from) = &other.lamps {
+            let lamps = self.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
+            lamps.iter_mut().zip(&**from).for_each(|(to, from)| add(to, from));
+        }
     }
 
     /// Appends it to a tile's record.
     pub fn record(&self, out: &mut Vec<u8>) {
-        out.push(u8::from(self.splats.is_some()));
+        out.push(u8::from(self.splats.is_some()) | u8::from(self.lamps.is_some()) << 1);
         pack(|k| self.samples[k].into(), out);
-        for sums in std::iter::once(&self.sums).chain(self.splats.as_deref()) {
+        let lamps = self.lamps.iter().flat_map(|lamps| lamps.iter());
+        for sums in std::iter::once(&self.sums).chain(self.splats.as_deref()).chain(lamps) {
             (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
         }
     }
@@ -72,19 +87,20 @@ impl TileHalf {
     /// Reads it from one; no pixel has more samples than these.
     pub fn read(from: &mut &[u8], samples: &[u32; PIXELS]) -> Option<Box<Self>> {
         let mut half = Box::new(TileHalf::zeroed());
-        let splats = match *from.split_off_first()? {
-            0 => None,
-            1 => Some(Box::new(Sums::zeroed())),
-            _ => return None,
-        };
-        half.splats = splats;
+        let parts = *from.split_off_first()?;
+        if parts > 3 {
+            return None;
+        }
+        half.splats = (parts & 1 != 0).then(|| Box::new(Sums::zeroed()));
+        half.lamps = (parts & 2 != 0).then(|| Box::new(Zeroable::zeroed()));
         let mut fits = true;
         unpack(from, |k, count| match u32::try_from(count) {
             Ok(count) if count <= samples[k] => half.samples[k] = count,
             _ => fits = false,
         })?;
-        let TileHalf { sums, splats, .. } = &mut *half;
-        for sums in std::iter::once(sums).chain(splats.as_deref_mut()) {
+        let TileHalf { sums, splats, lamps, .. } = &mut *half;
+        let lamps = lamps.iter_mut().flat_map(|lamps| lamps.iter_mut());
+        for sums in std::iter::once(sums).chain(splats.as_deref_mut()).chain(lamps) {
             (0..3).try_for_each(|c| unpack(from, |k, sum| sums.set(c, k, sum)))?;
         }
         fits.then_some(half)
@@ -110,6 +126,22 @@ impl Tile {
         }
     }
 
+    /// Adds what camera rays of a half have met of lamps, red, green and blue of the samples that [`Tile::add`] is given, too;
+    /// where halves are kept. What is met of a lamp is all that such a sample has, so that it is clamped as the sample is.
+    pub(crate) fn add_lamps(&mut self, of: usize, lamps: [&[f32]; 3], pixels: &[[u8; 2]], limit: Option<f64>) {
+        let Some(half) = &mut self.half else { return };
+        for &[k, pixel] in pixels {
+            let met = lamps.map(|channel| channel[usize::from(k)]);
+            if met == [0.0; 3] || !counts(met) {
+                continue;
+            }
+            let largest = f64::from(met[0].max(met[1]).max(met[2]));
+            let scale = limit.filter(|&limit| largest > limit).map_or(1.0, |limit| limit / largest);
+            let lamps = half.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
+            lamps[of].add(usize::from(pixel), met.map(|x| fixed((f64::from(x) * scale) as f32)));
+        }
+    }
+
     /// Adds what a light path of the second half has brought, as [`Tile::splat`] gives it; where halves are kept.
     pub(crate) fn splat_half(&mut self, pixel: usize, added: [i128; 3]) {
         let Some(half) = &mut self.half else { return };
@@ -126,6 +158,13 @@ impl Film {
         }
     }
 
+    /// Where the layer `emission` stands among the sums of a sample's layers, if it is kept for halves.
+    pub(crate) fn place_of_lamps(&self) -> Option<usize> {
+        let layers = self.layers();
+        let before: LayerSet = layers.iter().take_while(|&layer| layer != Layer::Emission).collect();
+        (self.halves && layers.iter().any(|layer| layer == Layer::Emission)).then(|| before.kept().sums)
+    }
+
     /// Whether two halves of the samples are kept apart ([`crate::RenderOptions::halves`]).
     pub fn has_halves(&self) -> bool {
         self.halves
@@ -138,6 +177,15 @@ impl Film {
             let second = half.samples[pixel];
             [tile.samples[pixel] - second, second]
         })
+    }
+
+    /// What lamps that are seen, not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has
+    /// the layer `emission`, else zero. It is clamped where samples are.
+    pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
+        let (tile, pixel) = self.place(x, y);
+        let samples = self.samples_of_halves(x, y);
+        let Some(lamps) = tile.half.as_ref().and_then(|half| half.lamps.as_deref()) else { return [[0.0; 3]; 2] };
+        [0, 1].map(|of| lamps[of].mean(pixel, samples[of]).map(|x| x * self.unit))
     }
 
     /// Mean radiance of a pixel over either half of its samples, linear RGB, as [`Film::radiance`] is over all; `None` where one of them has
