@@ -403,7 +403,7 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a `Polygon` do not lie
-    /// in one plane.
+    /// in one plane; or the path of a `Tube` turns straight back, or one of its balls lies within the next.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])

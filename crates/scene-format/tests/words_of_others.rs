@@ -36,7 +36,7 @@ fn check(cases: &[(&str, &str)], scene: impl Fn(&str) -> String) {
 fn kinds_of_objects() {
     let cases = [
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
-        ("Torus(radius: 1)", "`Mesh`"),
+        ("Pyramid(radius: 1)", "`Mesh`"),
         ("Ellipsoid(radius: 1)", "`transform: [Scale((1, 2, 1))]`"),
         ("Collection(objects: [])", "did you mean `Group`?"),
         ("Instance(of: 1)", "`placements`"),

@@ -4,11 +4,15 @@
 //! it is shaded as round; where it turns by more than 40 degrees it has an edge. Edges are shared by number, not by place: what is
 //! closed has no gap.
 
+mod arrow;
+mod axis;
 mod extrude;
 mod lathe;
 mod outline;
 mod path;
 mod polygon;
+mod torus;
+mod tube;
 
 use super::data::MeshData;
 use scene_format::desc::Object;
@@ -47,6 +51,9 @@ pub fn of_object(object: &Object) -> Option<&dyn Triangulated> {
         Object::Lathe(lathe) => &**lathe,
         Object::Extrude(extrude) => &**extrude,
         Object::Polygon(polygon) => &**polygon,
+        Object::Tube(tube) => &**tube,
+        Object::Torus(torus) => &**torus,
+        Object::Arrow(arrow) => &**arrow,
         _ => return None,
     })
 }

@@ -1,4 +1,4 @@
-//! Points of a plane joined by straight lines or by a curve, cut into straight pieces that know the curve's directions.
+//! Points, of a plane or of space, joined by straight lines or by a curve, cut into straight pieces that know the curve's directions.
 
 #![expect(clippy::indexing_slicing, reason = "points are numbered by the path itself")]
 
@@ -6,6 +6,9 @@ use scene_format::desc::Curve;
 
 /// A point of the plane.
 pub type Point = [f64; 2];
+
+/// A point of space.
+pub type Point3 = [f64; 3];
 
 /// Pieces that turn by more than this where they meet have an edge there: the cosine of 40 degrees.
 const EDGE: f64 = 0.766_044_443_118_978;
@@ -15,13 +18,13 @@ const MOST_CUTS: u32 = 8;
 
 /// A straight piece of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct Piece<const N: usize = 2> {
     /// Where it begins.
-    pub from: Point,
+    pub from: [f64; N],
     /// Where it ends.
-    pub to: Point,
+    pub to: [f64; N],
     /// Which way the path goes at both ends, of unit length.
-    pub directions: [Point; 2],
+    pub directions: [[f64; N]; 2],
     /// The number of the written point that it begins at or after.
     pub number: usize,
 }
@@ -33,24 +36,33 @@ pub enum Ends {
     Joined,
     /// It ends. Ends on the line x = 0 are where the path meets its own mirror image.
     Mirrored,
+    /// It ends.
+    Open,
 }
 
-pub fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
+pub fn sub<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|axis| a[axis] - b[axis])
 }
 
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
+pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    (1..N).fold(a[0] * b[0], |sum, axis| sum + a[axis] * b[axis])
 }
 
-pub fn length(a: Point) -> f64 {
-    libm::hypot(a[0], a[1])
+pub fn length<const N: usize>(a: [f64; N]) -> f64 {
+    a[1..].iter().fold(a[0].abs(), |length, &x| libm::hypot(length, x))
 }
 
 /// Of unit length; `None` for the zero vector.
-pub fn unit(a: Point) -> Option<Point> {
+pub fn unit<const N: usize>(a: [f64; N]) -> Option<[f64; N]> {
     let length = length(a);
-    (length > 0.0).then(|| [a[0] / length, a[1] / length])
+    (length > 0.0).then(|| a.map(|x| x / length))
+}
+
+/// By which angle one turns into the other, of any lengths.
+pub fn turn<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    let pairs = (0..N).flat_map(|i| (i + 1..N).map(move |j| (i, j)));
+    let across = pairs.fold(0.0, |sum, (i, j)| libm::hypot(sum, a[i] * b[j] - a[j] * b[i]));
+    libm::atan2(across, dot(a, b))
 }
 
 /// The direction half way where two pieces meet; `None` where there is an edge.
@@ -70,28 +82,28 @@ pub fn extent(points: &[Point]) -> f64 {
 }
 
 /// Cuts the path through these points, no two neighbours of which are equal, into pieces that turn by at most `step` (radians) each.
-pub fn pieces(points: &[Point], ends: Ends, curve: Curve, step: f64) -> Vec<Piece> {
+pub fn pieces<const N: usize>(points: &[[f64; N]], ends: Ends, curve: Curve, step: f64) -> Vec<Piece<N>> {
     let count = points.len();
     let spans = if ends == Ends::Joined { count } else { count - 1 };
     let mut pieces = Vec::new();
     for k in 0..spans {
         let (from, to) = (points[k], points[(k + 1) % count]);
         if curve == Curve::Linear {
-            let direction = unit(sub(to, from)).unwrap_or_default();
+            let direction = unit(sub(to, from)).unwrap_or([0.0; N]);
             pieces.push(Piece { from, to, directions: [direction; 2], number: k });
             continue;
         }
         // Beyond an end: of its mirror image on the axis, else straight on.
-        let beyond = |end: Point, inner: Point| match end[0] == 0.0 {
-            true => [-inner[0], inner[1]],
-            false => [2.0 * end[0] - inner[0], 2.0 * end[1] - inner[1]],
+        let beyond = |end: [f64; N], inner: [f64; N]| match ends == Ends::Mirrored && end[0] == 0.0 {
+            true => std::array::from_fn(|axis| if axis == 0 { -inner[axis] } else { inner[axis] }),
+            false => std::array::from_fn(|axis| 2.0 * end[axis] - inner[axis]),
         };
         let before = match k {
-            0 if ends == Ends::Mirrored => beyond(from, to),
+            0 if ends != Ends::Joined => beyond(from, to),
             _ => points[(k + count - 1) % count],
         };
         let after = match k + 2 {
-            next if next >= count && ends == Ends::Mirrored => beyond(to, from),
+            next if next >= count && ends != Ends::Joined => beyond(to, from),
             next => points[next % count],
         };
         Span::new([before, from, to, after]).cut(step, k, &mut pieces);
@@ -100,19 +112,19 @@ pub fn pieces(points: &[Point], ends: Ends, curve: Curve, step: f64) -> Vec<Piec
 }
 
 /// A cubic from `from` to `to`.
-struct Span {
-    from: Point,
-    to: Point,
+struct Span<const N: usize> {
+    from: [f64; N],
+    to: [f64; N],
     /// Derivatives at both ends.
-    slopes: [Point; 2],
+    slopes: [[f64; N]; 2],
 }
 
-impl Span {
+impl<const N: usize> Span<N> {
     /// Centripetal Catmull-Rom between the two points in the middle (Yuksel, Schaefer, Keyser: "Parameterization and applications of
     /// Catmull-Rom curves", 2011), as Hermite's cubic.
-    fn new([a, b, c, d]: [Point; 4]) -> Span {
+    fn new([a, b, c, d]: [[f64; N]; 4]) -> Self {
         let knots = [sub(b, a), sub(c, b), sub(d, c)].map(|side| length(side).sqrt());
-        let slope = |axis: usize, p: [Point; 3], [first, second]: [f64; 2]| {
+        let slope = |axis: usize, p: [[f64; N]; 3], [first, second]: [f64; 2]| {
             let [p, q, r] = p.map(|point| point[axis]);
             let chord = |from: f64, to: f64, time: f64| if time > 0.0 { (to - from) / time } else { 0.0 };
             knots[1] * (chord(p, q, first) - chord(p, r, first + second) + chord(q, r, second))
@@ -120,31 +132,30 @@ impl Span {
         let slopes = [[a, b, c], [b, c, d]]
             .into_iter()
             .zip([[knots[0], knots[1]], [knots[1], knots[2]]])
-            .map(|(points, times)| [0, 1].map(|axis| slope(axis, points, times)));
-        let slopes: Vec<Point> = slopes.collect();
+            .map(|(points, times)| std::array::from_fn(|axis| slope(axis, points, times)));
+        let slopes: Vec<[f64; N]> = slopes.collect();
         Span { from: b, to: c, slopes: [slopes[0], slopes[1]] }
     }
 
-    fn at(&self, t: f64) -> Point {
+    fn at(&self, t: f64) -> [f64; N] {
         let (t2, t3) = (t * t, t * t * t);
         let weights = [2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t, 3.0 * t2 - 2.0 * t3, t3 - t2];
         self.sum(weights)
     }
 
-    fn direction(&self, t: f64) -> Point {
+    fn direction(&self, t: f64) -> [f64; N] {
         let t2 = t * t;
         let weights = [6.0 * t2 - 6.0 * t, 3.0 * t2 - 4.0 * t + 1.0, 6.0 * t - 6.0 * t2, 3.0 * t2 - 2.0 * t];
         let along = unit(self.sum(weights)).or_else(|| unit(sub(self.to, self.from)));
-        along.unwrap_or_default()
+        along.unwrap_or([0.0; N])
     }
 
-    fn sum(&self, weights: [f64; 4]) -> Point {
+    fn sum(&self, weights: [f64; 4]) -> [f64; N] {
         let of = [self.from, self.slopes[0], self.to, self.slopes[1]];
-        [0, 1].map(|axis| (0..4).map(|k| weights[k] * of[k][axis]).sum())
+        std::array::from_fn(|axis| (0..4).map(|k| weights[k] * of[k][axis]).sum())
     }
 
-    fn cut(&self, step: f64, number: usize, pieces: &mut Vec<Piece>) {
-        let turn = |a: Point, b: Point| libm::atan2((a[0] * b[1] - a[1] * b[0]).abs(), dot(a, b));
+    fn cut(&self, step: f64, number: usize, pieces: &mut Vec<Piece<N>>) {
         // From the last part to the first.
         let mut parts = vec![(0.0, 1.0, 0)];
         while let Some((begin, end, cuts)) = parts.pop() {

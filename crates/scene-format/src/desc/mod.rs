@@ -39,9 +39,9 @@ pub(crate) use object::ShapeWords;
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
-    MeshSource, Moved, Outline, PlacementList, PlacementPattern, Placements, Polygon, Profile, RectBox, Rectangle,
-    Shading, Sphere, Within,
+    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
+    MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile, Radii,
+    RectBox, Rectangle, Shading, Sphere, Torus, Tube, Within,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

@@ -1,7 +1,8 @@
 //! Objects: what is to be seen.
 
 use super::shapes::{
-    Capsule, Cone, Cylinder, Disk, Extrude, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle, Sphere,
+    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle, Sphere, Torus,
+    Tube,
 };
 use super::{MaterialRef, Transform};
 use crate::diagnostic::Spanned;
@@ -108,6 +109,12 @@ shapes! {
     Lathe(Box<Lathe>);
     /// An outline that is pushed along z: a letter, a star, a plate with holes.
     Extrude(Box<Extrude>);
+    /// What a ball passes over along a path: a cable, a spring, a knot.
+    Tube(Box<Tube>);
+    /// A ring with a round section.
+    Torus(Box<Torus>);
+    /// A round shaft with a cone at its tip.
+    Arrow(Box<Arrow>);
     /// A flat face with any number of corners.
     Polygon(Box<Polygon>);
     /// A triangle mesh from a file.

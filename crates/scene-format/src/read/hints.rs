@@ -134,10 +134,10 @@ type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
     (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
-    (&["torus", "pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
+    (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
-        &["heightfield", "curve", "curves", "tube", "spline", "bezier", "nurbs", "sweep", "text"],
+        &["heightfield", "bezier", "nurbs", "text"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a `Mesh`",
     ),
     (

@@ -207,9 +207,9 @@ impl<'p> Parser<'p> {
             return self.unexpected();
         }
         let word = &self.text[start..start + length];
-        let ends =
-            |byte: Option<&u8>| byte.is_none_or(|b| b.is_ascii_whitespace() || matches!(b, b',' | b']' | b'}' | b')'));
-        let alone = ends(self.text.as_bytes().get(start + length));
+        // A comment may follow, which is told by itself.
+        let ends = |b: &u8| b.is_ascii_whitespace() || matches!(b, b',' | b']' | b'}' | b')' | b'/' | b'#');
+        let alone = self.text.as_bytes().get(start + length).is_none_or(ends);
         match word {
             "true" | "false" if alone => {
                 self.at += length;

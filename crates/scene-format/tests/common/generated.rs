@@ -230,7 +230,45 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
-        let object = match random.below(12) {
+        let object = match random.below(15) {
+            13 => Object::Torus(Box::new(Torus {
+                center: vector(random).into(),
+                axis: [0.3, number(random, -1.0, 1.0), 0.0].into(),
+                radius: length(random).into(),
+                tube_radius: length(random).into(),
+                segments: (3 + random.below(2046) as u32).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
+            14 => Object::Arrow(Box::new(Arrow {
+                from: vector(random).into(),
+                to: vector(random).into(),
+                radius: length(random).into(),
+                head_radius: if random.below(2) == 0 { None } else { Some(length(random).into()) },
+                head_length: if random.below(2) == 0 { None } else { Some(length(random).into()) },
+                segments: (3 + random.below(4094) as u32).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
+            12 => Object::Tube(Box::new(Tube {
+                points: PathPoints((0..2 + random.below(3)).map(|_| vector(random)).collect()).into(),
+                radius: match random.below(2) {
+                    0 => Radii::All(length(random)),
+                    _ => Radii::Each((0..2 + random.below(3)).map(|_| length(random)).collect()),
+                }
+                .into(),
+                curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
+                closed: random.below(2) == 0,
+                segments: (3 + random.below(4094) as u32).into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
             10 => Object::Extrude(Box::new(Extrude {
                 outline: Outline(
                     (0..1 + random.below(3))

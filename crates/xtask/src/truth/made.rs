@@ -5,7 +5,8 @@ use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
 use scene_format::desc::{
-    Corners, Curve, Extrude, Lathe, Material, Name, Object, Outline, Placements, Polygon, Profile, Transform,
+    Arrow, Corners, Curve, Extrude, Lathe, Material, Name, Object, Outline, PathPoints, Placements, Polygon, Profile,
+    Radii, Torus, Transform, Tube, Vec3,
 };
 use tracer_reference::Random;
 
@@ -18,7 +19,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let there = vec![Transform::Translate(center).into()];
     let placements = Placements::List(Box::new(std::iter::once(there).collect()));
     let (material, name) = (inline(material), Name::default());
-    let object = match random.below(5) {
+    let object = match random.below(8) {
         0 if !glass => Object::Polygon(Box::new(Polygon {
             points: Corners(star(radius, random).into_iter().map(|[x, y]| [x, 0.6 * y, 0.8 * y]).collect()).into(),
             material,
@@ -30,6 +31,41 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             outline: Outline(plate(radius, random)).into(),
             depth: (random.between(0.1, 0.8) * radius).into(),
             curve,
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        3 => Object::Tube(Box::new(Tube {
+            points: PathPoints(path(radius, random)).into(),
+            // A curve that bends tighter than its tube passes through itself, which glass shows.
+            radius: Radii::All(0.12 * radius).into(),
+            curve,
+            closed: false,
+            segments: segments.min(32).into(),
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        4 => Object::Torus(Box::new(Torus {
+            center: [0.0; 3].into(),
+            axis: [random.between(-1.0, 1.0), 0.5, random.between(-1.0, 1.0)].into(),
+            radius: (0.5 * radius).into(),
+            tube_radius: (random.between(0.05, 0.5) * radius).into(),
+            segments: segments.into(),
+            material,
+            transform,
+            placements,
+            name,
+        })),
+        5 => Object::Arrow(Box::new(Arrow {
+            from: [0.0, -0.6 * radius, 0.0].into(),
+            to: [random.between(-0.5, 0.5) * radius, 0.6 * radius, 0.0].into(),
+            radius: (random.between(0.05, 0.15) * radius).into(),
+            head_radius: None,
+            head_length: None,
+            segments: segments.into(),
             material,
             transform,
             placements,
@@ -63,6 +99,16 @@ fn profile(radius: f64, random: &mut Random) -> Vec<[f64; 2]> {
     let (out, high) = (0.3 * wide(), 0.5 * wide());
     let first = [0.6 * radius + out, -high];
     vec![first, [0.6 * radius + out, high], [0.6 * radius - out, high], [0.6 * radius - out, -high], first]
+}
+
+/// A zigzag whose sides are longer than the elbows of a tube.
+fn path(radius: f64, random: &mut Random) -> Vec<Vec3> {
+    let across = random.between(0.3, 0.5) * radius;
+    let corner = |k: usize| {
+        let side = if k.is_multiple_of(2) { -across } else { across };
+        [side, (0.3 * k as f64 - 0.45) * radius, 0.3 * if k < 2 { side } else { -side }]
+    };
+    (0..4).map(corner).collect()
 }
 
 /// A star, or a polygon that is nearly regular.

@@ -1,5 +1,6 @@
 //! Shapes: one file each, with the shape's words.
 
+mod arrow;
 mod r#box;
 mod capsule;
 mod cone;
@@ -16,7 +17,10 @@ mod points;
 mod polygon;
 mod rectangle;
 mod sphere;
+mod torus;
+mod tube;
 
+pub use arrow::Arrow;
 pub use r#box::RectBox;
 pub use capsule::Capsule;
 pub use cone::Cone;
@@ -32,3 +36,5 @@ pub use placements::{Groups, Moved, PlacementList, Placements, Within};
 pub use polygon::{Corners, Polygon};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
+pub use torus::Torus;
+pub use tube::{PathPoints, Radii, Tube};

@@ -1,0 +1,65 @@
+//! A shaft and a head.
+
+#![expect(clippy::indexing_slicing, reason = "axes are numbered here")]
+
+use super::axis::stand;
+use super::lathe::turned;
+use super::path::{Ends, Point, Point3, length, pieces, sub};
+use super::{Triangulated, check_count};
+use crate::data::MeshData;
+use scene_format::desc::{Arrow, Curve};
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, codes};
+use std::f64::consts::TAU;
+
+/// Radius of a head whose radius is not written, over that of the shaft.
+const HEAD_RADIUS: f64 = 2.5;
+
+/// Its length, over the radius of the shaft.
+const HEAD_LENGTH: f64 = 6.0;
+
+impl Triangulated for Arrow {
+    fn noun(&self) -> &'static str {
+        "arrow"
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn middle(&self) -> Option<[f64; 3]> {
+        let [from, to]: [Point3; 2] = [self.from.value, self.to.value];
+        Some([0, 1, 2].map(|axis| 0.5 * (from[axis] + to[axis])))
+    }
+
+    fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
+        let [from, to]: [Point3; 2] = [self.from.value, self.to.value];
+        let (direction, shaft) = (sub(to, from), self.radius.value);
+        let whole = length(direction);
+        let here = |at: Span| if at == Span::NONE { span } else { at };
+        if whole == 0.0 {
+            let message = "the arrow begins and ends at the same point";
+            let fault = Diagnostic::error(codes::NO_EXTENT, here(self.to.span), message);
+            return Err(Box::new(fault.expected("`from` and `to` at different places")));
+        }
+        let head = self.head_length.as_ref().map_or((HEAD_LENGTH * shaft).min(0.5 * whole), |length| length.value);
+        if let Some(length) = self.head_length.as_ref().filter(|length| length.value >= whole) {
+            let message = format!("the head of the arrow is longer than it: {}", length.value);
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(length.span), message);
+            return Err(Box::new(fault.expected(format!("less than the length of the arrow, which is {whole}"))));
+        }
+        let wide = self.head_radius.as_ref().map_or(HEAD_RADIUS * shaft, |radius| radius.value);
+        if let Some(radius) = self.head_radius.as_ref().filter(|radius| radius.value < shaft) {
+            let message = format!("the head of the arrow is thinner than its shaft: {}", radius.value);
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(radius.span), message);
+            return Err(Box::new(fault.expected(format!("at least the radius of the shaft, which is {shaft}"))));
+        }
+        let neck = whole - head;
+        let mut profile: Vec<Point> = vec![[0.0, 0.0], [shaft, 0.0], [shaft, neck], [wide, neck], [0.0, whole]];
+        profile.dedup();
+        let segments = self.segments.value;
+        check_count(10 * u64::from(segments), "arrow", span, "fewer `segments`")?;
+        let outline = pieces(&profile, Ends::Open, Curve::Linear, TAU);
+        Ok(stand(turned(&outline, segments, true), from, direction))
+    }
+}

@@ -1,0 +1,51 @@
+//! Rings with a round section.
+
+use super::axis::stand;
+use super::lathe::turned;
+use super::path::Piece;
+use super::{Triangulated, check_count};
+use crate::data::MeshData;
+use scene_format::desc::Torus;
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, codes};
+use std::f64::consts::{PI, TAU};
+
+impl Triangulated for Torus {
+    fn noun(&self) -> &'static str {
+        "torus"
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn middle(&self) -> Option<[f64; 3]> {
+        Some(self.center.value)
+    }
+
+    fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
+        let (radius, tube) = (self.radius.value, self.tube_radius.value);
+        if tube > radius {
+            let at = if self.tube_radius.span == Span::NONE { span } else { self.tube_radius.span };
+            let message = format!("the section of the torus is wider than it: its `tube_radius` is {tube}");
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, at, message);
+            return Err(Box::new(fault.expected(format!("at most the radius, which is {radius}"))));
+        }
+        let segments = self.segments.value;
+        check_count(2 * u64::from(segments) * u64::from(segments), "torus", span, "fewer `segments`")?;
+        // From the inside downwards, so that it goes up on the outside.
+        let around = |k: u32| {
+            let angle = PI + TAU * f64::from(k % segments) / f64::from(segments);
+            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+            // Where it touches its axis it does to the bit.
+            let out = if k.is_multiple_of(segments) { radius - tube } else { radius + tube * cos };
+            ([out, tube * sin], [-sin, cos])
+        };
+        let piece = |k: u32| {
+            let [(from, begin), (to, end)] = [around(k), around(k + 1)];
+            Piece { from, to, directions: [begin, end], number: 0 }
+        };
+        let section: Vec<Piece> = (0..segments).map(piece).collect();
+        Ok(stand(turned(&section, segments, true), self.center.value, self.axis.value))
+    }
+}

@@ -1,0 +1,43 @@
+//! Tori.
+
+use super::Placements;
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::schema::Rule;
+use crate::words::{Told, scene_struct};
+
+scene_struct! {
+    /// A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes round its axis as a
+    /// sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
+    pub struct Torus as "Torus", "a torus" {
+        /// Its middle.
+        center: Spanned<Vec3> = [0.0; 3] => Rule::point();
+        /// Direction that it goes round.
+        axis: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// From its middle to the middle of the section.
+        radius: Spanned<f64> => Rule::length("a length");
+        /// Radius of the section, at most `radius`.
+        tube_radius: Spanned<f64> => Rule::length("a length");
+        /// How many flat pieces go round, and round the section.
+        segments: Spanned<u32> = 128u32 => Rule::within("a whole number", 3.0, 2048.0);
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last. Turns and scales without `about` are about its middle.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
+        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        name: Name = Name::default();
+    }
+}
+
+impl Told for Torus {
+    const ALSO: &'static [&'static str] = &["donut", "doughnut", "ringtorus"];
+    const EXAMPLE: &'static str = "Torus(axis: (0, 1, 1), radius: 1, tube_radius: 0.4)";
+}
+
+impl ShapeWords for Torus {
+    const MANY: &'static str = "tori";
+}

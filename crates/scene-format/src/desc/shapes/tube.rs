@@ -1,0 +1,129 @@
+//! Tubes: what a ball passes over along a path.
+
+use super::{Curve, Placements, points};
+use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::Spanned;
+use crate::files::FileKind;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::{Item, Kind};
+use crate::words::{Told, Words, scene_struct};
+
+scene_struct! {
+    /// What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its ends are round, and so are
+    /// its elbows where the points are joined by straight lines. It is made of triangles, shaded as round. Where the path bends tighter than the
+    /// radius it passes through itself, which shows in glass only. Texture coordinates: u goes round, v from 0 to 1 by length along it,
+    /// round ends included.
+    pub struct Tube as "Tube", "a tube" {
+        /// Two or more points that the middle of the ball passes.
+        points: Spanned<PathPoints> => Rule::point();
+        /// The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve: CatmullRom`.
+        radius: Spanned<Radii> => Rule::length("a length");
+        /// How the points are joined.
+        curve: Curve = Curve::CatmullRom;
+        /// Whether the path goes on from the last point to the first.
+        closed: bool = false;
+        /// How many flat pieces go round; curves of the path are as fine.
+        segments: Spanned<u32> = 32u32 => Rule::within("a whole number", 3.0, 4096.0);
+        /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
+        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
+        name: Name = Name::default();
+    }
+}
+
+impl Told for Tube {
+    const ALSO: &'static [&'static str] = &[
+        "spheresweep",
+        "sweep",
+        "pipealong",
+        "wire",
+        "cable",
+        "curve",
+        "curves",
+        "linearcurve",
+        "bsplinecurve",
+        "spline",
+    ];
+    const EXAMPLE: &'static str =
+        "Tube(points: [(-1, -0.8, 0), (1, -0.4, 0), (-1, 0.4, 0), (1, 0.8, 0)], radius: [0.3, 0.2, 0.2, 0.1])";
+}
+
+impl ShapeWords for Tube {
+    const MANY: &'static str = "tubes";
+}
+
+/// Points of a path.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct PathPoints(pub Vec<Vec3>);
+
+/// One of them.
+static POINT: FieldDef = FieldDef {
+    name: "",
+    noun: "a point of the path",
+    doc: &[],
+    kind: Type::Vector,
+    rule: Rule::point(),
+    default: None,
+};
+
+impl Words for PathPoints {
+    const TYPE: Type = Type::List(&Type::Vector);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        points::read(reader, item, at, &POINT, ("a path", 2)).map(PathPoints)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        self.0.form(all)
+    }
+}
+
+/// A radius for all points, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Radii {
+    /// The same everywhere.
+    All(f64),
+    /// One for each point.
+    Each(Vec<f64>),
+}
+
+impl Default for Radii {
+    fn default() -> Self {
+        Radii::All(1.0)
+    }
+}
+
+/// One of several radii.
+static RADIUS: FieldDef = FieldDef {
+    name: "",
+    noun: "a radius of the path",
+    doc: &[],
+    kind: Type::Number,
+    rule: Rule::length("a length"),
+    default: None,
+};
+
+impl Words for Radii {
+    const TYPE: Type = Type::OneOf(&[Type::Number, Type::List(&Type::Number)]);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.kind() == Kind::List {
+            return points::read(reader, item, at, &RADIUS, ("a list of radii", 2)).map(Radii::Each);
+        }
+        f64::read(reader, item, at).map(Radii::All)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        match self {
+            Radii::All(radius) => radius.form(all),
+            Radii::Each(radii) => radii.form(all),
+        }
+    }
+}
