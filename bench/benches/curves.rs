@@ -1,5 +1,6 @@
-//! How time grows with the size of a scene: `cargo bench --bench curves`, in this folder. One group per size; the report with its
-//! pictures is in `target/criterion`. Times of one run on a quiet machine are compared with each other, not with other runs.
+//! How time grows with the size of a scene: `cargo bench --bench curves`, in this folder. One group per size; the
+//! report with its pictures is in `target/criterion`. Times of one run on a quiet machine are compared with each other,
+//! not with other runs.
 //!
 //! `BENCH_LARGE=1` adds meshes of ten million triangles, which take some gigabytes.
 

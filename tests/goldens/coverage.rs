@@ -1,4 +1,5 @@
-//! What the golden scenes cover: every material in every shape under every effect, each later kind once, and each layer.
+//! What the golden scenes cover: every material in every shape under every effect, each later kind once, and each
+//! layer.
 
 use libtest_mimic::Failed;
 use scene_format::SceneDesc;

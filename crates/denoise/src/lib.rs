@@ -5,8 +5,8 @@
 //! that neighbours have in common (pixels that share what they find, [`Input::halves`]) do not mislead it, for what
 //! is common to a half is not in the other.
 //!
-//! 1. *Demodulation* (`prepared`): what is not of lamps that are seen is divided by the albedo, so that textures are not
-//!    there to be blurred; both come back in the end.
+//! 1. *Demodulation* (`prepared`): what is not of lamps that are seen is divided by the albedo, so that textures are
+//!    not there to be blurred; both come back in the end.
 //! 2. *Filtering* (`filter`), three times with steps of 1, 3 and 9 pixels: around each pixel a plane over position,
 //!    normal, nearness and albedo is fitted to the pixels that are alike, as Bitterli et al. do (Nonlinearly Weighted
 //!    First-order Regression for Denoising Monte Carlo Renderings, 2016); their weighted mean is a second candidate.
@@ -72,8 +72,8 @@ pub struct Told {
     pub change: f64,
     /// Root mean square error before, estimated by the halves, over the root mean square of the picture before.
     pub error_before: f64,
-    /// The same afterwards: an estimate that the choice has seen, so it may be somewhat too low; not less than the noise
-    /// that is left, as the halves tell it.
+    /// The same afterwards: an estimate that the choice has seen, so it may be somewhat too low; not less than the
+    /// noise that is left, as the halves tell it.
     pub error_after: f64,
 }
 
@@ -148,7 +148,8 @@ fn told(input: &Input<'_>, prepared: &Prepared, chosen: &Chosen, pixels: &[f32])
     }
     let sum = |plane: &plane::Plane| plane.values.iter().map(|&x| f64::from(x)).sum::<f64>();
     let unit = f64::from(prepared.scale) * f64::from(prepared.scale);
-    // The estimate of the squared error may come out too low by its own noise, below zero even; that of its variance cannot.
+    // The estimate of the squared error may come out too low by its own noise, below zero even; that of its variance
+    // cannot.
     let after = sum(&chosen.after).max(sum(&chosen.variance)) * unit;
     let before = sum(&chosen.before) * unit;
     let relative = |square: f64| (square.max(0.0) / picture).sqrt();

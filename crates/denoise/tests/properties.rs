@@ -170,8 +170,8 @@ fn black_texels_stay_black() {
     assert!((mean(&denoised) / mean(&picture.truth) - 1.0).abs() < 0.01);
 }
 
-/// A lamp before a wall, its edge in many pixels in part: what is seen of it stays, to the last bit but for rounding, and
-/// the wall beside it is as clean as elsewhere.
+/// A lamp before a wall, its edge in many pixels in part: what is seen of it stays, to the last bit but for rounding,
+/// and the wall beside it is as clean as elsewhere.
 #[test]
 fn lamps_stay() {
     let mut picture = Picture::wall([80, 60], |_, _| 1.0, 0.3);

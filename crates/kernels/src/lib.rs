@@ -1,8 +1,9 @@
-//! What the engine of tracer reads and does in its inner loops: scene tables, the tree, and shading over lanes, compiled once for each
-//! level of vector instructions. A crate of its own because it takes longer to compile than all else together, and changes less often.
+//! What the engine of tracer reads and does in its inner loops: scene tables, the tree, and shading over lanes,
+//! compiled once for each level of vector instructions. A crate of its own because it takes longer to compile than all
+//! else together, and changes less often.
 //!
-//! Programs use `tracer-core`, which shows of this crate what is for them. It knows nothing of the scene language: `tracer-core` compiles
-//! descriptions into a [`scene::Scene`].
+//! Programs use `tracer-core`, which shows of this crate what is for them. It knows nothing of the scene language:
+//! `tracer-core` compiles descriptions into a [`scene::Scene`].
 
 // What a test expects reaches no picture: it may be computed by std. See clippy.toml.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]

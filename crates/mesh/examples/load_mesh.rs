@@ -1,4 +1,5 @@
-//! Loads a mesh and prints what it has, and how long that took: `cargo run --release -p tracer-mesh --example load_mesh -- cat.obj`.
+//! Loads a mesh and prints what it has, and how long that took: `cargo run --release -p tracer-mesh --example load_mesh
+//! -- cat.obj`.
 //!
 //! `--make BYTES` first writes an OBJ file of about that size to the path: a wavy sheet with `vt` and `vn`.
 

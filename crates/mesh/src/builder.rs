@@ -1,4 +1,5 @@
-//! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY, STL and glTF share.
+//! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY, STL and glTF
+//! share.
 
 use super::cursor::Fault;
 use super::data::{MAX_COORDINATE, MeshData, NO_INDEX};
@@ -109,8 +110,9 @@ impl Builder {
             let message = format!("a face with {count} corners");
             return Err(Fault::new(at, message, format!("at most {MOST_CORNERS}")));
         }
-        // Edges between the rings of an outline with holes pass twice through a vertex, so that there are fewer than twice
-        // as many corners as vertices. An outline with more is no simple one, and would take long to look through.
+        // Edges between the rings of an outline with holes pass twice through a vertex, so that there are fewer than
+        // twice as many corners as vertices. An outline with more is no simple one, and would take long to look
+        // through.
         if count > FREE_CORNERS + 2 * self.mesh.positions.len() {
             return Err(TooIntricate::fault(at, count));
         }

@@ -1,8 +1,8 @@
 //! Reading words and numbers of line-based text files, fast and exactly.
 //!
-//! Numbers equal what `str::parse::<f64>` gives: decimal mantissas up to 2^53 with powers of ten up to 10^22 are one exact
-//! integer and one correctly rounded operation (Clinger, "How to read floating point numbers accurately", 1990); all
-//! others go to the standard library.
+//! Numbers equal what `str::parse::<f64>` gives: decimal mantissas up to 2^53 with powers of ten up to 10^22 are one
+//! exact integer and one correctly rounded operation (Clinger, "How to read floating point numbers accurately", 1990);
+//! all others go to the standard library.
 
 use super::data::MAX_COORDINATE;
 

@@ -13,7 +13,8 @@ pub const MAX_COORDINATE: f64 = 1e30;
 
 /// A mesh as its file gives it, polygons cut into triangles, every index checked.
 ///
-/// Triangles keep the winding of the file's faces, no triangle has zero area, and all attributes that corners name exist.
+/// Triangles keep the winding of the file's faces, no triangle has zero area, and all attributes that corners name
+/// exist.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// All vertices of the file in its order, also those that no triangle uses; each coordinate is finite and at most
@@ -23,15 +24,16 @@ pub struct MeshData {
     pub triangles: Vec<[u32; 3]>,
     /// Unit normals of the file; empty when no corner has one.
     pub normals: Vec<[f32; 3]>,
-    /// Indices into `normals`, one triple per triangle; [`NO_INDEX`] in a corner that has none. `None` while `normals` is
-    /// not empty: the corners use the indices of `triangles` (and `normals` is as long as `positions`).
+    /// Indices into `normals`, one triple per triangle; [`NO_INDEX`] in a corner that has none. `None` while `normals`
+    /// is not empty: the corners use the indices of `triangles` (and `normals` is as long as `positions`).
     pub normal_triangles: Option<Vec<[u32; 3]>>,
-    /// Texture coordinates (u to the right, v upwards, (0, 0) at the lower left of the picture); empty when no corner has any.
+    /// Texture coordinates (u to the right, v upwards, (0, 0) at the lower left of the picture); empty when no corner
+    /// has any.
     pub uvs: Vec<[f32; 2]>,
     /// As `normal_triangles`, for `uvs`.
     pub uv_triangles: Option<Vec<[u32; 3]>>,
-    /// The MTL materials that triangles use, in order of first use. File names of textures are complete: they start at the
-    /// folder of the MTL file as this mesh's path gave it, and must not be joined to the scene's folder again.
+    /// The MTL materials that triangles use, in order of first use. File names of textures are complete: they start at
+    /// the folder of the MTL file as this mesh's path gave it, and must not be joined to the scene's folder again.
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,

@@ -9,12 +9,12 @@ use scene_format::desc::InlineMesh;
 use scene_format::diagnostic::Span;
 use std::path::Path;
 
-/// The mesh that a scene writes out: faces cut into triangles as those of files are. It stands at `span` of the scene file, which its
-/// warnings name, too.
+/// The mesh that a scene writes out: faces cut into triangles as those of files are. It stands at `span` of the scene
+/// file, which its warnings name, too.
 ///
 /// # Errors
-/// The diagnostic that no triangle is left (`E0511`), or that a face names a point that is not there or has too many corners or crossings
-/// to be cut (`E0510`); `scene_format` makes sure that points are there.
+/// The diagnostic that no triangle is left (`E0511`), or that a face names a point that is not there or has too many
+/// corners or crossings to be cut (`E0510`); `scene_format` makes sure that points are there.
 pub fn mesh_of(inline: &InlineMesh, span: Span) -> Result<MeshData, Box<Diagnostic>> {
     let mut builder = Builder::default();
     builder.mesh.positions = inline.points.clone();

@@ -1,7 +1,8 @@
-//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, vertex normals, and shapes that become triangles.
+//! Triangle meshes from files: OBJ (with MTL), OFF, PLY, STL and glTF, placements of copies, vertex normals, and shapes
+//! that become triangles.
 //!
-//! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic: the
-//! same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
+//! Everything here is in the file's own coordinates: nothing is moved, scaled or recentred. Reading is deterministic:
+//! the same bytes give the same mesh, the same warnings and the same error, whatever the number of threads.
 //!
 //! `tracer_core` hands this crate on as `tracer_core::mesh`.
 

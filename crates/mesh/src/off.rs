@@ -1,7 +1,7 @@
 //! The Object File Format (OFF), as Geomview's manual describes its ASCII form and as other programs write it.
 //!
-//! - Header: `OFF` with the prefixes `ST`, `C` and `N`, or none; the counts on its line, glued to it, or on the next; the
-//!   number of edges may be missing. `4OFF`, `nOFF` and binary files are refused.
+//! - Header: `OFF` with the prefixes `ST`, `C` and `N`, or none; the counts on its line, glued to it, or on the next;
+//!   the number of edges may be missing. `4OFF`, `nOFF` and binary files are refused.
 //! - One vertex a line: `x y z`, then the normal (N), the colour (C, or unannounced) and
 //!   texture coordinates (ST).
 //! - One face a line: the number of corners, their 0-based indices, and possibly a colour.

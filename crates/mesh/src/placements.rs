@@ -1,7 +1,7 @@
 //! Placements files: many copies of a mesh, as text with one placement a line.
 //!
-//! Numbers are parted by blanks or commas, `#` starts a comment, empty lines are passed over. How many numbers a line has
-//! says what they are:
+//! Numbers are parted by blanks or commas, `#` starts a comment, empty lines are passed over. How many numbers a line
+//! has says what they are:
 //!
 //! | numbers | placement |
 //! | --- | --- |
@@ -10,8 +10,8 @@
 //! | 8 | translation, factor of scale, axis of rotation (3, of any length), angle in degrees |
 //! | 12 | an affine matrix, 3 rows of 4: each row's last number is the translation |
 //!
-//! A placement scales, then rotates, then moves, all about the origin. (Where a mesh is to turn about its own barycentre,
-//! the caller moves the barycentre to the origin first.)
+//! A placement scales, then rotates, then moves, all about the origin. (Where a mesh is to turn about its own
+//! barycentre, the caller moves the barycentre to the origin first.)
 
 use super::cursor::{Blanks, Cursor, Fault, shown};
 use super::data::MAX_COORDINATE;
@@ -81,8 +81,8 @@ impl PlacementsError {
 /// Reads the placements in `path`, in the order of its lines.
 ///
 /// # Errors
-/// When there is no such file or it cannot be read, when a line is no placement (numbers that are not finite, of another
-/// count, a scale or matrix that is singular, an axis of length zero), and when there is none.
+/// When there is no such file or it cannot be read, when a line is no placement (numbers that are not finite, of
+/// another count, a scale or matrix that is singular, an axis of length zero), and when there is none.
 pub fn load_placements(path: &Path) -> Result<Vec<DAffine3>, PlacementsError> {
     parse_placements(&read_regular_file(path)?, path)
 }

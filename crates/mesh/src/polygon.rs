@@ -263,8 +263,8 @@ impl PolygonCutter {
                 if self.grid.is_stale_after_removing(corner) {
                     self.fill_grid();
                 }
-                // The neighbours may be ears now. Their turn comes last: cutting on at once would make a fan of long thin
-                // triangles, and looking through all others first would take quadratic time.
+                // The neighbours may be ears now. Their turn comes last: cutting on at once would make a fan of long
+                // thin triangles, and looking through all others first would take quadratic time.
                 self.queue_corner(before);
                 self.queue_corner(after);
             }

@@ -40,7 +40,7 @@ fn the_words_of_the_language_name_every_format() {
     let reference = scene_format::reference();
     let row = reference.lines().find(|line| line.starts_with("| `file` |") && line.contains("OBJ")).expect("a row");
     let explained = scene_format::explain("E0510").expect("an explanation");
-    let hint = "Scene(objects: [Torus()])";
+    let hint = "Scene(objects: [Pyramid()])";
     let faults = match scene_format::load_str("m.ron", hint, scene_format::Syntax::Ron, Path::new("."), &[]) {
         Err(scene_format::LoadError::Invalid { diagnostics, .. }) => diagnostics,
         other => panic!("{other:?}"),

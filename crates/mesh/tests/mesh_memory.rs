@@ -115,7 +115,8 @@ fn stl_files() -> Vec<File> {
     ]
 }
 
-/// As [`ply_files`]. What lists of JSON hold is a word in memory for two bytes of the file, and a list that grows is there twice.
+/// As [`ply_files`]. What lists of JSON hold is a word in memory for two bytes of the file, and a list that grows is
+/// there twice.
 fn gltf_files() -> Vec<File> {
     let repeated = |head: &str, item: &str, tail: &str| {
         let items = item.repeat((8 << 20) / item.len().max(1));
@@ -132,10 +133,14 @@ fn gltf_files() -> Vec<File> {
     };
     let vertices = |count: usize, indices: usize, mode: u32| {
         format!(
-            "{{\"asset\":{{\"version\":\"2.0\"}},\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}},\"indices\":1,\
-             \"mode\":{mode}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":{count}}},\
-             {{\"bufferView\":1,\"componentType\":5121,\"type\":\"SCALAR\",\"count\":{indices}}}],\"bufferViews\":[{{\"buffer\":0,\
-             \"byteLength\":{0}}},{{\"buffer\":0,\"byteOffset\":{0},\"byteLength\":{indices}}}],\"buffers\":[{{\"byteLength\":{1}}}]}}",
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}},\
+             \"indices\":1,\
+             \"mode\":{mode}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\
+             \"type\":\"VEC3\",\"count\":{count}}},\
+             {{\"bufferView\":1,\"componentType\":5121,\"type\":\"SCALAR\",\"count\":{indices}}}],\
+             \"bufferViews\":[{{\"buffer\":0,\
+             \"byteLength\":{0}}},{{\"buffer\":0,\"byteOffset\":{0},\"byteLength\":{indices}}}],\
+             \"buffers\":[{{\"byteLength\":{1}}}]}}",
             12 * count,
             12 * count + indices
         )
@@ -156,8 +161,10 @@ fn gltf_files() -> Vec<File> {
             "glTF buffer in text",
             repeated(
                 &format!(
-                    "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}}}}]}}],\"accessors\":[{{\"bufferView\":0,\
-                     \"componentType\":5126,\"type\":\"VEC3\",\"count\":3}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\
+                    "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}}}}]}}],\
+                     \"accessors\":[{{\"bufferView\":0,\
+                     \"componentType\":5126,\"type\":\"VEC3\",\"count\":3}}],\
+                      \"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\
                      \"buffers\":[{{\"byteLength\":36,\"uri\":\"data:;base64,{data}\"}}],\"extras\":[0"
                 ),
                 "",

@@ -14,13 +14,16 @@ use tracer_mesh::{MAX_COORDINATE, MeshData, MeshFormat, NO_INDEX, load, parse};
 const OBJ: &str = "# a box with a dent\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n 1.0\nv 1 1 0\nv 0.5 0.25 0\nv 0 1 0\n\
     v -1e-3 2.5E2 .5 0.1 0.2 0.3\nvt 0 0\nvt 1 0.5\nvn 0 0 1\nvn 0.1 0.2 0.3\no box\ng a b\ns 1\nusemtl m\n\
     f 1/1/1 2/2/1 3/1/2 4/2/2 5/1/1\nf -1//-1 -2//-2 \\\r\n -3//-1\nl 1 2\nf 1 2 3 4\nusemtl n\nf 6 5 4\n";
-const OFF: &str = "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0 # c\n0.5 0.25 0\n0 1 0\n-1e-3 2.5E2 .5\n5 0 1 2 3 4\n3 0 1 5 255 0 0\n\
+const OFF: &str = "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0 # c\n0.5 0.25 0\n0 1 0\n-1e-3 2.5E2 .5\n5 0 1 2 3 4\n\
+                   3 0 1 5 255 0 0\n\
     4 1 2 3 5\n2 0 1\n";
-const CNOFF: &str = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255 0 1\n1 0 0 0 0 1 0 255 0 255 1 1\n0 1 0 0 0 0 1 2 3 4 0.5 0\n\
+const CNOFF: &str = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255 0 1\n1 0 0 0 0 1 0 255 0 255 1 1\n\
+                     0 1 0 0 0 0 1 2 3 4 0.5 0\n\
     3 0 1 2\n";
 const PLY: &str = "ply\nformat ascii 1.0\ncomment c\nelement vertex 5\nproperty float x\nproperty float y\n\
     property double z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty float u\n\
-    property float v\nelement edge 1\nproperty list char int a\nelement face 2\nproperty list uchar int vertex_indices\n\
+    property float v\nelement edge 1\nproperty list char int a\nelement face 2\n\
+    property list uchar int vertex_indices\n\
     element tristrips 1\nproperty list int int vertex_index\nend_header\n0 0 0 0 0 1 255 0 0\n1 0 0 0 0 1 0 1 0\n\
     1 1 0 0 0 0 0 1 1\n0.5 0.25 0 1 2 3 7 0.5 0.5\n0 1 -1e-3 0 1 0 9 0 1\n2 0 1\n5 0 1 2 3 4\n3 0 1 2\n\
     8 0 1 2 4 -1 1 2 3\n";
@@ -139,7 +142,8 @@ fn mutated_stl_files() {
 const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2]}],
 "nodes": [{"children": [1], "translation": [1, 2, 3]}, {"mesh": 0, "rotation": [0, 0, 0.6, 0.8], "scale": [-1, 2, 3]},
  {"mesh": 1, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 9, 1]}],
-"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "COLOR_0": 1}, "indices": 3, "material": 0},
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "COLOR_0": 1},
+  "indices": 3, "material": 0},
   {"attributes": {"POSITION": 0}, "mode": 5}]}, {"primitives": [{"attributes": {"POSITION": 4}, "mode": 6}]}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4},
  {"bufferView": 0, "byteOffset": 12, "componentType": 5126, "type": "VEC3", "count": 4},

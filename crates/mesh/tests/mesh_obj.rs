@@ -156,7 +156,8 @@ fn the_barycentre_is_the_mean_of_all_vertices() {
 #[test]
 fn oddities_are_counted_in_one_warning() {
     let mesh = read(&format!(
-        "{SQUARE}v 2 2 2 0.5\nv 0 0 1 1 0 0\nv 0 0 1 1 0.1 0.2 0.3\nvt 0 0\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//2 3//2\nf 1 2 2\n\
+        "{SQUARE}v 2 2 2 0.5\nv 0 0 1 1 0 0\nv 0 0 1 1 0.1 0.2 0.3\nvt 0 0\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//2 3//2\n\
+         f 1 2 2\n\
          f 1 2 3 3\nl 1 2 3\np 1\np 2\ncurv 1\ncurv 2\nshadow_obj x\n"
     ));
     assert_eq!(
@@ -273,7 +274,8 @@ fn files_without_triangles_say_what_they_have() {
         ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "the file has 3 vertices; 1 triangle without area (left out)"),
         (
             "<!DOCTYPE html>\n<html>\n",
-            "the file has no vertices (`v`); is it an OBJ file? 2 statements not known here: `<!DOCTYPE` `<html>` (ignored)",
+            "the file has no vertices (`v`); is it an OBJ file? 2 statements not known here: `<!DOCTYPE` `<html>` \
+             (ignored)",
         ),
     ] {
         assert_eq!(error(text), ["m.obj: the mesh has no triangles", hint]);
@@ -343,7 +345,8 @@ fn tobj_reads_the_same() {
         let normal = &oracle.normals[3 * n..3 * n + 3];
         let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
         for (ours, theirs) in mesh.normals[normals[corner] as usize].iter().zip(normal) {
-            // Ours are of unit length and rounded once from f64: tobj's f32 and this test's division differ by a few ulp.
+            // Ours are of unit length and rounded once from f64: tobj's f32 and this test's division differ by a few
+            // ulp.
             assert!((ours - theirs / length).abs() < 1e-6);
         }
     }

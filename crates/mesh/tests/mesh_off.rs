@@ -79,7 +79,8 @@ fn normals_and_texture_coordinates_belong_to_vertices() {
     assert_eq!(mesh.normal_triangles, Some(vec![[0, NO_INDEX, 2]]));
     assert_eq!(warnings(&mesh), ["W0510 the mesh has oddities: 1 vertex normal of length zero (ignored)"]);
     let mesh = read(
-        "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 0.1 0.2\n1 0 0 0 1 0 255 0 0 0.3 0.4\n0 1 0 1 0 0 9 9 9 9 0.5 0.6\n3 0 1 2\n",
+        "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 0.1 0.2\n1 0 0 0 1 0 255 0 0 0.3 0.4\n0 1 0 1 0 0 9 9 9 9 0.5 0.6\n\
+         3 0 1 2\n",
     );
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
     assert_eq!(mesh.uvs, [[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]);

@@ -1,6 +1,8 @@
-//! The mean of a scene's picture by the reference tracer, and its standard error: a third opinion where two renderers differ.
+//! The mean of a scene's picture by the reference tracer, and its standard error: a third opinion where two renderers
+//! differ.
 //!
-//! `cargo run --release -p tracer-reference --example means -- SCENE SAMPLES [SEED]` prints one line: mean and error of red, green and blue.
+//! `cargo run --release -p tracer-reference --example means -- SCENE SAMPLES [SEED]` prints one line: mean and error of
+//! red, green and blue.
 #![forbid(unsafe_code)]
 
 use std::process::ExitCode;

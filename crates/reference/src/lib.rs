@@ -1,10 +1,10 @@
 //! The reference: a path tracer as the textbook writes it, in `f64`, that the engine of `tracer-core` is held against.
 //!
-//! It reads the public [`Scene`] and shares nothing below it: every ray is tested against every sphere, shape and triangle, one
-//! sample at a time, recursively, with its own random numbers. Sampling is plain and different from the engine's: at a diffuse or
-//! glossy surface ONE direction is drawn, half of the time towards a light, half of the time by the material, and weighted by the
-//! density of that mixture (Veach 1997, 9.2.4: the one-sample model with the balance heuristic). There are no shadow rays and no
-//! roulette, and a light counts wherever a ray meets it.
+//! It reads the public [`Scene`] and shares nothing below it: every ray is tested against every sphere, shape and
+//! triangle, one sample at a time, recursively, with its own random numbers. Sampling is plain and different from the
+//! engine's: at a diffuse or glossy surface ONE direction is drawn, half of the time towards a light, half of the time
+//! by the material, and weighted by the density of that mixture (Veach 1997, 9.2.4: the one-sample model with the
+//! balance heuristic). There are no shadow rays and no roulette, and a light counts wherever a ray meets it.
 //!
 //! The rendering equation (Kajiya 1986), with L_e only on lights, which absorb:
 //! L(x, wo) = L_e + integral of f(wo, wi) L(x', -wi) |cos| dwi. A path ends after `max_bounces + 1` scatterings.

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use tracer_core::Scene;
 use tracer_core::scene::{FlatLight, Light, Sphere};
 
-/// 1 - cos of the half angle under which a sphere is seen: sin = r/d, so 1 - cos = sin^2 / (1 + cos). From within it is all around: 2.
+/// 1 - cos of the half angle under which a sphere is seen: sin = r/d, so 1 - cos = sin^2 / (1 + cos). From within it is
+/// all around: 2.
 fn one_minus_cos(sphere: &Sphere, from: DVec3) -> f64 {
     let sin2 = sphere.radius * sphere.radius / sphere.center.distance_squared(from);
     if sin2 >= 1.0 { 2.0 } else { sin2 / (1.0 + (1.0 - sin2).sqrt()) }

@@ -48,8 +48,8 @@ fn t(kind: PatternKind, p: DVec3) -> f64 {
     }
 }
 
-/// Worley: A Cellular Texture Basis Function (1996), one point a cube. All cubes are looked at that may hold one of the two nearest: those
-/// beyond three are farther away than the second nearest, which is at most sqrt(1.5^2 + 2).
+/// Worley: A Cellular Texture Basis Function (1996), one point a cube. All cubes are looked at that may hold one of the
+/// two nearest: those beyond three are farther away than the second nearest, which is at most sqrt(1.5^2 + 2).
 fn cells(p: DVec3, feature: VoronoiFeature, jitter: f64) -> f64 {
     let share = |hash: u32| f64::from(hash >> 8) / f64::from(1 << 24);
     let mut points = Vec::new();

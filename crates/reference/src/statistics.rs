@@ -1,8 +1,10 @@
 //! The tests that judge: what a statistic's tail probability is, and how strict each of many tests has to be.
 //!
-//! Series and continued fractions for the incomplete gamma and beta functions as in Press et al.: Numerical Recipes, 6.2 and 6.4.
+//! Series and continued fractions for the incomplete gamma and beta functions as in Press et al.: Numerical Recipes,
+//! 6.2 and 6.4.
 
-/// Šidák 1967: the level of each of `tests` independent tests so that all of them together fail by chance with this probability.
+/// Šidák 1967: the level of each of `tests` independent tests so that all of them together fail by chance with this
+/// probability.
 pub fn sidak(family_level: f64, tests: usize) -> f64 {
     // 1 - (1 - level)^(1/n) without cancellation.
     -libm::expm1(libm::log1p(-family_level) / tests as f64)
@@ -33,8 +35,8 @@ impl Estimate {
         self.variance.sqrt()
     }
 
-    /// How far two means are apart (Welch 1947): the statistic, and the probability of one at least as large when both are of
-    /// the same quantity. Equal means of variance zero agree.
+    /// How far two means are apart (Welch 1947): the statistic, and the probability of one at least as large when both
+    /// are of the same quantity. Equal means of variance zero agree.
     pub fn compare(&self, other: &Estimate) -> Comparison {
         let variance = self.variance + other.variance;
         let difference = self.mean - other.mean;
@@ -74,8 +76,8 @@ pub fn chi_square_tail(x: f64, freedom: f64) -> f64 {
     1.0 - incomplete_gamma(freedom / 2.0, x / 2.0)
 }
 
-/// Pearson's chi-square test of counts against expected counts: the probability of counts at least as odd. Cells are pooled in the
-/// order of their expectation until each expects five or more; a count where nothing is expected gives 0.
+/// Pearson's chi-square test of counts against expected counts: the probability of counts at least as odd. Cells are
+/// pooled in the order of their expectation until each expects five or more; a count where nothing is expected gives 0.
 ///
 /// # Panics
 /// When the lists differ in length.

@@ -23,11 +23,13 @@ pub struct Surface {
     /// Texture coordinates, v upwards.
     pub uv: [f64; 2],
     pub material: u32,
-    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the copy of a mesh.
+    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the copy of
+    /// a mesh.
     pub body: u32,
 }
 
-/// The normal is (p - c)/r; u is the longitude from -z over -x, z and x (the middle of the picture looks along +z), v the latitude.
+/// The normal is (p - c)/r; u is the longitude from -z over -x, z and x (the middle of the picture looks along +z), v
+/// the latitude.
 pub fn on_sphere(body: u32, sphere: &Sphere, p: DVec3, direction: DVec3) -> Surface {
     let outward = (p - sphere.center).normalize();
     let outside = outward.dot(direction) < 0.0;
@@ -36,7 +38,8 @@ pub fn on_sphere(body: u32, sphere: &Sphere, p: DVec3, direction: DVec3) -> Surf
     Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: sphere.material, body }
 }
 
-/// Counter-clockwise is outside. The shading normal is the vertex normals', weighted by the barycentric coordinates (Phong 1975).
+/// Counter-clockwise is outside. The shading normal is the vertex normals', weighted by the barycentric coordinates
+/// (Phong 1975).
 pub fn on_triangle(triangle: &Triangle, p: DVec3, direction: DVec3, smoothing: Smoothing) -> Surface {
     let [a, b, c] = triangle.corners;
     let outward = (b - a).cross(c - a).normalize();
@@ -66,7 +69,8 @@ pub fn on_triangle(triangle: &Triangle, p: DVec3, direction: DVec3, smoothing: S
     surface.smooth = true;
     surface.ns = side * interpolated.normalize();
     if smoothing == Smoothing::Hanika {
-        // Hanika: Hacking the Shadow Terminator (Ray Tracing Gems II, 2021): up to the vertices' tangent planes where they are above.
+        // Hanika: Hacking the Shadow Terminator (Ray Tracing Gems II, 2021): up to the vertices' tangent planes where
+        // they are above.
         surface.start = p
             + (0..3)
                 .map(|k| {

@@ -132,7 +132,8 @@ fn triangle(scene: &Scene, body: u32, instance: &Instance, k: u32) -> Triangle {
     }
 }
 
-/// |o + t d - c|^2 = r^2. With b = d.(c - o), and m = c - o - b d the line's offset from the centre, t = b -+ sqrt(r^2 - m.m).
+/// |o + t d - c|^2 = r^2. With b = d.(c - o), and m = c - o - b d the line's offset from the centre,
+/// t = b -+ sqrt(r^2 - m.m).
 fn meet_sphere(ray: &Ray, sphere: &Sphere) -> Option<f64> {
     let to_center = sphere.center - ray.origin;
     let b = to_center.dot(ray.direction);

@@ -43,7 +43,8 @@ pub enum DenoiseError {
 /// use tracer_core::{GUIDES, RenderOptions, Unobserved, compile, denoise, develop_denoised, render};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let text = "Scene(image: Image(width: 24, height: 16), lights: [SphereLight(center: (2, 3, 4), radius: 1, power: 500)], \
+/// let text = "Scene(image: Image(width: 24, height: 16), \
+///             lights: [SphereLight(center: (2, 3, 4), radius: 1, power: 500)], \
 ///             objects: [Sphere(center: (0, 0, 0), radius: 1)])";
 /// let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
 /// let scene = compile(&loaded.scene)?;

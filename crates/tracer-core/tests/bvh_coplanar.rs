@@ -1,5 +1,5 @@
-//! Of triangles in one plane that overlap the smaller id wins wherever both are: for all kernels, near and far, at grazing
-//! angles, in instances; and what is really apart stays so.
+//! Of triangles in one plane that overlap the smaller id wins wherever both are: for all kernels, near and far, at
+//! grazing angles, in instances; and what is really apart stays so.
 // What a test expects reaches no picture: it may be computed by std.
 #![allow(clippy::disallowed_methods)]
 
@@ -106,7 +106,8 @@ fn the_first_wins_wherever_it_is() {
         let geometry = Geometry { spheres: &[], shapes: &[], first_shape: 0, meshes: &meshes, instances: &instances };
         for (height, aside) in [(1.0, 0.5), (0.05, 3.0), (0.01, 3.0), (100.0, 50.0)] {
             let (batch, points) = rays(&map, height, aside, &mut random);
-            // A line is off by 32 units in the last place of the largest coordinate, and along the plane by that over the sine.
+            // A line is off by 32 units in the last place of the largest coordinate, and along the plane by that over
+            // the sine.
             let margin = 1e-3 + 2e-6 * f64::from((4.0 + height + aside) * (1.0 + (1.0 + aside) / height));
             for mode in MODES {
                 let found = hits(build(&geometry, mode), &batch);

@@ -31,7 +31,8 @@ const OPEN: &str = r#"Scene(
     background: (0.2, 0.3, 0.4),
     lights: [SphereLight(center: (2, 5, 3), radius: 1, radiance: 20)],
     objects: [
-        Rectangle(center: (0, 0, 0), normal: (0, 1, 0), size: (20, 20), material: Diffuse(albedo: Checkerboard(a: 0.8, b: 0.2, mapping: Uv(scale: 20)))),
+        Rectangle(center: (0, 0, 0), normal: (0, 1, 0), size: (20, 20),
+            material: Diffuse(albedo: Checkerboard(a: 0.8, b: 0.2, mapping: Uv(scale: 20)))),
         Sphere(center: (-1, 1, 0), radius: 1, material: Mirror(reflectance: 0.9)),
         Sphere(center: (1, 0.7, 0.5), radius: 0.7, material: Diffuse(albedo: (0.7, 0.4, 0.2))),
     ],
@@ -165,9 +166,10 @@ fn the_same_bytes() {
     assert_ne!(image.display, noisy.display);
 }
 
-/// The squared error at 16 samples falls by these factors at least, and never rises. They are half of what the worst of three seeds gave
-/// (1.2, 8, 1.1, 1.7, 5.9, 31), and one at least: such an error is a mean over pixels of which neighbours have it in common, some 30 regions
-/// that know nothing of each other; so it wanders by a fifth, the ratio of two by a quarter, and half is two standard deviations away.
+/// The squared error at 16 samples falls by these factors at least, and never rises. They are half of what the worst of
+/// three seeds gave (1.2, 8, 1.1, 1.7, 5.9, 31), and one at least: such an error is a mean over pixels of which
+/// neighbours have it in common, some 30 regions that know nothing of each other; so it wanders by a fifth, the ratio
+/// of two by a quarter, and half is two standard deviations away.
 #[test]
 fn errors_fall() {
     let cases = [

@@ -139,8 +139,9 @@ fn rays_that_leave_a_shape_meet_its_far_side_only() {
                 let d = (along + on.n * (sign * steep)).as_vec3().to_array();
                 let hit = row.hit(start, d, true);
                 if !shape.is_closed() {
-                    // An open one is met from within, never where the ray starts. The start is rounded by 2^-23 at most, which turns
-                    // the normal in object space by 20 x 20 of that, 5e-5, under such maps: flatter rays may start on either side.
+                    // An open one is met from within, never where the ray starts. The start is rounded by 2^-23 at
+                    // most, which turns the normal in object space by 20 x 20 of that, 5e-5, under such maps: flatter
+                    // rays may start on either side.
                     assert!(steep < 1e-3 || hit.is_none_or(|t| t > 1e-6), "{shape:?} {hit:?}");
                 } else if sign > 0.0 {
                     assert!(hit.is_none_or(|t| t < 1e-3), "{shape:?} comes back at {hit:?}");

@@ -1,8 +1,10 @@
-//! The whole way at its smallest, for Miri: everything that holds unsafe code is reached, in seconds natively and minutes under Miri.
+//! The whole way at its smallest, for Miri: everything that holds unsafe code is reached, in seconds natively and
+//! minutes under Miri.
 //!
 //! CONTRIBUTING.md names the commands. Without vector features Miri runs the portable level; with
-//! `RUSTFLAGS=-Ctarget-feature=+avx2,+fma,+bmi1,+bmi2,+lzcnt,+popcnt` the AVX2 kernels, too. What it looks for are accesses out of bounds,
-//! uninitialised memory, misaligned or dangling pointers and data races; what the picture shows is proven elsewhere.
+//! `RUSTFLAGS=-Ctarget-feature=+avx2,+fma,+bmi1,+bmi2,+lzcnt,+popcnt` the AVX2 kernels, too. What it looks for are
+//! accesses out of bounds, uninitialised memory, misaligned or dangling pointers and data races; what the picture shows
+//! is proven elsewhere.
 
 use scene_format::{Syntax, load_str};
 use std::path::Path;
@@ -15,7 +17,8 @@ fn furnished() -> tempfile::TempDir {
     write(
         "pyramid.obj",
         b"v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1.5 0\nvn 0 1 0\nvn 1 1 0\nvt 0 0\nvt 2 0\nvt 1 2\n\
-          f 1/1/1 5/3/2 2/2/1\nf 2/1/1 5/3/2 3/2/1\nf 3/1/2 5/3/1 4/2/2\nf 4/1/1 5/3/1 1/2/1\nf 1/1/1 2/2/1 3/3/1 4/1/1\n",
+          f 1/1/1 5/3/2 2/2/1\nf 2/1/1 5/3/2 3/2/1\nf 3/1/2 5/3/1 4/2/2\nf 4/1/1 5/3/1 1/2/1\n\
+          f 1/1/1 2/2/1 3/3/1 4/1/1\n",
     );
     let mut picture = std::io::Cursor::new(Vec::new());
     image::RgbImage::from_raw(2, 2, vec![250, 10, 10, 10, 250, 10, 10, 10, 250, 200, 200, 200])
@@ -34,7 +37,8 @@ const SCENE: &str = r#"Scene(
     render: Render(samples: 1, max_bounces: 3),
     effects: Effects(depth_of_field: ThinLens(aperture: 0.2, focus_distance: 7)),
     background: (0.1, 0.2, 0.3),
-    lights: [SphereLight(center: (2, 5, 3), radius: 1, radiance: 9), SphereLight(center: (-1, 2, 0), radius: 0.2, radiance: 20)],
+    lights: [SphereLight(center: (2, 5, 3), radius: 1, radiance: 9),
+        SphereLight(center: (-1, 2, 0), radius: 0.2, radiance: 20)],
     objects: [
         Sphere(center: (0, -1000, 0), radius: 1000, material: Diffuse(albedo: 0.6)),
         Sphere(center: (-1.5, 0.8, 1), radius: 0.8, material: Transparent(ior: 1.5)),

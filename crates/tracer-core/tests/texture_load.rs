@@ -47,8 +47,8 @@ fn eight_bit_pictures_keep_their_code_values_row_by_row_from_the_top() {
     assert_eq!(srgb8(&png(&[7, 200], 2, 1, Color::L8)), [0x070707, 0xc8c8c8]);
 }
 
-/// A 2 x 1 palette picture of one bit, with a transparent second entry when asked for; written chunk by chunk, since the
-/// encoder makes none.
+/// A 2 x 1 palette picture of one bit, with a transparent second entry when asked for; written chunk by chunk, since
+/// the encoder makes none.
 fn palette(transparency: &[u8]) -> Vec<u8> {
     fn crc(bytes: impl Iterator<Item = u8>) -> u32 {
         !bytes.fold(u32::MAX, |crc, byte| {

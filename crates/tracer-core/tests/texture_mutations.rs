@@ -1,5 +1,5 @@
-//! Damaged pictures: with random mutations they never panic, never take long, and give either an error or as many texels as
-//! they say.
+//! Damaged pictures: with random mutations they never panic, never take long, and give either an error or as many
+//! texels as they say.
 //!
 //! `TRACER_MUTANTS=100000` sets the number of mutants.
 

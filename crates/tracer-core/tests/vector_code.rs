@@ -1,5 +1,5 @@
-//! The hot entry functions are vector code: the disassembly of this very program holds wide registers, and no lane operation was left
-//! standing as a call, which costs a factor of 20 and changes no bit.
+//! The hot entry functions are vector code: the disassembly of this very program holds wide registers, and no lane
+//! operation was left standing as a call, which costs a factor of 20 and changes no bit.
 #![cfg(target_arch = "x86_64")]
 
 use std::collections::BTreeMap;
@@ -41,7 +41,8 @@ fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
         counted.zmm += usize::from(line.contains("%zmm"));
         counted.ymm += usize::from(line.contains("%ymm"));
         let inlined = ["core_arch", "lanes::", "engine::stages::", "math::vector"];
-        // Curved shapes are looked up one by one in double precision, by a call on purpose; so are parts of stages, which count themselves.
+        // Curved shapes are looked up one by one in double precision, by a call on purpose; so are parts of stages,
+        // which count themselves.
         let one_by_one = line.contains("engine::stages::shapes::find") || line.contains(PART);
         if line.contains("call") && !one_by_one && inlined.iter().any(|word| line.contains(word)) {
             counted.calls.push(line.to_owned());
@@ -78,7 +79,8 @@ fn entry_functions_are_vector_code() {
 #[test]
 fn a_call_that_was_not_inlined_is_seen() {
     let text = "0000 <tracer_core::engine::kernels::avx512::shade_entry>:\n  vaddps %zmm0,%zmm1,%zmm2\n  \
-                call 10 <core::core_arch::x86::avx512f::_mm512_mul_ps>\n0020 <other>:\n  call 10 <core::core_arch::x>\n";
+                call 10 <core::core_arch::x86::avx512f::_mm512_mul_ps>\n0020 <other>:\n  call 10 <core::core_arch::x>\n\
+                ";
     let counted = &count(text)["avx512"];
     assert_eq!((counted.zmm, counted.calls.len()), (1, 1));
 }

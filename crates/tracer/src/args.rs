@@ -48,7 +48,8 @@ pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
     /// Colours
-    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = When::Auto, hide_possible_values = true)]
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = When::Auto)]
+    #[arg(hide_possible_values = true)]
     #[arg(help = "Colours: auto, always or never")]
     pub color: When,
     /// Say what is loaded and how long it takes

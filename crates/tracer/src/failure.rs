@@ -8,7 +8,8 @@ use std::process::ExitCode;
 pub mod exit {
     /// Done.
     pub const DONE: u8 = 0;
-    /// What was asked for could not be done (unreadable, read-only, disk full); `compare`: the pictures differ by more than allowed.
+    /// What was asked for could not be done (unreadable, read-only, disk full); `compare`: the pictures differ by more
+    /// than allowed.
     pub const FAILED: u8 = 1;
     /// The scene or the command line is wrong.
     pub const WRONG: u8 = 2;

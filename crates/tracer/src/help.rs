@@ -1,4 +1,5 @@
-//! The command line as it is read: help that fits a terminal of 80 columns and 24 lines, and tips for what was probably meant.
+//! The command line as it is read: help that fits a terminal of 80 columns and 24 lines, and tips for what was probably
+//! meant.
 
 use crate::args::Cli;
 use crate::command_line::quoted;

@@ -26,8 +26,8 @@ pub fn listen(shell: Shell) -> Result<(), Failure> {
 #[cfg(unix)]
 fn by_system(shell: Shell) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    // Whoever started us with `nohup` wants no end when the terminal goes; a shell that has put us into the background of a script wants none
-    // by the Ctrl-C that ends the script.
+    // Whoever started us with `nohup` wants no end when the terminal goes; a shell that has put us into the background
+    // of a script wants none by the Ctrl-C that ends the script.
     let ignored = ignored();
     let asked =
         [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal == SIGTERM || ignored >> (signal - 1) & 1 == 0);
@@ -49,7 +49,8 @@ fn by_system(shell: Shell) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The signals that were ignored when the program started, as Linux tells, bit `n - 1` for signal `n`; elsewhere all are taken to be heeded.
+/// The signals that were ignored when the program started, as Linux tells, bit `n - 1` for signal `n`; elsewhere all
+/// are taken to be heeded.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -2,8 +2,9 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
-/// Has the C library give large blocks back to the system as soon as they are freed. By itself it keeps blocks of up to 32 MB for later, once such
-/// a block has been freed; a mesh of a million triangles left 48 of 184 MB to it, most of them for good (docs/performance.md).
+/// Has the C library give large blocks back to the system as soon as they are freed. By itself it keeps blocks of up to
+/// 32 MB for later, once such a block has been freed; a mesh of a million triangles left 48 of 184 MB to it, most of
+/// them for good (docs/performance.md).
 pub fn give_back() {
     const LARGE: i32 = 1 << 20;
     // SAFETY: it sets two numbers of the allocator, before there is another thread.
@@ -16,8 +17,9 @@ pub fn give_back() {
 #[global_allocator]
 static ALLOCATOR: OnHugePages = OnHugePages;
 
-/// The system's allocator, which asks for huge pages where a block is large: to bring in ordinary pages one by one took a sixth of the time from a
-/// mesh of a million triangles to its tree (docs/performance.md). A system without them refuses, and all still works.
+/// The system's allocator, which asks for huge pages where a block is large: to bring in ordinary pages one by one took
+/// a sixth of the time from a mesh of a million triangles to its tree (docs/performance.md). A system without them
+/// refuses, and all still works.
 struct OnHugePages;
 
 /// Two huge pages: less might not hold a whole one.

@@ -78,7 +78,8 @@ fn no_scene(path: &Path) -> Option<String> {
             format!("{shown} is a picture, not a scene; as a texture it stands in one: Texture(file: \"..\")")
         }
         _ if MeshFormat::of(path).is_some() => format!(
-            "{shown} is a mesh, not a scene; it stands in one: Mesh(file: \"..\"). `tracer new scene.ron` starts a scene"
+            "{shown} is a mesh, not a scene; it stands in one: Mesh(file: \"..\"). `tracer new scene.ron` starts a \
+             scene"
         ),
         "mtl" => format!("{shown} holds the materials of an OBJ mesh; the mesh's own file stands in a scene"),
         _ => return None,
@@ -104,7 +105,8 @@ pub fn expect_scene(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of millions of files.
+/// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of
+/// millions of files.
 const MAX_NAMES: usize = 5000;
 
 /// A file of a kind near a path where none is: of nearly the same name, or of the same one with another extension.

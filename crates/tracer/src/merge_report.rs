@@ -98,7 +98,8 @@ struct MergedSeconds {
 }
 
 impl MergeReport {
-    /// From the film and what it was made of; layers that are written, and what denoising did; seconds of merging, developing, writing, and all.
+    /// From the film and what it was made of; layers that are written, and what denoising did; seconds of merging,
+    /// developing, writing, and all.
     #[allow(clippy::too_many_arguments)]
     pub fn new(
         command: String,

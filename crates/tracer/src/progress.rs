@@ -171,8 +171,8 @@ fn time(duration: Duration) -> String {
     }
 }
 
-/// How noisy a picture is, and what it takes to be less so: `noise 4 %, about 1000 samples for 1 %`. `None`: it has no noise, or one cannot
-/// tell.
+/// How noisy a picture is, and what it takes to be less so: `noise 4 %, about 1000 samples for 1 %`. `None`: it has no
+/// noise, or one cannot tell.
 pub fn noise(relative: f64, samples: u32) -> Option<String> {
     if !(relative.is_finite() && relative > 1e-6) || samples < 2 {
         return None;

@@ -111,7 +111,8 @@ pub struct Transport {
     pub integrator: String,
     /// The pixels of a block shared what they found (`render.reuse`).
     pub reuse: bool,
-    /// Photons told where rays were aimed (`render.caustics`): asked for, and the scene has lights and what they may shine over.
+    /// Photons told where rays were aimed (`render.caustics`): asked for, and the scene has lights and what they may
+    /// shine over.
     pub caustics: bool,
     /// What all switches together make of the picture.
     pub estimate: Estimate,
@@ -336,7 +337,8 @@ pub struct Samples {
 /// Noise of the picture.
 #[derive(Debug, Serialize)]
 pub struct Noise {
-    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; an upper bound.
+    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; an
+    /// upper bound.
     pub relative: f64,
 }
 

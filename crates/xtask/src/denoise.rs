@@ -1,4 +1,5 @@
-//! `cargo xtask denoise`: what `--denoise` does to ten scenes, as the table of docs/denoise.md has it; fails where it makes one worse.
+//! `cargo xtask denoise`: what `--denoise` does to ten scenes, as the table of docs/denoise.md has it; fails where it
+//! makes one worse.
 
 use crate::truth::written::loaded_at;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,8 @@ pub struct Options {
 /// How much less the squared error is: of the picture, without its worst thousandth, at edges, in textures.
 type Gains = [f64; 4];
 
-/// Measures all scenes, with everything on and with plain paths, and prints the table; gives how many pictures have become worse.
+/// Measures all scenes, with everything on and with plain paths, and prints the table; gives how many pictures have
+/// become worse.
 ///
 /// # Errors
 /// A scene is refused; nothing has such a name.

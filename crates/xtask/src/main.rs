@@ -13,7 +13,8 @@ enum Command {
     /// What the gallery's scenes are furnished with: textures and small meshes in assets/, placements beside the
     /// scenes.
     Gallery,
-    /// Measures what denoising does to ten scenes, and prints the table of docs/denoise.md; fails where one becomes worse.
+    /// Measures what denoising does to ten scenes, and prints the table of docs/denoise.md; fails where one becomes
+    /// worse.
     Denoise {
         /// Samples per pixel.
         #[arg(long, default_value_t = 16)]

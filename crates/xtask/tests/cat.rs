@@ -53,8 +53,8 @@ fn triangle_counts() {
     }
 }
 
-/// Glass and mirrors need a closed surface: each edge is used by two triangles, once in each direction, about each vertex lies one ring
-/// of triangles, and there is one piece without handles (V - E + F = 2).
+/// Glass and mirrors need a closed surface: each edge is used by two triangles, once in each direction, about each
+/// vertex lies one ring of triangles, and there is one piece without handles (V - E + F = 2).
 #[test]
 fn closed_in_one_piece() {
     for (name, _) in MESHES {
@@ -106,8 +106,8 @@ fn faces_and_normals_point_outwards() {
     }
 }
 
-/// Every triangle's texture coordinates are its corners seen from one side: inside the picture, and no longer than the triangle at the
-/// atlas' density, which a triangle smeared over a seam would be.
+/// Every triangle's texture coordinates are its corners seen from one side: inside the picture, and no longer than the
+/// triangle at the atlas' density, which a triangle smeared over a seam would be.
 #[test]
 fn texture_coordinates_in_range_and_unsmeared() {
     for (name, _) in MESHES {

@@ -3,7 +3,8 @@
 use xtask::sweeps::{self, Options, scenes};
 use xtask::truth::{rooms, written::compiled};
 
-/// Few of the steps, of small pictures: cliffs of several times are told. Where a lamp begins to fill its bulb was one of eleven times.
+/// Few of the steps, of small pictures: cliffs of several times are told. Where a lamp begins to fill its bulb was one
+/// of eleven times.
 #[test]
 fn nothing_jumps() {
     for (name, only) in [("lamp radius", 26..32), ("a moving marble", 9..15)] {

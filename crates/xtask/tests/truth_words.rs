@@ -125,7 +125,8 @@ fn every_word_of_the_language_is_drawn() {
     for (name, definition) in definitions.as_object().unwrap() {
         words(definition, name, definitions, &mut all);
     }
-    // `None` for a field that may be left out is no kind of anything; `Repeat` may stand in every list, `Pick` for every value. No picture shows a name.
+    // `None` for a field that may be left out is no kind of anything; `Repeat` may stand in every list, `Pick` for
+    // every value. No picture shows a name.
     all.retain(|word| {
         !not_drawn(word) && !word.ends_with(".Repeat") && !word.ends_with(".Pick") && !word.ends_with(".name")
     });

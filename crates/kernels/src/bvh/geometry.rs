@@ -30,7 +30,8 @@ pub struct MeshGeometry<'a> {
     pub positions: &'a [[f32; 3]],
     /// Three indices into `positions` for each triangle.
     pub triangles: &'a [[u32; 3]],
-    /// The id of triangle 0. The id ranges of meshes, shapes and spheres must not overlap, and meshes come in rising order.
+    /// The id of triangle 0. The id ranges of meshes, shapes and spheres must not overlap, and meshes come in rising
+    /// order.
     pub first_primitive: u32,
 }
 
@@ -39,8 +40,8 @@ pub struct MeshGeometry<'a> {
 pub struct InstanceGeometry {
     /// Index into [`Geometry::meshes`].
     pub mesh: u32,
-    /// Rows of the 3x4 matrix from object space to render space; `None` where the positions are in render space already.
-    /// No inverse beside it: a million of them would be the larger part of the memory.
+    /// Rows of the 3x4 matrix from object space to render space; `None` where the positions are in render space
+    /// already. No inverse beside it: a million of them would be the larger part of the memory.
     pub placement: Option<[[f32; 4]; 3]>,
 }
 

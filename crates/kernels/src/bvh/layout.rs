@@ -1,4 +1,5 @@
-//! The bytes of the tree: nodes of eight boxes, leaves of four triangles, parts of triangles or spheres, curved shapes, instance records.
+//! The bytes of the tree: nodes of eight boxes, leaves of four triangles, parts of triangles or spheres, curved shapes,
+//! instance records.
 //!
 //! Everything lies in one arena of 32-byte units (see [`arena`](super::arena)) and is referred to by [`Ref`], a word
 //! that says what it points to and where. Kernels read the arena through raw pointers, so the layout is `repr(C)`.
@@ -64,8 +65,8 @@ pub struct Spheres4 {
     pub ids: [u32; 4],
 }
 
-/// A curved shape that is no sphere, 128 bytes: as long as four spheres, and with its ids at the same place, so that a reference to
-/// spheres may lead to either. Its last id, which no primitive has, says which.
+/// A curved shape that is no sphere, 128 bytes: as long as four spheres, and with its ids at the same place, so that a
+/// reference to spheres may lead to either. Its last id, which no primitive has, says which.
 #[repr(C, align(32))]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct Shape {
@@ -133,8 +134,8 @@ pub struct ObjectRay {
     pub t0: f32,
 }
 
-/// A typed reference: nodes `000…`, triangle leaves `100…`, leaves of parts `101…`, leaves of spheres or a shape `110…`, instances
-/// `111…` (in bits), the rest of the word being the unit (for instances, their index).
+/// A typed reference: nodes `000…`, triangle leaves `100…`, leaves of parts `101…`, leaves of spheres or a shape
+/// `110…`, instances `111…` (in bits), the rest of the word being the unit (for instances, their index).
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct Ref(pub u32);

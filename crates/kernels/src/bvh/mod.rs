@@ -4,13 +4,13 @@
 //! for the closest hit or for any. It holds triangles, spheres, other curved shapes, and instances of meshes.
 //!
 //! # The same bits, always
-//! A hit is a pure function of the ray and the primitive (and the instance it is in): `triangle` and
-//! [`sphere_hit`] say which, operation by operation, and [`Row::hit`](crate::shapes::Row::hit) of other shapes. A triangle that leaves its box empty is cut, and is hit where the first
-//! of its parts is; how it is cut depends on nothing but the geometry. Of all hits with 0 < t the closest wins, and of those
-//! equally far the one with the smaller (primitive, instance). Of triangles in one plane that overlap, one wins wherever
-//! both are (`coplanar`). Boxes only leave out what cannot win. So the answer
-//! depends neither on the [`Acceleration`], nor on the [`Level`] of vector instructions, the batch, the order of its
-//! rays, or the threads that built the tree.
+//! A hit is a pure function of the ray and the primitive (and the instance it is in): `triangle` and [`sphere_hit`] say
+//! which, operation by operation, and [`Row::hit`](crate::shapes::Row::hit) of other shapes. A triangle that leaves its
+//! box empty is cut, and is hit where the first of its parts is; how it is cut depends on nothing but the geometry. Of
+//! all hits with 0 < t the closest wins, and of those equally far the one with the smaller (primitive, instance). Of
+//! triangles in one plane that overlap, one wins wherever both are (`coplanar`). Boxes only leave out what cannot win.
+//! So the answer depends neither on the [`Acceleration`], nor on the [`Level`] of vector instructions, the batch, the
+//! order of its rays, or the threads that built the tree.
 //!
 //! # Frames and units
 //! Render space, f32. Directions need not be unit; t counts in lengths of the direction. A ray with anything not
@@ -82,7 +82,8 @@ pub struct Rays<'a> {
     pub dy: &'a [f32],
     /// Directions, z.
     pub dz: &'a [f32],
-    /// The primitive that the ray leaves, or [`NONE`]. A triangle that a ray leaves is not hit; a curved shape not where it leaves it.
+    /// The primitive that the ray leaves, or [`NONE`]. A triangle that a ray leaves is not hit; a curved shape not
+    /// where it leaves it.
     pub from_primitive: &'a [u32],
     /// The instance of that primitive; [`NONE`] for spheres and other curved shapes.
     pub from_instance: &'a [u32],
@@ -258,7 +259,8 @@ impl Accel {
         self.coplanar.as_ref().map(Coplanar::offsets)
     }
 
-    /// As [`coplanar_offsets`](Self::coplanar_offsets) off each curved shape, by its place among the shapes; `None` where none has any.
+    /// As [`coplanar_offsets`](Self::coplanar_offsets) off each curved shape, by its place among the shapes; `None`
+    /// where none has any.
     pub fn coplanar_shape_offsets(&self) -> Option<&[f32]> {
         self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
     }
@@ -268,8 +270,8 @@ impl Accel {
         self.coplanar.as_ref().is_some_and(Coplanar::has_touching)
     }
 
-    /// Which body begins where the closest hits of some rays are on another one that lets light through: its material + 1
-    /// is written to `behind`, which is left alone elsewhere.
+    /// Which body begins where the closest hits of some rays are on another one that lets light through: its material +
+    /// 1 is written to `behind`, which is left alone elsewhere.
     ///
     /// # Panics
     /// If an index is beyond a slice.

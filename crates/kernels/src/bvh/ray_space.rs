@@ -1,11 +1,12 @@
-//! A ray made ready for one space (the world's, or an instance's object space): what boxes and triangles are tested with.
+//! A ray made ready for one space (the world's, or an instance's object space): what boxes and triangles are tested
+//! with.
 //!
 //! # Boxes that can lose nothing
-//! A slab test answers with the interval of t in which the ray is inside a box. Here it is computed as
-//! `plane * rd − (o * rd ± pad * |rd|)`, one fma: a *monotone* function of the plane. So the interval of a box lies
-//! within the interval of any box around it, exactly, in floating point. A triangle's hit is clamped into the interval
-//! of the triangle's own box, or that of its part (see [`triangle`](super::triangle)), hence into the interval of every
-//! box of the tree that holds it: a traversal, in whatever order, finds what testing every triangle finds, to the last bit.
+//! A slab test answers with the interval of t in which the ray is inside a box. Here it is computed as `plane * rd −
+//! (o * rd ± pad * |rd|)`, one fma: a *monotone* function of the plane. So the interval of a box lies within the
+//! interval of any box around it, exactly, in floating point. A triangle's hit is clamped into the interval of the
+//! triangle's own box, or that of its part (see [`triangle`](super::triangle)), hence into the interval of every box of
+//! the tree that holds it: a traversal, in whatever order, finds what testing every triangle finds, to the last bit.
 //!
 //! `pad` only keeps true hits from being clamped or thrown away. With u = 2^-24 and M = max|o| + max|v|, over the
 //! coordinates of origin and triangle: the sheared vertices are off by at most 5uM, t times the direction by 8uM, and
@@ -15,7 +16,8 @@
 //! A component of the direction below 2^-50 of the largest one is taken as that much (its sign kept): the ray then
 //! leaves its true place by 2^-50 of the distance, far inside `pad`, and no reciprocal is infinite.
 
-/// The largest coordinate, and the largest and (inverted) smallest direction, with which the arithmetic cannot overflow.
+/// The largest coordinate, and the largest and (inverted) smallest direction, with which the arithmetic cannot
+/// overflow.
 pub const RANGE: f32 = 1_099_511_627_776.0; // 2^40
 /// Smaller components of directions are taken for this.
 pub const SMALLEST_COMPONENT: f32 = 1.0 / 1_125_899_906_842_624.0; // 2^-50
@@ -63,7 +65,8 @@ impl RaySpace {
         let z = if larger(a[0], a[1]) > a[2] { of_two } else { 2 };
         let largest = a[z];
         let far = larger(larger(o[0].abs(), o[1].abs()), o[2].abs());
-        // Comparisons with a NaN are false, so this refuses them too (each component by itself: a maximum may drop one).
+        // Comparisons with a NaN are false, so this refuses them too (each component by itself: a maximum may drop
+        // one).
         let ordinary = o[0].abs() <= RANGE && o[1].abs() <= RANGE && o[2].abs() <= RANGE;
         let pointed = a[0] <= RANGE && a[1] <= RANGE && a[2] <= RANGE && largest >= 1.0 / RANGE;
         if !(ordinary && pointed) {

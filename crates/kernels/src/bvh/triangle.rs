@@ -28,7 +28,8 @@
 //! clamped into that interval, so that whoever passes by the box may pass by the hit:
 //!
 //! ```text
-//! slack     s = (m^2 + 2^-100) / |det| * ((zmax - zmin) * (2^-20 * |sz|)),  m = max(|Ax|, |Ay|, |Bx| .. |Cy|),  z of A, B, C
+//! slack     s = (m^2 + 2^-100) / |det| * ((zmax - zmin) * (2^-20 * |sz|)),
+//!           m = max(|Ax|, |Ay|, |Bx| .. |Cy|),  z of A, B, C
 //! part      t' < near - s or t' > far + s: no hit;  then as above, near and far being those of the part's box
 //! ```
 //!
@@ -36,9 +37,9 @@
 //! a triangle whose corners are off by 5uM (see [`RaySpace`](super::ray_space)), each off by u (2 m^2 + |det|) for its
 //! own roundings. With exact ones t' would be the depth of a point of the triangle that is within 5uM of the ray, hence
 //! in the interval of the box of the part that has it, by the same count as there. The roundings of the three move t'
-//! by u (6 m^2 + |det|) / |det| of the triangle's depth at most, and |det| <= 4 m^2: s is more. (2^-100 stands for products
-//! that are subnormal; triangles are cut from 2^-30 on.) Seen face on s is some 2^-20 of the triangle's size; seen
-//! edge-on it grows until t' says nothing, and the ray meets the first part whose box it is in.
+//! by u (6 m^2 + |det|) / |det| of the triangle's depth at most, and |det| <= 4 m^2: s is more. (2^-100 stands for
+//! products that are subnormal; triangles are cut from 2^-30 on.) Seen face on s is some 2^-20 of the triangle's size;
+//! seen edge-on it grows until t' says nothing, and the ray meets the first part whose box it is in.
 
 use super::ray_space::{PAD, RaySpace};
 
@@ -72,7 +73,8 @@ pub fn part_hit(triangle: [[f32; 3]; 3], part: [[f32; 3]; 2], origin: [f32; 3], 
     hit_of_part(&RaySpace::new(origin, direction)?, 0.0, triangle, part)
 }
 
-/// The scalar twin of the kernels' leaf test. `tmin` is minus the distance by which the origin was moved (0 in the world).
+/// The scalar twin of the kernels' leaf test. `tmin` is minus the distance by which the origin was moved (0 in the
+/// world).
 #[inline]
 pub fn hit(ray: &RaySpace, tmin: f32, triangle: [[f32; 3]; 3]) -> Option<f32> {
     let passage = Passage::of(ray, triangle)?;

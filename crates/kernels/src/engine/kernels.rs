@@ -1,4 +1,5 @@
-//! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the choice of them.
+//! The entry functions: each stage compiled once per lane type inside a function with the CPU's features, and the
+//! choice of them.
 
 use super::batch::Batch;
 use super::guide::Guide;
@@ -122,7 +123,8 @@ kernels!(portable, One, One);
 kernels!(portable_8, Eight, Eight);
 #[cfg(target_arch = "x86_64")]
 kernels!(scalar_fma, One, One, "fma");
-// The spheres' chains of operations are long: with twice the lanes they take a tenth less time on Zen 3. Shading takes as much more.
+// The spheres' chains of operations are long: with twice the lanes they take a tenth less time on Zen 3. Shading takes
+// as much more.
 #[cfg(target_arch = "x86_64")]
 kernels!(avx2, F8, Pair<F8>, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 #[cfg(target_arch = "x86_64")]

@@ -1,4 +1,5 @@
-//! Batches of paths and the stages that they go through, over lanes. Who calls the stages in which order is for `tracer-core`.
+//! Batches of paths and the stages that they go through, over lanes. Who calls the stages in which order is for
+//! `tracer-core`.
 
 pub mod batch;
 pub mod guide;

@@ -214,7 +214,8 @@ impl<const N: usize> Lanes for ArrayF<N> {
     fn gather(table: &[f32], index: Self::U) -> Self {
         ArrayF(each!(N, 0f32, |i| table[(index.0[i] as usize).min(table.len() - 1)]))
     }
-    /// Without the instructions of the level that calls it, since one lane serves two of them: slower there, the same bits.
+    /// Without the instructions of the level that calls it, since one lane serves two of them: slower there, the same
+    /// bits.
     #[inline(never)]
     fn apart<P: Part<Self>>(part: P) -> P::Out {
         part.run()

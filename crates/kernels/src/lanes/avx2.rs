@@ -111,8 +111,8 @@ impl U8 {
     }
 }
 
-/// `table[index]` within `sixteens` (1 or 2) times sixteen entries, by permutations: with gathers, which are 39 micro-operations each on Zen 3, an
-/// eighth of the time.
+/// `table[index]` within `sixteens` (1 or 2) times sixteen entries, by permutations: with gathers, which are 39
+/// micro-operations each on Zen 3, an eighth of the time.
 ///
 /// # Safety
 /// The CPU has AVX2; `table` points to 16 times `sixteens` floats.
@@ -137,7 +137,8 @@ unsafe fn look_up(table: *const f32, index: __m256i, sixteens: usize) -> __m256 
 /// The CPU has AVX2; `table` points to 8 floats.
 #[inline(always)]
 unsafe fn eight(table: *const f32, index: __m256i) -> __m256 {
-    // SAFETY: the CPU; the pointers are the caller's promise. A plain read: of the intrinsic's loads calls are left standing.
+    // SAFETY: the CPU; the pointers are the caller's promise. A plain read: of the intrinsic's loads calls are left
+    // standing.
     unsafe { _mm256_permutevar8x32_ps(table.cast::<__m256>().read_unaligned(), index) }
 }
 
@@ -171,8 +172,8 @@ unsafe fn halves(low: __m128, high: __m128) -> __m256 {
     unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high) }
 }
 
-/// Three consecutive entries of each of eight places, as columns: rows loaded one by one and transposed, which is half of what three
-/// gathers cost on Zen 3. Places are clamped to the last three entries.
+/// Three consecutive entries of each of eight places, as columns: rows loaded one by one and transposed, which is half
+/// of what three gathers cost on Zen 3. Places are clamped to the last three entries.
 #[inline(always)]
 fn rows_of_three(table: &[f32], place: U8) -> [__m256; 3] {
     assert!(table.len() >= 3);

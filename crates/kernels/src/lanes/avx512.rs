@@ -254,9 +254,10 @@ impl Lanes for F16 {
     }
     #[inline(always)]
     fn gather(table: &[f32], index: U16) -> Self {
-        // Small tables are looked up by a permutation within one or two registers: a fifth of a gather's time. Plain reads, since the
-        // compiler leaves some of the intrinsic's loads standing as calls in functions as large as `shade`.
-        // SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their size.
+        // Small tables are looked up by a permutation within one or two registers: a fifth of a gather's time. Plain
+        // reads, since the compiler leaves some of the intrinsic's loads standing as calls in functions as large as
+        // `shade`. SAFETY: the CPU; indices are clamped to the table, and registers are loaded of tables of just their
+        // size.
         unsafe {
             let n = table.len();
             if n == 32 {

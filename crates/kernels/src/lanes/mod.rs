@@ -75,7 +75,8 @@ pub trait Bits:
     fn select(mask: Self::M, a: Self, b: Self) -> Self;
     /// `table[index]`; indices past the end read the last entry (the table must not be empty).
     fn gather(table: &[u32], index: Self) -> Self;
-    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold three).
+    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must
+    /// hold three).
     #[inline(always)]
     fn gather3(table: &[u32], place: Self) -> [Self; 3] {
         let one = Self::splat(1);
@@ -83,12 +84,13 @@ pub trait Bits:
     }
     /// Bit 31 becomes bit 0 and so on.
     fn reverse_bits(self) -> Self;
-    /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
+    /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is
+    /// undefined.
     fn compress(self, mask: Self::M, to: &mut [u32]);
 }
 
-/// A piece of a stage that is large and seldom needed: compiled once a lane type, as a function that the stages call, instead of in every
-/// stage that has need of it ([`Lanes::apart`]).
+/// A piece of a stage that is large and seldom needed: compiled once a lane type, as a function that the stages call,
+/// instead of in every stage that has need of it ([`Lanes::apart`]).
 pub trait Part<F: Lanes> {
     /// What comes of it.
     type Out;
@@ -97,8 +99,10 @@ pub trait Part<F: Lanes> {
 }
 
 /// N `f32`.
-pub trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> + 'static
+pub trait Lanes
+where
+    Self: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>,
+    Self: Div<Output = Self> + Neg<Output = Self> + 'static,
 {
     /// Number of lanes.
     const N: usize;
@@ -140,29 +144,33 @@ pub trait Lanes:
     fn to_int(self) -> Self::U;
     /// `table[index]`; indices past the end read the last entry (the table must not be empty).
     fn gather(table: &[f32], index: Self::U) -> Self;
-    /// Two consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold two).
+    /// Two consecutive entries, the first at `place`; where they go past the end, anything of the table (which must
+    /// hold two).
     #[inline(always)]
     fn gather2(table: &[f32], place: Self::U) -> [Self; 2] {
         [Self::gather(table, place), Self::gather(table, place + Self::U::splat(1))]
     }
-    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold three).
+    /// Three consecutive entries, the first at `place`; where they go past the end, anything of the table (which must
+    /// hold three).
     #[inline(always)]
     fn gather3(table: &[f32], place: Self::U) -> [Self; 3] {
         let one = Self::U::splat(1);
         [Self::gather(table, place), Self::gather(table, place + one), Self::gather(table, place + one + one)]
     }
-    /// Four consecutive entries, the first at `place`; where they go past the end, anything of the table (which must hold four).
+    /// Four consecutive entries, the first at `place`; where they go past the end, anything of the table (which must
+    /// hold four).
     #[inline(always)]
     fn gather4(table: &[f32], place: Self::U) -> [Self; 4] {
         let two = Self::U::splat(2);
         let ([a, b], [c, d]) = (Self::gather2(table, place), Self::gather2(table, place + two));
         [a, b, c, d]
     }
-    /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is undefined.
+    /// Stores the lanes where the mask is true, packed, to the front of `to`, which must hold N; what follows them is
+    /// undefined.
     fn compress(self, mask: Self::M, to: &mut [f32]);
 
-    /// Runs a part as a function of its own, with the instructions that these lanes are made of. Its operands go over memory, so that they
-    /// stay in registers where no part is run.
+    /// Runs a part as a function of its own, with the instructions that these lanes are made of. Its operands go over
+    /// memory, so that they stay in registers where no part is run.
     fn apart<P: Part<Self>>(part: P) -> P::Out;
 
     /// True in the first `n` lanes (all of them when `n` is N or more).

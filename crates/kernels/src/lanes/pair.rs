@@ -1,5 +1,5 @@
-//! Two vectors as one of twice the lanes: more independent work in flight, for stages whose chains of operations are longer than what the
-//! processor looks ahead.
+//! Two vectors as one of twice the lanes: more independent work in flight, for stages whose chains of operations are
+//! longer than what the processor looks ahead.
 
 use super::{Bits, Lanes, Mask, Part};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};

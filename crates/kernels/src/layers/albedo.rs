@@ -9,7 +9,8 @@ pub(super) struct Albedo;
 impl PictureLayer for Albedo {
     const NAME: &'static str = "albedo";
     const CHANNELS: &'static [&'static str] = &["R", "G", "B"];
-    // As denoisers and compositing expect it: black where the picture shows the background, in the same share of the samples.
+    // As denoisers and compositing expect it: black where the picture shows the background, in the same share of the
+    // samples.
     const PIXEL: Pixel = Pixel::Mean;
 
     #[inline(always)]

@@ -1,5 +1,5 @@
-//! Which material: 1 is the first of `materials`, then the next; behind them those without a name there: written in objects, from
-//! MTL files, the default. Zero: none, or a lamp of `lights`, which has none.
+//! Which material: 1 is the first of `materials`, then the next; behind them those without a name there: written in
+//! objects, from MTL files, the default. Zero: none, or a lamp of `lights`, which has none.
 
 use super::{PictureLayer, Pixel};
 use crate::scene::NONE;

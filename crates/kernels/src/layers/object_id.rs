@@ -1,5 +1,5 @@
-//! Which object: 1 is the first of `objects`, then the next, what `Repeat` makes one by one; behind them the lamps of `lights`. All copies of
-//! an object are one. Zero: none.
+//! Which object: 1 is the first of `objects`, then the next, what `Repeat` makes one by one; behind them the lamps of
+//! `lights`. All copies of an object are one. Zero: none.
 
 use super::{PictureLayer, Pixel};
 

@@ -97,8 +97,8 @@ impl<F: Lanes> V3<F> {
         let [x, y, z] = F::gather3(table, place);
         V3(x, y, z)
     }
-    /// Two unit vectors that make a right-handed frame (t, b, self) with this unit vector.
-    /// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited (JCGT 2017).
+    /// Two unit vectors that make a right-handed frame (t, b, self) with this unit vector. Duff, Burgess, Christensen,
+    /// Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited (JCGT 2017).
     #[inline(always)]
     pub fn basis(self) -> (Self, Self) {
         let one = F::splat(1.0);

@@ -10,11 +10,12 @@
 //! within two by two tiles of the sampler. All g are odd, or all are even, and so are all h: pairs of columns and of
 //! rows stay pairs.
 //!
-//! An item has one column of each pair and one row of each pair, a fourth of the block. Which one is drawn anew for each
-//! block, and so is the order of the pairs two by two ([`Deal`]). Were it always every other one, pixels an even number
-//! of pixels apart would err alike and those between would not: a screen over walls, seen at 400 % (correlations of 0.38
-//! at four pixels, 0.04 at two and none at one, three and five, in a lampshade's room). Pixels that touch are of one item
-//! with half the chance of those further on, so that what is left after a blur is no more than with every other one.
+//! An item has one column of each pair and one row of each pair, a fourth of the block. Which one is drawn anew for
+//! each block, and so is the order of the pairs two by two ([`Deal`]). Were it always every other one, pixels an even
+//! number of pixels apart would err alike and those between would not: a screen over walls, seen at 400 % (correlations
+//! of 0.38 at four pixels, 0.04 at two and none at one, three and five, in a lampshade's room). Pixels that touch are
+//! of one item with half the chance of those further on, so that what is left after a blur is no more than with every
+//! other one.
 
 use super::sampler::{hash3, z_order};
 
@@ -65,8 +66,8 @@ impl Cut {
     }
 }
 
-/// Which columns or rows of a block the quarters have: a bit for each pair says which of the two is the first quarter's,
-/// and a bit for each two pairs whether they change places.
+/// Which columns or rows of a block the quarters have: a bit for each pair says which of the two is the first
+/// quarter's, and a bit for each two pairs whether they change places.
 #[derive(Clone, Copy)]
 struct Deal {
     swapped: u32,
@@ -229,8 +230,8 @@ mod tests {
         }
     }
 
-    /// Both quarters have one line of each pair, and lines of different pairs are of one quarter half the time, or stand at places of one
-    /// parity. With 4000 blocks the deviation of a frequency is 0.008.
+    /// Both quarters have one line of each pair, and lines of different pairs are of one quarter half the time, or
+    /// stand at places of one parity. With 4000 blocks the deviation of a frequency is 0.008.
     #[test]
     fn lines_are_dealt_by_pairs() {
         const BLOCKS: i32 = 4000;

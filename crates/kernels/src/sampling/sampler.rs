@@ -1,22 +1,25 @@
 //! The sampler: a pure function of (seed, pixel, sample index, dimension pair).
 //!
-//! Each dimension pair is an Owen-scrambled Sobol' pair (Burley: Practical Hash-based Owen Scrambling, JCGT 2020), padded: its own
-//! shuffled index and its own scrambling. The pixels are decorrelated in screen space, so that the error of neighbours differs as
-//! blue noise does (Ahmed and Wonka: Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of
-//! Pixels, 2020). There a pixel's Z-order number is the high part of the sample index, so the number of samples must be known
-//! beforehand. Here it enters by itself: with i the sample index, z the pixel's (Owen-scrambled) Z-order number, S_d the d-th
-//! Sobol' matrix and L the lower Pascal matrix, the point is
+//! Each dimension pair is an Owen-scrambled Sobol' pair (Burley: Practical Hash-based Owen Scrambling, JCGT 2020),
+//! padded: its own shuffled index and its own scrambling. The pixels are decorrelated in screen space, so that the
+//! error of neighbours differs as blue noise does (Ahmed and Wonka: Screen-Space Blue-Noise Diffusion of Monte Carlo
+//! Sampling Error via Hierarchical Ordering of Pixels, 2020). There a pixel's Z-order number is the high part of the
+//! sample index, so the number of samples must be known beforehand. Here it enters by itself: with i the sample index,
+//! z the pixel's (Owen-scrambled) Z-order number, S_d the d-th Sobol' matrix and L the lower Pascal matrix, the point
+//! is
 //!
 //! u_d = owen(S_d i XOR L S_d z).
 //!
-//! S_d i fills the first n bits for i < 2^n, and any k successive rows of the first k columns of L are invertible, so the union of
-//! the points of each Z-ordered group of 2^k pixels is stratified in 2^(n + k) strata per dimension, for every n at once: the
-//! picture after N samples does not depend on how many were asked for. Two pairs that belong together are four dimensions of
-//! one sequence (over samples; over pixels they are padded): the directions of the first two bounces the first four of Sobol', pixel and
-//! lens, which move the same edges and are often used alone, a pair and its companion (`companion_index`). For the
-//! directions that was tried, too: in a furnace three bounces had 1.5 times the error.
+//! S_d i fills the first n bits for i < 2^n, and any k successive rows of the first k columns of L are invertible, so
+//! the union of the points of each Z-ordered group of 2^k pixels is stratified in 2^(n + k) strata per dimension, for
+//! every n at once: the picture after N samples does not depend on how many were asked for. Two pairs that belong
+//! together are four dimensions of one sequence (over samples; over pixels they are padded): the directions of the
+//! first two bounces the first four of Sobol', pixel and lens, which move the same edges and are often used alone, a
+//! pair and its companion (`companion_index`). For the directions that was tried, too: in a furnace three bounces had
+//! 1.5 times the error.
 //!
-//! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per tile.
+//! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per
+//! tile.
 
 use super::sobol::{companion_index, higher_dimension, owen, pascal_upper, shuffle_index};
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
@@ -138,8 +141,8 @@ impl Pair {
         points
     }
 
-    /// [`Pair::points`] of several pairs, step by step together: each step of a pair waits for the one before, so alone it leaves most of
-    /// the processor idle.
+    /// [`Pair::points`] of several pairs, step by step together: each step of a pair waits for the one before, so alone
+    /// it leaves most of the processor idle.
     #[inline(always)]
     pub fn points_of<F: Lanes, const K: usize>(
         pairs: [&Pair; K],
@@ -151,8 +154,8 @@ impl Pair {
         for (k, pair) in pairs.iter().enumerate() {
             y[k] = owen(reversed_z, s(pair.pixel_key));
         }
-        // L U z is the reversal of L z, as L U L is the matrix that reverses (a test in `sobol`), and L of a reversed word the reversal of
-        // U of the word: of the two numbers that the pixel adds, one is the other reversed.
+        // L U z is the reversal of L z, as L U L is the matrix that reverses (a test in `sobol`), and L of a reversed
+        // word the reversal of U of the word: of the two numbers that the pixel adds, one is the other reversed.
         for y in &mut y {
             *y = pascal_upper(*y);
         }
@@ -230,8 +233,8 @@ mod tests {
         }
     }
 
-    /// 2^n samples of the pixels of an aligned Z-ordered group of 2^k hit every one of 2^(n + k) strata once: groups within a tile,
-    /// where the sample index is shuffled alike.
+    /// 2^n samples of the pixels of an aligned Z-ordered group of 2^k hit every one of 2^(n + k) strata once: groups
+    /// within a tile, where the sample index is shuffled alike.
     #[test]
     fn groups_of_pixels_are_stratified_for_every_number_of_samples() {
         for purpose in PURPOSES {
@@ -257,7 +260,8 @@ mod tests {
         }
     }
 
-    /// The mean over many seeds of one pixel's first point is 1/2 within 4 standard errors (4 / sqrt(12 * 4096) = 0.018).
+    /// The mean over many seeds of one pixel's first point is 1/2 within 4 standard errors (4 / sqrt(12 * 4096) =
+    /// 0.018).
     #[test]
     fn means_over_seeds() {
         for purpose in PURPOSES {

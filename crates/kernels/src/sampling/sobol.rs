@@ -1,11 +1,12 @@
 //! Sobol' points in base 2 and their Owen scrambling by hashing.
 //!
-//! Words are held bit-reversed where that saves work: in a *reversed fraction* bit 0 weighs 1/2, bit 1 weighs 1/4, and so on,
-//! so that the first Sobol' dimension of index i (van der Corput) is i itself.
+//! Words are held bit-reversed where that saves work: in a *reversed fraction* bit 0 weighs 1/2, bit 1 weighs 1/4, and
+//! so on, so that the first Sobol' dimension of index i (van der Corput) is i itself.
 
 use crate::lanes::Bits;
 
-/// The second Sobol' dimension of an index, as a reversed fraction: the Pascal matrix mod 2 (upper triangle) over the bits.
+/// The second Sobol' dimension of an index, as a reversed fraction: the Pascal matrix mod 2 (upper triangle) over the
+/// bits.
 #[inline(always)]
 pub fn pascal_upper<U: Bits>(i: U) -> U {
     let m = U::splat;
@@ -27,9 +28,10 @@ pub fn owen<U: Bits>(x: U, key: U) -> U {
     x ^ (x * m(0x53a2_2864))
 }
 
-/// A keyed permutation of indices that maps [2^m, 2^(m+1)) to itself for every m, and 0 to 0: [`owen`] on the reversed index without
-/// its addition keeps trailing zeros and the lowest set bit. So the first N = 2^m samples are the same set whatever the key, in
-/// another order: two dimension pairs get independent orders, and no prefix of a power of two loses its stratification.
+/// A keyed permutation of indices that maps [2^m, 2^(m+1)) to itself for every m, and 0 to 0: [`owen`] on the reversed
+/// index without its addition keeps trailing zeros and the lowest set bit. So the first N = 2^m samples are the same
+/// set whatever the key, in another order: two dimension pairs get independent orders, and no prefix of a power of two
+/// loses its stratification.
 pub fn shuffle_index(i: u32, key: u32) -> u32 {
     let x = i.reverse_bits();
     let x = x ^ x.wrapping_mul(0x3d20_adea);
@@ -53,8 +55,8 @@ pub fn shuffle_indices<U: Bits>(i: U, key: U) -> U {
     x.reverse_bits()
 }
 
-/// Direction numbers of the third and fourth Sobol' dimension (Joe and Kuo 2008, new-joe-kuo-6: s = 2, a = 1, m = 1 3 and
-/// s = 3, a = 1, m = 1 3 1), reversed.
+/// Direction numbers of the third and fourth Sobol' dimension (Joe and Kuo 2008, new-joe-kuo-6: s = 2, a = 1, m = 1 3
+/// and s = 3, a = 1, m = 1 3 1), reversed.
 const DIRECTIONS: [[u32; 32]; 2] = [directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];
 
 const fn directions(s: usize, a: u32, m: [u32; 3]) -> [u32; 32] {
@@ -94,17 +96,18 @@ pub fn higher_dimension(which: usize, i: u32) -> u32 {
     word
 }
 
-/// Columns of [`companion_index`]'s matrix for the first 2^16 indices: upper triangular, ones on the diagonal. Found by a search
-/// column by column: all subsets of rows of the four generator matrices that an elementary interval asks about were tried, and what left
-/// the fewest of them dependent was kept.
+/// Columns of [`companion_index`]'s matrix for the first 2^16 indices: upper triangular, ones on the diagonal. Found by
+/// a search column by column: all subsets of rows of the four generator matrices that an elementary interval asks about
+/// were tried, and what left the fewest of them dependent was kept.
 const COMPANION: [u32; 16] =
     [0x1, 0x3, 0x4, 0xd, 0x11, 0x32, 0x57, 0x81, 0x16c, 0x325, 0x505, 0xf47, 0x1c69, 0x269f, 0x6a92, 0xe8cd];
 
-/// The index of a second pair that belongs to a first pair of index `i`: the four dimensions together are a (t, 4)-sequence whose
-/// first 2^m points have t = 0, 1, 1, 1, 2, 1, 2, 2, 2, 3 for m = 1 to 10 (four dimensions of Sobol': 0, 1, 2, 2, 2, 2, 2, 3, 3, 2),
-/// and, as those of Sobol' do not, both pairs alone are (0, 2)-sequences: a linear map of the index whose matrix is upper
-/// triangular only changes the order of the points within [2^m, 2^(m + 1)). Ahmed, Skopenkov, Hadwiger and Wonka: Analysis and Synthesis of
-/// Digital Dyadic Sequences (2023) build such sequences in another way.
+/// The index of a second pair that belongs to a first pair of index `i`: the four dimensions together are a (t,
+/// 4)-sequence whose first 2^m points have t = 0, 1, 1, 1, 2, 1, 2, 2, 2, 3 for m = 1 to 10 (four dimensions of Sobol':
+/// 0, 1, 2, 2, 2, 2, 2, 3, 3, 2), and, as those of Sobol' do not, both pairs alone are (0, 2)-sequences: a linear map
+/// of the index whose matrix is upper triangular only changes the order of the points within [2^m, 2^(m + 1)). Ahmed,
+/// Skopenkov, Hadwiger and Wonka: Analysis and Synthesis of Digital Dyadic Sequences (2023) build such sequences in
+/// another way.
 pub fn companion_index(i: u32) -> u32 {
     let (mut word, mut rest) = (0, i);
     while rest != 0 {
@@ -126,8 +129,8 @@ mod tests {
         pascal_upper(ArrayU::<1>::splat(i)).store(&mut out);
         out[0]
     }
-    /// The Pascal matrix mod 2 (lower triangle): row r, column c is binomial(r, c). Any k successive rows of its first k columns are
-    /// invertible (the binomials are polynomials of degree c in r), which is what the sampler needs.
+    /// The Pascal matrix mod 2 (lower triangle): row r, column c is binomial(r, c). Any k successive rows of its first
+    /// k columns are invertible (the binomials are polynomials of degree c in r), which is what the sampler needs.
     fn lower(i: u32) -> u32 {
         let i = i ^ (i << 16);
         let i = i ^ ((i & 0x00ff_00ff) << 8);
@@ -168,7 +171,8 @@ mod tests {
         }
     }
 
-    /// Every elementary interval of the first 2^m points of a pair holds what a (t, 2)-sequence promises (t = 0 for the first pair).
+    /// Every elementary interval of the first 2^m points of a pair holds what a (t, 2)-sequence promises (t = 0 for the
+    /// first pair).
     #[test]
     fn first_pair_is_a_zero_two_sequence() {
         for m in 0..=10u32 {

@@ -18,7 +18,8 @@ pub fn cosine_hemisphere<F: Lanes>(u: F, v: F) -> V3<F> {
     V3(x, y, (F::splat(1.0) - u).sqrt())
 }
 
-/// A direction within a cone about +z, uniform; `one_minus_cos` is 1 - cos of its half angle. Density 1/(2 pi one_minus_cos).
+/// A direction within a cone about +z, uniform; `one_minus_cos` is 1 - cos of its half angle. Density 1/(2 pi
+/// one_minus_cos).
 #[inline(always)]
 pub fn cone<F: Lanes>(u: F, v: F, one_minus_cos: F) -> V3<F> {
     let (s, c) = sincos_turns(v);

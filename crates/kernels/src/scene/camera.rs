@@ -4,8 +4,8 @@ use glam::DVec3;
 
 /// A thin-lens camera (a pinhole when the lens has no radius).
 ///
-/// A point of the picture plane is `forward + x right + y up` from the eye, with x, y from -1 to 1 times the half extents that are
-/// already multiplied into `right` and `up`.
+/// A point of the picture plane is `forward + x right + y up` from the eye, with x, y from -1 to 1 times the half
+/// extents that are already multiplied into `right` and `up`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Eye.
@@ -24,8 +24,8 @@ pub struct Camera {
     pub filter: Filter,
 }
 
-/// The pixel's reconstruction filter: samples are placed by its density, so each has weight one (filter importance sampling:
-/// Ernst, Stamminger, Greiner 2006).
+/// The pixel's reconstruction filter: samples are placed by its density, so each has weight one (filter importance
+/// sampling: Ernst, Stamminger, Greiner 2006).
 #[derive(Clone, Debug, Copy, PartialEq)]
 pub enum Filter {
     /// Every sample through the pixel's centre.
@@ -39,8 +39,8 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// How far from its centre, along either axis, a pixel's filter counts for light paths, in pixels. What it has beyond is left to
-    /// paths: a light path should not fall onto more than a few pixels.
+    /// How far from its centre, along either axis, a pixel's filter counts for light paths, in pixels. What it has
+    /// beyond is left to paths: a light path should not fall onto more than a few pixels.
     pub fn reach(self) -> f32 {
         let reach = match self {
             Filter::Centre => 0.0,

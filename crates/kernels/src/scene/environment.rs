@@ -5,8 +5,8 @@ use glam::DVec3;
 /// A picture of all directions (latitude by longitude), in render space, whose directions are the world's.
 ///
 /// With right, up and front as axes, direction d lies in column (1/2 + atan2(d.right, d.front) / 2 pi) width and row
-/// acos(d.up) / pi height, row 0 at the top. Radiance lies linearly between the middles of the four nearest texels, round the picture's left
-/// and right border, and goes on as it is beyond the middles of the top and the bottom row.
+/// acos(d.up) / pi height, row 0 at the top. Radiance lies linearly between the middles of the four nearest texels,
+/// round the picture's left and right border, and goes on as it is beyond the middles of the top and the bottom row.
 pub struct Environment {
     /// Texels across.
     pub width: u32,
@@ -22,7 +22,8 @@ pub struct Environment {
     pub density: Density,
 }
 
-/// Density of directions, the same in all of the solid angle of each of columns x rows equal cells of the picture: as the light in and beside it.
+/// Density of directions, the same in all of the solid angle of each of columns x rows equal cells of the picture: as
+/// the light in and beside it.
 pub struct Density {
     pub columns: u32,
     pub rows: u32,
@@ -38,8 +39,8 @@ pub struct Density {
 const MOST_CELLS: [u32; 2] = [1024, 512];
 
 impl Environment {
-    /// Of texels in `Scene::radiance_unit`, row by row, row 0 at `up`. `rotation` turns it about `up`, in degrees, counter-clockwise seen
-    /// from there.
+    /// Of texels in `Scene::radiance_unit`, row by row, row 0 at `up`. `rotation` turns it about `up`, in degrees,
+    /// counter-clockwise seen from there.
     pub fn new(
         [width, height]: [u32; 2],
         texels: &[[f32; 3]],
@@ -65,7 +66,8 @@ impl Environment {
 /// Right, up and front: +x, +y and -z, brought to `up` by the least turn, and turned about it.
 fn axes(up: DVec3, degrees: f64) -> [DVec3; 3] {
     let up = up.normalize_or(DVec3::Y);
-    // The least turn from +y: v + (a x v) + a x (a x v) / (1 + cos) with a = y x up; half a turn about z where `up` is -y.
+    // The least turn from +y: v + (a x v) + a x (a x v) / (1 + cos) with a = y x up; half a turn about z where `up` is
+    // -y.
     let a = DVec3::Y.cross(up);
     let turned = |v: DVec3| {
         if up.y <= -1.0 + 1e-12 {

@@ -12,8 +12,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Chooses the frame. `marks` is one point per object, on its surface, near what the camera looks at; their median is the
-    /// origin (a single far or huge object does not move it), and the largest distance of a mark or the eye from it is about one.
+    /// Chooses the frame. `marks` is one point per object, on its surface, near what the camera looks at; their median
+    /// is the origin (a single far or huge object does not move it), and the largest distance of a mark or the eye from
+    /// it is about one.
     pub fn choose(eye: DVec3, marks: &[DVec3]) -> Self {
         let median = |axis: usize| {
             let mut values: Vec<f64> = marks.iter().map(|m| m[axis]).collect();

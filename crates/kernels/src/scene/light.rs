@@ -105,13 +105,15 @@ pub struct LightTable {
     pub len: u32,
     /// Number of spheres among them.
     pub spheres: u32,
-    /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it shines inwards, else 0.
+    /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it
+    /// shines inwards, else 0.
     pub rows: Table<9>,
     /// Of the others, at least one row.
     pub flat: Table<{ LightTable::FLAT }>,
-    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius and
-    /// power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and 1 for
-    /// [`LightTable::FEW`] lights at most, FEW / n for n; then the unit normal of a light with one side, and 0, else zeros and 1.
+    /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius
+    /// and power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and
+    /// 1 for [`LightTable::FEW`] lights at most, FEW / n for n; then the unit normal of a light with one side, and 0,
+    /// else zeros and 1.
     pub tree: Vec<f32>,
     /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
     pub trail: Vec<u32>,
@@ -125,7 +127,8 @@ pub struct LightTable {
 struct Emitter {
     center: DVec3,
     radius: f64,
-    /// Radiant intensity but for a factor, the largest of all directions: for spheres radius^2 times the sum of the channels.
+    /// Radiant intensity but for a factor, the largest of all directions: for spheres radius^2 times the sum of the
+    /// channels.
     power: f64,
     /// Normal of the only side that shines.
     normal: Option<DVec3>,
@@ -233,8 +236,8 @@ impl LightTable {
         row
     }
 
-    /// How far off its plane rays start and end, and the bits of a flat light: twice the bound of a hit's error there (see `stages::surface`),
-    /// so that they do not meet it.
+    /// How far off its plane rays start and end, and the bits of a flat light: twice the bound of a hit's error there
+    /// (see `stages::surface`), so that they do not meet it.
     pub fn offset_and_flags(flat: &FlatLight, triangle: u32) -> (f32, u32) {
         let [a, b] = flat.edges;
         let corners = [flat.corner, flat.corner + a, flat.corner + b, flat.corner + a + b];
@@ -244,7 +247,8 @@ impl LightTable {
     }
 }
 
-/// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their number.
+/// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their
+/// number.
 struct Builder<'a> {
     emitters: &'a [Emitter],
     tree: Vec<f32>,

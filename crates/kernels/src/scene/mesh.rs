@@ -21,7 +21,8 @@ pub struct Instance {
     pub material: u32,
     /// Its object's place in the scene.
     pub object: u32,
-    /// Rows of the 3x4 matrix from the mesh's frame to render space; `None`: the mesh is in render space already (it is placed once).
+    /// Rows of the 3x4 matrix from the mesh's frame to render space; `None`: the mesh is in render space already (it is
+    /// placed once).
     pub placement: Option<[[f32; 4]; 3]>,
 }
 
@@ -42,8 +43,8 @@ pub struct Triangles {
     pub uv_indices: Vec<[u32; 3]>,
     /// Material per triangle (index into `Scene::materials`), where the instance names none.
     pub material: Vec<u32>,
-    /// Index into `Scene::lights` per triangle, [`NONE`] where it does not shine; none beyond the last one that does. Meshes that
-    /// shine are in render space.
+    /// Index into `Scene::lights` per triangle, [`NONE`] where it does not shine; none beyond the last one that does.
+    /// Meshes that shine are in render space.
     pub light: Vec<u32>,
 }
 
@@ -73,8 +74,8 @@ impl Triangles {
 /// Instances as the engine reads them: index = instance.
 #[derive(Default)]
 pub struct InstanceTable {
-    /// Rows of the 3x4 matrices to render space, 12 numbers per instance (the identity where the mesh is there already); empty when
-    /// no instance is placed by a matrix.
+    /// Rows of the 3x4 matrices to render space, 12 numbers per instance (the identity where the mesh is there
+    /// already); empty when no instance is placed by a matrix.
     pub matrices: Vec<f32>,
     /// The material of the whole instance, or [`NONE`]; empty as `matrices`.
     pub material: Vec<u32>,

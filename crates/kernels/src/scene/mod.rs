@@ -2,8 +2,9 @@
 //! cannot fail. Its public fields are for looking at: the engine reads the tables beside them, which are not built
 //! anew when a field is changed.
 //!
-//! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of two so
-//! that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however large the scene is.
+//! Render space is the person's world, moved so that the middle of what is seen is the origin and scaled by a power of
+//! two so that its size is about one ([`Frame`]): single precision is then spent where it counts, wherever and however
+//! large the scene is.
 
 mod camera;
 mod environment;
@@ -71,7 +72,8 @@ pub struct Scene {
     pub seed: u32,
     /// Whether the pixels of a block share what they find, unless the caller says otherwise.
     pub reuse: Sharing,
-    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says otherwise.
+    /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says
+    /// otherwise.
     pub caustics: bool,
     /// The most that the largest channel of a sample counts, unless the caller says otherwise; `None`: no limit.
     pub clamp: Option<f32>,
@@ -81,12 +83,12 @@ pub struct Scene {
     pub time: Option<f64>,
     /// What is kept of what camera rays hit first, unless the caller says otherwise.
     pub layers: crate::layers::LayerSet,
-    /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or background is from
-    /// 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All of a film that is read is
-    /// in W/(sr m^2) again.
+    /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or
+    /// background is from 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All
+    /// of a film that is read is in W/(sr m^2) again.
     pub radiance_unit: f64,
-    /// Radiance of everything that no object covers, in `radiance_unit`, where it is the same in all directions; black where it is
-    /// [`Scene::environment`].
+    /// Radiance of everything that no object covers, in `radiance_unit`, where it is the same in all directions; black
+    /// where it is [`Scene::environment`].
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
@@ -140,9 +142,9 @@ impl Scene {
         self.tables.patterns.patterns.get(index as usize)
     }
 
-    /// Rows of the 3x4 matrix from render space to the coordinates that a surface is written in, before its transforms; `body`: the number of
-    /// the sphere, behind the spheres that of the shape, behind those that of the instance; `None`: to the world's. `None` where no pattern
-    /// asks for it.
+    /// Rows of the 3x4 matrix from render space to the coordinates that a surface is written in, before its transforms;
+    /// `body`: the number of the sphere, behind the spheres that of the shape, behind those that of the instance;
+    /// `None`: to the world's. `None` where no pattern asks for it.
     pub fn to_object(&self, body: Option<u32>) -> Option<[[f64; 4]; 3]> {
         let patterns = &self.tables.patterns;
         let entry = body.map_or(Some(0), |body| patterns.entry.get(body as usize).copied())?;

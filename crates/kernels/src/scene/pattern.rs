@@ -263,7 +263,8 @@ pub struct PatternTable {
     pub solid: bool,
     /// Per sphere, behind them per shape, behind them per instance: which matrix of `to_object`.
     pub entry: Vec<u32>,
-    /// Rows of the 3x4 matrices from render space to the coordinates that something is written in, 12 numbers each; the first is to the world's.
+    /// Rows of the 3x4 matrices from render space to the coordinates that something is written in, 12 numbers each; the
+    /// first is to the world's.
     pub to_object: Vec<f32>,
     /// What each is.
     pub patterns: Vec<Pattern>,

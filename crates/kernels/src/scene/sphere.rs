@@ -1,14 +1,15 @@
 //! Spheres, held so that f32 is enough for any radius.
 //!
-//! A sphere is a point P on its surface (the nearest to the origin), the outward unit normal N there and the curvature k = 1/r,
-//! found in f64. With g = o - P a ray o + t d (d unit) meets it where k t^2 + 2 beta t + gamma = 0,
-//! beta = N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Where every ray is to test a sphere, there are two forms:
+//! A sphere is a point P on its surface (the nearest to the origin), the outward unit normal N there and the curvature
+//! k = 1/r, found in f64. With g = o - P a ray o + t d (d unit) meets it where k t^2 + 2 beta t + gamma = 0, beta =
+//! N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Where every ray is to test a sphere, there are
+//! two forms:
 //!
-//! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d + m.d with m = N - k P and
-//!   c = k P.P - 2 N.P: eight fused operations;
-//! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther, Akenine-Moeller: Precision
-//!   Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations of the same about P, and as exact where r is
-//!   small against the scene.
+//! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d +
+//!   m.d with m = N - k P and c = k P.P - 2 N.P: eight fused operations;
+//! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther,
+//!   Akenine-Moeller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations
+//!   of the same about P, and as exact where r is small against the scene.
 
 use super::table::Table;
 use glam::DVec3;

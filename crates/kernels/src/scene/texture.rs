@@ -3,7 +3,8 @@
 /// The colours of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Texels {
-    /// Of an 8-bit file: sRGB, packed as `0x00BBGGRR`; [`SRGB_TO_LINEAR`](crate::srgb::SRGB_TO_LINEAR) decodes each byte.
+    /// Of an 8-bit file: sRGB, packed as `0x00BBGGRR`; [`SRGB_TO_LINEAR`](crate::srgb::SRGB_TO_LINEAR) decodes each
+    /// byte.
     Srgb8(Vec<u32>),
     /// Of a 16-bit file: linear RGB in 0 to 1, sRGB already decoded.
     Linear(Vec<[f32; 3]>),
@@ -57,7 +58,8 @@ pub struct TextureTable {
     pub nearest: Vec<u32>,
     /// 0 repeat, 1 clamp, 2 mirror.
     pub wrap: Vec<u32>,
-    /// Six numbers a texture: the rows of the matrix from a surface's (u, v, 1) to the texture's; empty where all are used as they are.
+    /// Six numbers a texture: the rows of the matrix from a surface's (u, v, 1) to the texture's; empty where all are
+    /// used as they are.
     pub mapping: Vec<f32>,
     /// How each is looked up, as the scene says it.
     pub uses: Vec<TextureUse>,

@@ -1,5 +1,5 @@
-//! The JSON of a glTF file. Elements of its lists are kept as text and read when they are asked for: what nobody asks for costs next to
-//! nothing, and every fault knows its place.
+//! The JSON of a glTF file. Elements of its lists are kept as text and read when they are asked for: what nobody asks
+//! for costs next to nothing, and every fault knows its place.
 
 use crate::cursor::{Fault, shown};
 use serde::Deserialize;

@@ -1,17 +1,19 @@
-//! glTF 2.0 (Khronos, "glTF 2.0 Specification", 2021), as text (`.gltf`) and in its binary container (`.glb`): the triangles of the
-//! default scene, in the frame of the scene.
+//! glTF 2.0 (Khronos, "glTF 2.0 Specification", 2021), as text (`.gltf`) and in its binary container (`.glb`): the
+//! triangles of the default scene, in the frame of the scene.
 //!
-//! - The default scene; without one the first, without scenes all nodes that are nobody's children, without nodes all meshes. Nodes with
-//!   `matrix` or translation, rotation and scale; a mirrored node's triangles are wound the other way, as the specification asks.
-//! - Triangles, strips and fans; `POSITION`, `NORMAL`, `TEXCOORD_0` (its v runs downwards, ours upwards), indices; accessors of all types,
-//!   interleaved, sparse, normalized. Buffers: of the container, `data:` URIs, files beside the mesh.
-//! - The required extension that is known is `KHR_mesh_quantization`; those of materials, textures and lights are passed over. Another is an
-//!   error `E0513`.
-//! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`, materials in `W0511`: the mesh has the
-//!   default.
+//! - The default scene; without one the first, without scenes all nodes that are nobody's children, without nodes all
+//!   meshes. Nodes with `matrix` or translation, rotation and scale; a mirrored node's triangles are wound the other
+//!   way, as the specification asks.
+//! - Triangles, strips and fans; `POSITION`, `NORMAL`, `TEXCOORD_0` (its v runs downwards, ours upwards), indices;
+//!   accessors of all types, interleaved, sparse, normalized. Buffers: of the container, `data:` URIs, files beside the
+//!   mesh.
+//! - The required extension that is known is `KHR_mesh_quantization`; those of materials, textures and lights are
+//!   passed over. Another is an error `E0513`.
+//! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`, materials in `W0511`: the
+//!   mesh has the default.
 //!
-//! A few bytes of a file may say that a mesh stands in a million places, or a million zeros: what all of it takes is at most
-//! 256 MB more than nine times the file with its buffers.
+//! A few bytes of a file may say that a mesh stands in a million places, or a million zeros: what all of it takes is at
+//! most 256 MB more than nine times the file with its buffers.
 
 mod accessor;
 mod document;
@@ -103,7 +105,8 @@ fn number(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 impl<'a> Parts<'a> {
-    /// Of a file that starts with `glTF`: version and length, then chunks, each with its length, its kind and its bytes.
+    /// Of a file that starts with `glTF`: version and length, then chunks, each with its length, its kind and its
+    /// bytes.
     fn of_container(bytes: &'a [u8]) -> Result<Parts<'a>, Box<Fault>> {
         const HEADER: usize = 12;
         const CHUNK: usize = 8;

@@ -1,17 +1,19 @@
 //! MTL, the materials of OBJ files, turned into materials of the scene language.
 //!
-//! | MTL | material |
-//! | --- | --- |
-//! | `illum` 4, 6, 7 or 9, or `d` < 1 (or `Tr` > 0 without `d`) | transparent: `ior` = `Ni` (1.5 if absent), `transmittance` = `Tf` |
-//! | else `illum` 3 or 5, and `Ks` not black | mirror: `reflectance` = `Ks` (1 if absent) |
-//! | else `Ks` not black and `Ns` > 0, and `illum` not 0 or 1 | Blinn-Phong: `albedo` = `Kd` + `Ks`, `specular` = the share of `Ks` in it, `exponent` = `Ns`, 1 to 100000 |
-//! | else | diffuse: `albedo` = `Kd` (0.8 if absent) |
+//! What is true first, counts:
 //!
-//! Colours are taken as linear RGB. A picture of `map_Kd` replaces the albedo. `Ka` and `map_Ka` stand for indirect light,
-//! which is computed here, and are passed over. What goes beyond this (other statements and maps, partial opacity, a tint
-//! of the picture, values out of range, which are clipped) is told in one warning `W0511` per mesh, as are missing MTL
-//! files, materials and pictures: the mesh renders without them. A broken MTL file is an error. Only materials that faces
-//! use are turned.
+//! - `illum` 4, 6, 7 or 9, or `d` < 1 (or `Tr` > 0 without `d`): transparent, `ior` = `Ni` (1.5 if absent),
+//!   `transmittance` = `Tf`;
+//! - `illum` 3 or 5, and `Ks` not black: a mirror, `reflectance` = `Ks` (1 if absent);
+//! - `Ks` not black and `Ns` > 0, and `illum` not 0 or 1: Blinn-Phong, `albedo` = `Kd` + `Ks`, `specular` = the share
+//!   of `Ks` in it, `exponent` = `Ns`, 1 to 100000;
+//! - else diffuse, `albedo` = `Kd` (0.8 if absent).
+//!
+//! Colours are taken as linear RGB. A picture of `map_Kd` replaces the albedo. `Ka` and `map_Ka` stand for indirect
+//! light, which is computed here, and are passed over. What goes beyond this (other statements and maps, partial
+//! opacity, a tint of the picture, values out of range, which are clipped) is told in one warning `W0511` per mesh, as
+//! are missing MTL files, materials and pictures: the mesh renders without them. A broken MTL file is an error. Only
+//! materials that faces use are turned.
 
 mod library;
 
@@ -106,8 +108,8 @@ fn library_paths(libraries: &[&str], obj_path: &Path, notes: &mut Notes) -> Vec<
     paths
 }
 
-/// A file named in another one: from that one's folder, with backslashes for slashes, or by its bare name beside it (MTL
-/// files often keep the paths of their author's machine).
+/// A file named in another one: from that one's folder, with backslashes for slashes, or by its bare name beside it
+/// (MTL files often keep the paths of their author's machine).
 fn find_beside(path: &Path, name: &str) -> Option<PathBuf> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let slashed = name.replace('\\', "/");

@@ -315,8 +315,8 @@ impl Lookup<'_> {
     }
 }
 
-/// Replaces `indices` by those of the corners of one face, [`NO_INDEX`] where a corner has none; the error is the number
-/// of the first corner whose index does not exist.
+/// Replaces `indices` by those of the corners of one face, [`NO_INDEX`] where a corner has none; the error is the
+/// number of the first corner whose index does not exist.
 fn resolve(raw: &[RawIndex], before: usize, total: usize, indices: &mut Vec<u32>) -> Result<(), usize> {
     indices.clear();
     for (corner, &index) in raw.iter().enumerate() {

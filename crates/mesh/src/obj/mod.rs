@@ -1,4 +1,5 @@
-//! Wavefront OBJ, as the specification of Advanced Visualizer 4.2 (appendix B1) describes polygons, and as programs write it.
+//! Wavefront OBJ, as the specification of Advanced Visualizer 4.2 (appendix B1) describes polygons, and as programs
+//! write it.
 //!
 //! - `v` with 3 coordinates, a weight, or a colour (both ignored, counted); `vt` with 1 to 3 numbers; `vn`.
 //! - `f` (and the old `fo`) in all forms of corners: `1`, `1/2`, `1//3`, `1/2/3`, counted from 1, or back from here if
@@ -7,8 +8,8 @@
 //! - `l`, `p` and all other statements are counted in one warning.
 //! - A backslash at the end of a line goes on in the next one.
 //!
-//! The text is cut into pieces of fixed size at line breaks; the pieces are parsed in parallel, and joined in their order.
-//! Of several faults in a file, the first bad statement is told, and a bad index only when there is none.
+//! The text is cut into pieces of fixed size at line breaks; the pieces are parsed in parallel, and joined in their
+//! order. Of several faults in a file, the first bad statement is told, and a bad index only when there is none.
 
 mod assemble;
 mod piece;

@@ -24,7 +24,8 @@ impl RawIndex {
     /// The corner has none.
     pub(super) const NONE: RawIndex = RawIndex(u32::MAX);
 
-    /// Set: counted from the piece's first element, plus `BIAS` (it may lie in an earlier piece). Clear: from the file's.
+    /// Set: counted from the piece's first element, plus `BIAS` (it may lie in an earlier piece). Clear: from the
+    /// file's.
     const RELATIVE: u32 = 1 << 31;
     const BIAS: i64 = 1 << 30;
 

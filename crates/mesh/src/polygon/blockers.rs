@@ -30,7 +30,8 @@ struct Span {
 }
 
 impl BlockerGrid {
-    /// Notes that a corner was cut off, if it was here at all; says when so many were that they cost more than a new grid.
+    /// Notes that a corner was cut off, if it was here at all; says when so many were that they cost more than a new
+    /// grid.
     pub(super) fn is_stale_after_removing(&mut self, corner: u32) -> bool {
         self.removed += usize::from(self.holds[corner as usize]);
         // The square root of the number of corners balances the tests of dead ones against the work of a new grid.

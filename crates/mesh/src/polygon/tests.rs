@@ -10,8 +10,8 @@ fn area(corners: &[[f64; 3]]) -> f64 {
     corners.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
 }
 
-/// Cuts, and asserts that the triangles have the polygon's winding, its area in sum (so they do not overlap), every corner
-/// as a corner, and each border edge exactly once in its direction with all inner edges paired.
+/// Cuts, and asserts that the triangles have the polygon's winding, its area in sum (so they do not overlap), every
+/// corner as a corner, and each border edge exactly once in its direction with all inner edges paired.
 fn assert_cut_well(corners: &[[f64; 3]]) {
     let mut cutter = PolygonCutter::default();
     let cut = cutter.cut(corners.iter().copied()).expect("not too intricate");
@@ -154,8 +154,8 @@ fn tilted_and_far_polygons_are_cut_as_well() {
 #[test]
 fn bent_quadrilaterals_are_cut_along_the_smaller_fold() {
     let mut cutter = PolygonCutter::default();
-    // A concave one, bent; and a strip so twisted that its halves nearly stand at right angles (cosines of the folds: 0.05
-    // along 0 2, -0.01 along 1 3).
+    // A concave one, bent; and a strip so twisted that its halves nearly stand at right angles (cosines of the folds:
+    // 0.05 along 0 2, -0.01 along 1 3).
     let concave = [[0.0, 0.0, 0.0], [1.0, 0.4, 0.3], [2.0, 0.0, 0.0], [1.0, 2.0, 0.0]];
     let twisted = [[0.0, 0.0, 0.0], [10.0, 0.0, 1.0], [9.0, 0.1, -1.0], [0.0, 1.0, 0.0]];
     for (corners, expected) in [(concave, [[1, 2, 3], [1, 3, 0]]), (twisted, [[0, 1, 2], [0, 2, 3]])] {

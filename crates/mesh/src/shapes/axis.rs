@@ -5,15 +5,16 @@
 use super::path::{Point3, dot, unit};
 use crate::data::MeshData;
 
-/// Directions nearer to the y axis than this have (1, 0, 0) to their right: as of a `Disk` and a sphere's texture coordinates.
+/// Directions nearer to the y axis than this have (1, 0, 0) to their right: as of a `Disk` and a sphere's texture
+/// coordinates.
 const UPRIGHT: f64 = 0.9999;
 
 fn cross(a: Point3, b: Point3) -> Point3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The mesh with its y axis along another direction, of any length but zero, and its origin somewhere else. Its x axis goes to the right of
-/// that direction, (0, 1, 0) x it.
+/// The mesh with its y axis along another direction, of any length but zero, and its origin somewhere else. Its x axis
+/// goes to the right of that direction, (0, 1, 0) x it.
 pub fn stand(mut mesh: MeshData, origin: Point3, axis: Point3) -> MeshData {
     let y = unit(axis).unwrap_or([0.0, 1.0, 0.0]);
     let x = if y[1].abs() > UPRIGHT { None } else { unit(cross([0.0, 1.0, 0.0], y)) };

@@ -1,8 +1,8 @@
 //! Shapes of the scene language that become triangles: a file each, and a line each in the registry below.
 //!
-//! Corners, normals and texture coordinates are in the frame that the shape is written in. Normals are those of the surface itself, so that
-//! it is shaded as round; where it turns by more than 40 degrees it has an edge. Edges are shared by number, not by place: what is
-//! closed has no gap.
+//! Corners, normals and texture coordinates are in the frame that the shape is written in. Normals are those of the
+//! surface itself, so that it is shaded as round; where it turns by more than 40 degrees it has an edge. Edges are
+//! shared by number, not by place: what is closed has no gap.
 
 mod arrow;
 mod axis;
@@ -37,7 +37,8 @@ pub trait Triangulated: Sync {
         None
     }
 
-    /// Its triangles, counter-clockwise seen from its front, which of closed ones is the outside. `span`: where it stands in the scene.
+    /// Its triangles, counter-clockwise seen from its front, which of closed ones is the outside. `span`: where it
+    /// stands in the scene.
     ///
     /// # Errors
     /// The diagnostic that says why there are none: it has no extent (`E0542`), its outline bounds no face (`E0545`),

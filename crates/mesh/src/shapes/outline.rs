@@ -1,8 +1,10 @@
-//! Plane faces with holes, cut into triangles whose corners are the points of their rings and whose sides are sides of rings or lie within.
+//! Plane faces with holes, cut into triangles whose corners are the points of their rings and whose sides are sides of
+//! rings or lie within.
 //!
-//! By the constrained Delaunay triangulation of the crate `spade`, which decides by exact arithmetic: no triangle is without area, and no corner
-//! lies on another's side, so that what joins the face at its rings joins it without a gap. [`crate::polygon`] cuts faces of meshes, which may be
-//! bent and cross themselves, and leaves out triangles without area.
+//! By the constrained Delaunay triangulation of the crate `spade`, which decides by exact arithmetic: no triangle is
+//! without area, and no corner lies on another's side, so that what joins the face at its rings joins it without a gap.
+//! [`crate::polygon`] cuts faces of meshes, which may be bent and cross themselves, and leaves out triangles without
+//! area.
 
 #![expect(clippy::indexing_slicing, reason = "faces and points are numbered by the triangulation")]
 
@@ -52,8 +54,9 @@ enum Place {
     Hole(usize),
 }
 
-/// Cuts the face within the first ring and outside of the others. Each is three points or more, the last of which is not the first again, either way
-/// round. Gives the corners of each triangle, counter-clockwise, by their numbers through all rings.
+/// Cuts the face within the first ring and outside of the others. Each is three points or more, the last of which is
+/// not the first again, either way round. Gives the corners of each triangle, counter-clockwise, by their numbers
+/// through all rings.
 pub fn fill(rings: &[Vec<Point>]) -> Result<Vec<[u32; 3]>, Fault> {
     let points: Vec<Point> = rings.iter().flatten().copied().collect();
     let ring_of: Vec<usize> = rings.iter().enumerate().flat_map(|(k, ring)| ring.iter().map(move |_| k)).collect();

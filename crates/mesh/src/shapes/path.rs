@@ -1,4 +1,5 @@
-//! Points, of a plane or of space, joined by straight lines or by a curve, cut into straight pieces that know the curve's directions.
+//! Points, of a plane or of space, joined by straight lines or by a curve, cut into straight pieces that know the
+//! curve's directions.
 
 #![expect(clippy::indexing_slicing, reason = "points are numbered by the path itself")]
 
@@ -81,7 +82,8 @@ pub fn extent(points: &[Point]) -> f64 {
     along(0).max(along(1))
 }
 
-/// Cuts the path through these points, no two neighbours of which are equal, into pieces that turn by at most `step` (radians) each.
+/// Cuts the path through these points, no two neighbours of which are equal, into pieces that turn by at most `step`
+/// (radians) each.
 pub fn pieces<const N: usize>(points: &[[f64; N]], ends: Ends, curve: Curve, step: f64) -> Vec<Piece<N>> {
     let count = points.len();
     let spans = if ends == Ends::Joined { count } else { count - 1 };
@@ -120,8 +122,8 @@ struct Span<const N: usize> {
 }
 
 impl<const N: usize> Span<N> {
-    /// Centripetal Catmull-Rom between the two points in the middle (Yuksel, Schaefer, Keyser: "Parameterization and applications of
-    /// Catmull-Rom curves", 2011), as Hermite's cubic.
+    /// Centripetal Catmull-Rom between the two points in the middle (Yuksel, Schaefer, Keyser: "Parameterization and
+    /// applications of Catmull-Rom curves", 2011), as Hermite's cubic.
     fn new([a, b, c, d]: [[f64; N]; 4]) -> Self {
         let knots = [sub(b, a), sub(c, b), sub(d, c)].map(|side| length(side).sqrt());
         let slope = |axis: usize, p: [[f64; N]; 3], [first, second]: [f64; 2]| {

@@ -1,11 +1,11 @@
-//! What is closed is closed, its front is outside, and vertices, normals and texture coordinates are those of the surface itself.
+//! What is closed is closed, its front is outside, and vertices, normals and texture coordinates are those of the
+//! surface itself.
+
+mod round;
 
 use super::*;
 use crate::NO_INDEX;
-use scene_format::desc::{
-    Arrow, Corners, Curve, Extrude, Lathe, MaterialRef, Name, Outline, PathPoints, Placements, Polygon, Profile, Radii,
-    Torus, Tube,
-};
+use scene_format::desc::{Corners, Curve, Extrude, Lathe, MaterialRef, Name, Outline, Placements, Polygon, Profile};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
@@ -50,7 +50,8 @@ fn open_edges(mesh: &MeshData) -> usize {
     edges.values().filter(|ways| **ways != 0).count()
 }
 
-/// What holds for every mesh: triangles have an area, all that they name is there, normals are of unit length and on the front.
+/// What holds for every mesh: triangles have an area, all that they name is there, normals are of unit length and on
+/// the front.
 fn check(mesh: &MeshData) {
     let normals = mesh.normal_triangles.as_ref().unwrap_or(&mesh.triangles);
     let uvs = mesh.uv_triangles.as_ref().unwrap_or(&mesh.triangles);
@@ -85,7 +86,8 @@ fn made(shape: &dyn Triangulated) -> MeshData {
     mesh
 }
 
-/// A cone, a ring with a square section, a spindle that meets the axis in the middle, a wine glass; each also written the other way.
+/// A cone, a ring with a square section, a spindle that meets the axis in the middle, a wine glass; each also written
+/// the other way.
 #[test]
 fn closed_lathes_have_no_gap_and_face_outwards() {
     let cone: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
@@ -115,8 +117,8 @@ fn closed_lathes_have_no_gap_and_face_outwards() {
     }
 }
 
-/// Vertices lie on circles about the axis; normals are those of the cone that a line turns into; u is the longitude that has its middle at
-/// +z, v the length along the profile.
+/// Vertices lie on circles about the axis; normals are those of the cone that a line turns into; u is the longitude
+/// that has its middle at +z, v the length along the profile.
 #[test]
 fn vertices_of_lathes_are_those_of_the_surface() {
     let mesh = made(&lathe(&[[1.0, -1.0], [2.0, 1.0]], Curve::Linear, 64));
@@ -141,13 +143,14 @@ fn vertices_of_lathes_are_those_of_the_surface() {
     }
 }
 
-/// How far a normal may be turned where a curve leaves a circle by `off` half way over an angle of 2h: it does so by about
-/// 16 off t^2 (1-t)^2, which is never steeper than 3.08 off/2h; a quarter more for what is not in that.
+/// How far a normal may be turned where a curve leaves a circle by `off` half way over an angle of 2h: it does so by
+/// about 16 off t^2 (1-t)^2, which is never steeper than 3.08 off/2h; a quarter more for what is not in that.
 fn turned_by(off: f64, h: f64) -> f64 {
     2.0 * off / h
 }
 
-/// A half circle of points of a sphere, as a curve: off the sphere by little, and its normals are the radii, also at the poles.
+/// A half circle of points of a sphere, as a curve: off the sphere by little, and its normals are the radii, also at
+/// the poles.
 #[test]
 fn a_curved_profile_is_round() {
     let profile: Vec<[f64; 2]> = (0..=12)
@@ -162,7 +165,8 @@ fn a_curved_profile_is_round() {
     for (triangle, normals) in mesh.triangles.iter().zip(normals) {
         for (&p, &n) in triangle.iter().zip(normals) {
             let (p, n) = (mesh.positions[p as usize], mesh.normals[n as usize].map(f64::from));
-            // Half way between points 2h apart the curve is at cos h + sin 2h sin h/4, with h 7.5 degrees: nowhere is it farther off.
+            // Half way between points 2h apart the curve is at cos h + sin 2h sin h/4, with h 7.5 degrees: nowhere is
+            // it farther off.
             let h = PI / 24.0;
             let off = 1.0 - (libm::cos(h) + libm::sin(2.0 * h) * libm::sin(h) / 4.0);
             assert!((dot(p, p).sqrt() - 1.0).abs() < off + 1e-12, "{p:?}");
@@ -358,238 +362,4 @@ fn what_makes_no_polygon_is_told() {
         "{}",
         told(&crossing)
     );
-}
-
-fn tube(points: &[[f64; 3]], radius: Radii, curve: Curve, closed: bool) -> Tube {
-    Tube {
-        points: PathPoints(points.to_vec()).into(),
-        radius: radius.into(),
-        curve,
-        closed,
-        segments: 32.into(),
-        material: MaterialRef::Default,
-        transform: Vec::new(),
-        placements: Placements::One,
-        name: Name::default(),
-    }
-}
-
-/// How far outside of all balls along straight pieces a point lies, at least; the balls' radii change evenly.
-fn outside(at: Vector, points: &[Vector], radii: &[f64], closed: bool) -> f64 {
-    let spans = if closed { points.len() } else { points.len() - 1 };
-    let of = |k: usize| {
-        let (a, b) = (points[k], points[(k + 1) % points.len()]);
-        let (r, s) = (radii[k], radii[(k + 1) % points.len()]);
-        let [to, from] = [b, at].map(|p| [0, 1, 2].map(|axis| p[axis] - a[axis]));
-        let way = dot(to, to).sqrt();
-        let (x, slope) = (dot(from, to) / way, (s - r) / way);
-        // The nearest ball's middle lies where the normal leads.
-        let y = (dot(from, from) - x * x).max(0.0).sqrt();
-        let t = (x + y * slope / (1.0 - slope * slope).sqrt()).clamp(0.0, way);
-        (y * y + (x - t) * (x - t)).sqrt() - (r + slope * t)
-    };
-    (0..spans).map(of).fold(f64::INFINITY, f64::min)
-}
-
-/// Vertices lie on the balls' envelope: elbows, round ends, closed paths, radii that change; nothing is open or inside out.
-#[test]
-fn tubes_are_what_balls_pass_over() {
-    let bent: &[Vector] = &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.5], [0.5, 3.0, 1.5], [3.0, 4.0, 2.0]];
-    let straight: &[Vector] = &[[0.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
-    let ring: &[Vector] = &[[2.0, 0.0, 0.0], [0.0, 0.3, 2.0], [-2.0, 0.0, 0.0], [0.0, -0.4, -2.0]];
-    for (points, closed) in [(bent, false), (straight, false), (ring, true)] {
-        let tube = tube(points, Radii::All(0.3), Curve::Linear, closed);
-        let mesh = made(&tube);
-        check(&mesh);
-        assert_eq!(open_edges(&mesh), 0, "{points:?}");
-        assert!(volume(&mesh) > 0.0);
-        let radii = vec![0.3; points.len()];
-        for &at in &mesh.positions {
-            let off = outside(at, points, &radii, closed);
-            assert!(off.abs() < 1e-12, "{at:?} is off by {off}: {points:?}");
-        }
-    }
-    // A capsule: the volume of a prism and two polyhedra within the ball, whose chords of 1/32 of the turn take 0.6 % at most.
-    let mesh = made(&tube(straight, Radii::All(0.3), Curve::Linear, false));
-    let truth = PI * 0.09 * (3.0 + 4.0 / 3.0 * 0.3);
-    assert!((0.99..1.0).contains(&(volume(&mesh) / truth)), "{}", volume(&mesh) / truth);
-    let v = mesh.uvs.iter().map(|uv| uv[1]);
-    assert_eq!((v.clone().fold(1.0, f32::min), v.fold(0.0, f32::max)), (0.0, 1.0));
-    // Straight, with radii that change: the ends are parts of balls, the sides cones.
-    for radii in [vec![0.2, 0.6, 0.1], vec![0.5, 0.2, 0.7]] {
-        let points: &[Vector] = &[[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
-        let mesh = made(&tube(points, Radii::Each(radii.clone()), Curve::Linear, false));
-        check(&mesh);
-        assert_eq!(open_edges(&mesh), 0);
-        // Where a narrowing cone and a widening one meet, vertices lie between both, in the plane through the point.
-        let off = mesh.positions.iter().map(|&at| outside(at, points, &radii, false).abs()).fold(0.0, f64::max);
-        assert!(off < 0.02, "{off}");
-    }
-}
-
-/// A ring through eight points of a circle is nearly a torus; all curves are closed, smooth, and pass their points.
-#[test]
-fn tubes_along_curves() {
-    let circle: Vec<Vector> =
-        (0..8).map(|k| f64::from(k) * TAU / 8.0).map(|t| [2.0 * libm::cos(t), 0.0, 2.0 * libm::sin(t)]).collect();
-    let mesh = made(&tube(&circle, Radii::All(0.5), Curve::CatmullRom, true));
-    check(&mesh);
-    assert_eq!(open_edges(&mesh), 0);
-    let truth = 2.0 * PI * PI * 2.0 * 0.25;
-    assert!((volume(&mesh) / truth - 1.0).abs() < 0.02, "{}", volume(&mesh) / truth);
-    // A knot, whose frame comes back turned.
-    let knot: Vec<Vector> = (0..24)
-        .map(|k| f64::from(k) * TAU / 24.0)
-        .map(|t| {
-            let r = 2.0 + libm::cos(3.0 * t);
-            [r * libm::cos(2.0 * t), r * libm::sin(2.0 * t), libm::sin(3.0 * t)]
-        })
-        .collect();
-    let radii = (0..24).map(|k| 0.2 + 0.1 * f64::from(k % 2)).collect();
-    let mesh = made(&tube(&knot, Radii::Each(radii), Curve::CatmullRom, true));
-    check(&mesh);
-    assert_eq!(open_edges(&mesh), 0);
-    // No stripe goes round it: the seam of u is as long as the tube, not longer by turns about it.
-    let seam: Vec<Vector> = {
-        let uvs = mesh.uv_triangles.as_ref().expect("there are");
-        let mut seam: Vec<(f32, Vector)> = Vec::new();
-        for (corners, uvs) in mesh.triangles.iter().zip(uvs) {
-            for (&corner, &uv) in corners.iter().zip(uvs) {
-                let [u, v] = mesh.uvs[uv as usize];
-                if u == 0.0 {
-                    seam.push((v, mesh.positions[corner as usize]));
-                }
-            }
-        }
-        seam.sort_by(|a, b| a.0.total_cmp(&b.0));
-        seam.dedup();
-        seam.into_iter().map(|(_, at)| at).collect()
-    };
-    let way = |path: &[Vector]| -> f64 {
-        let step = |pair: &[Vector]| [0, 1, 2].map(|axis| pair[1][axis] - pair[0][axis]);
-        path.windows(2).map(|pair| dot(step(pair), step(pair)).sqrt()).sum()
-    };
-    let mut path = knot.clone();
-    path.push(knot[0]);
-    assert!((0.8..1.3).contains(&(way(&seam) / way(&path))), "{}", way(&seam) / way(&path));
-    // Radii go from one point to the next without passing beyond them.
-    let tapered = made(&tube(
-        &[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
-        Radii::Each(vec![0.3, 0.1, 0.1]),
-        Curve::CatmullRom,
-        false,
-    ));
-    let between = tapered.positions.iter().filter(|p| (1.0..2.0).contains(&p[0]));
-    assert!(between.map(|p| libm::hypot(p[1], p[2])).all(|r| (0.1 - 1e-9..0.11).contains(&r)));
-}
-
-#[test]
-fn tubes_without_a_path_are_told() {
-    let message = |tube: &Tube| {
-        let fault = tube.mesh(Span::NONE).expect_err("it is told");
-        format!("{}: {}", fault.code, fault.message)
-    };
-    let of = |points: &[Vector], radius: Radii, closed: bool| message(&tube(points, radius, Curve::Linear, closed));
-    let [a, b, c] = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
-    assert_eq!(of(&[a, a], Radii::All(1.0), false), "E0542: the path of the tube has no extent");
-    assert_eq!(of(&[a, b, a], Radii::All(0.1), true), "E0542: the path of the tube has no extent");
-    assert_eq!(
-        of(&[a, b, c], Radii::Each(vec![0.1, 1.2, 0.1]), false),
-        "E0545: of the balls of the tube at (0, 0, 0) and (1, 0, 0) one lies within the other"
-    );
-    assert_eq!(of(&[a, b, a], Radii::All(0.1), false), "E0545: the tube turns straight back at (1, 0, 0)");
-    assert_eq!(of(&[a, b], Radii::Each(vec![0.1; 3]), false), "E0206: the tube has 2 points and 3 radii");
-}
-
-fn torus(tube_radius: f64, segments: u32) -> Torus {
-    Torus {
-        center: [1.0, 2.0, 3.0].into(),
-        axis: [0.0, 3.0, 4.0].into(),
-        radius: 2.0.into(),
-        tube_radius: tube_radius.into(),
-        segments: segments.into(),
-        material: MaterialRef::Default,
-        transform: Vec::new(),
-        placements: Placements::One,
-        name: Name::default(),
-    }
-}
-
-/// Vertices, normals and texture coordinates of a torus about a leaning axis, one that closes its hole, too.
-#[test]
-fn tori() {
-    for tube in [0.5, 2.0] {
-        let mesh = made(&torus(tube, 256));
-        check(&mesh);
-        assert_eq!(open_edges(&mesh), 0, "{tube}");
-        // A polygon of n sides has sin(t)/t of its circle's area, t = 2 pi/n; the section's, turned about by another: 0.9999 squared.
-        let truth = 2.0 * PI * PI * 2.0 * tube * tube;
-        assert!((volume(&mesh) / truth - 0.9998).abs() < 1e-4, "{}", volume(&mesh) / truth);
-        let (normals, uvs) = (mesh.normal_triangles.as_ref(), mesh.uv_triangles.as_ref());
-        let (normals, uvs) = (normals.expect("there are"), uvs.expect("there are"));
-        for (corners, (normals, uvs)) in mesh.triangles.iter().zip(normals.iter().zip(uvs)) {
-            for k in 0..3 {
-                let p = mesh.positions[corners[k] as usize];
-                let [x, y, z] = [p[0] - 1.0, p[1] - 2.0, p[2] - 3.0];
-                // Along the axis, and across it: to the right is (0, 1, 0) x axis = +x, the third is right x axis = (0, -0.8, 0.6).
-                let (up, right, third) = (0.6 * y + 0.8 * z, x, -0.8 * y + 0.6 * z);
-                let out = libm::hypot(right, third);
-                assert!((libm::hypot(out - 2.0, up) - tube).abs() < 1e-9, "{p:?} is off the torus");
-                if out < 1e-9 {
-                    continue;
-                }
-                let n = mesh.normals[normals[k] as usize].map(f64::from);
-                let (n_up, n_out) =
-                    (0.6 * n[1] + 0.8 * n[2], (n[0] * right + (-0.8 * n[1] + 0.6 * n[2]) * third) / out);
-                assert!((n_up - up / tube).abs() < 1e-6 && (n_out - (out - 2.0) / tube).abs() < 1e-6);
-                let [u, v] = mesh.uvs[uvs[k] as usize].map(f64::from);
-                let wraps = |a: f64, b: f64| (a - b - (a - b).round()).abs() < 1e-6;
-                assert!(wraps(u, 0.5 + libm::atan2(right, third) / TAU), "{u}");
-                assert!(wraps(v, 0.5 + libm::atan2(up, out - 2.0) / TAU), "{v}");
-            }
-        }
-    }
-    let fault = torus(2.1, 32).mesh(Span::NONE).expect_err("it is told");
-    assert_eq!(fault.message, "the section of the torus is wider than it: its `tube_radius` is 2.1");
-}
-
-/// Arrows have shaft and head where they are written to be, whichever way they point.
-#[test]
-fn arrows() {
-    let arrow = |to: Vector, radius: f64, head: Option<[f64; 2]>| Arrow {
-        from: [1.0, 1.0, 1.0].into(),
-        to: to.into(),
-        radius: radius.into(),
-        head_radius: head.map(|[wide, _]| wide.into()),
-        head_length: head.map(|[_, long]| long.into()),
-        segments: 512.into(),
-        material: MaterialRef::Default,
-        transform: Vec::new(),
-        placements: Placements::One,
-        name: Name::default(),
-    };
-    let cases = [
-        ([1.0, 4.0, 1.0], 0.1, None, [0.25, 0.6]),
-        ([1.0, -2.0, 1.0], 0.1, Some([0.4, 1.0]), [0.4, 1.0]),
-        ([2.0, 3.0, -1.0], 0.3, None, [0.75, 1.5]),
-        ([1.00001, 4.0, 1.0], 0.1, None, [0.25, 0.6]),
-    ];
-    for (to, radius, head, [wide, long]) in cases {
-        let mesh = made(&arrow(to, radius, head));
-        check(&mesh);
-        assert_eq!(open_edges(&mesh), 0);
-        let way = [0, 1, 2].map(|k| to[k] - 1.0);
-        let whole = dot(way, way).sqrt();
-        let truth = PI * radius * radius * (whole - long) + PI * wide * wide * long / 3.0;
-        assert!((volume(&mesh) / truth - 1.0).abs() < 1e-3, "{to:?}: {} of {truth}", volume(&mesh));
-        // The tip is the vertex that is farthest along it.
-        let along = |p: &Vector| dot([0, 1, 2].map(|k| p[k] - 1.0), way) / whole;
-        let tip = mesh.positions.iter().max_by(|a, b| along(a).total_cmp(&along(b))).expect("there are");
-        assert!((0..3).all(|k| (tip[k] - to[k]).abs() < 1e-9), "{tip:?}");
-    }
-    let message = |arrow: &Arrow| arrow.mesh(Span::NONE).expect_err("it is told").message;
-    let [up, here] = [[1.0, 2.0, 1.0], [1.0, 1.0, 1.0]];
-    assert_eq!(message(&arrow(here, 0.1, None)), "the arrow begins and ends at the same point");
-    assert_eq!(message(&arrow(up, 0.1, Some([0.3, 1.0]))), "the head of the arrow is longer than it: 1");
-    assert_eq!(message(&arrow(up, 0.1, Some([0.05, 0.5]))), "the head of the arrow is thinner than its shaft: 0.05");
 }

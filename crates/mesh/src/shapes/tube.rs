@@ -1,11 +1,13 @@
 //! What a ball passes over along a path: the envelope of the balls.
 //!
-//! Where the ball's radius changes by s along a unit of the way, the circle in which the envelope touches the ball lies s times the radius
-//! behind its middle, and its normals lean back by as much: n = -s t + sqrt(1 - s^2) e, with t along the path and e across it.
+//! Where the ball's radius changes by s along a unit of the way, the circle in which the envelope touches the ball lies
+//! s times the radius behind its middle, and its normals lean back by as much: n = -s t + sqrt(1 - s^2) e, with t along
+//! the path and e across it.
 //!
-//! The circle of each joint is numbered round by a frame that turns as little as it can (double reflection: Wang, Jüttler, Zheng, Liu,
-//! "Computation of Rotation Minimizing Frames", 2008). Where the path has an elbow, the ball itself shows on the outer side, a fan about
-//! its middle, and on the inner side both pieces meet in the plane between them.
+//! The circle of each joint is numbered round by a frame that turns as little as it can (double reflection: Wang,
+//! Jüttler, Zheng, Liu, "Computation of Rotation Minimizing Frames", 2008). Where the path has an elbow, the ball
+//! itself shows on the outer side, a fan about its middle, and on the inner side both pieces meet in the plane between
+//! them.
 
 #![expect(clippy::indexing_slicing, reason = "rings and corners are numbered here")]
 
@@ -193,8 +195,8 @@ fn joints(pieces: &[Piece<3>], radii: &[f64], tube: &Tube) -> Vec<Joint> {
     joints
 }
 
-/// Slopes of a smooth curve through these values, so many units apart, that nowhere passes beyond them (Fritsch, Butland, "A method for
-/// constructing local monotone piecewise cubic interpolants", 1984).
+/// Slopes of a smooth curve through these values, so many units apart, that nowhere passes beyond them (Fritsch,
+/// Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984).
 fn monotone(values: &[f64], ways: &[f64], closed: bool) -> Vec<f64> {
     let count = values.len();
     let chord = |k: usize| (values[(k + 1) % count] - values[k]) / ways[k];
@@ -246,7 +248,8 @@ fn turned(x: Point3, from: Point3, to: Point3) -> Point3 {
     unit(last).unwrap_or(x)
 }
 
-/// A ring of vertices: numbers of their positions, of the first of as many normals, and of the first of one texture coordinate more.
+/// A ring of vertices: numbers of their positions, of the first of as many normals, and of the first of one texture
+/// coordinate more.
 struct Ring {
     positions: Vec<u32>,
     normal: u32,

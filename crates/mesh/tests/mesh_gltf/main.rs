@@ -176,10 +176,9 @@ fn primitives_may_share_vertices_and_lack_what_others_have() {
     let told: Vec<&str> = mesh.warnings.iter().map(|warning| warning.message.as_str()).collect();
     assert_eq!(
         told,
-        [
-            "the mesh has oddities: 1 triangle without vertex normals (flat); 1 triangle without texture coordinates (kept); \
-          1 primitive of points or lines (left out); 1 primitive without `POSITION` (left out)"
-        ]
+        ["the mesh has oddities: 1 triangle without vertex normals (flat); 1 triangle without texture coordinates \
+             (kept); \
+          1 primitive of points or lines (left out); 1 primitive without `POSITION` (left out)"]
     );
 }
 

@@ -102,8 +102,8 @@ pub fn run(seed: u64, count: usize, original: &[u8], mut test: impl FnMut(&[u8])
             *right = test(&bytes);
             start.elapsed() < Duration::from_secs(1)
         };
-        // Files of a few KB: a second is a thousand times what they take. What takes longer is tried again, for the machine may be busy
-        // with other things.
+        // Files of a few KB: a second is a thousand times what they take. What takes longer is tried again, for the
+        // machine may be busy with other things.
         let mut right = false;
         let in_time = (0..4).any(|_| soon(&mut right));
         assert!(in_time, "mutant {number}: {:?}", String::from_utf8_lossy(&bytes));

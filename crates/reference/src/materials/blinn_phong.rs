@@ -13,8 +13,8 @@ pub struct BlinnPhong {
 }
 
 impl Rough for BlinnPhong {
-    /// With the half vector h and its angle theta to the normal (the report's formula): albedo ((1 - s)/pi + s (alpha + 2)/(2 pi)
-    /// cos^alpha theta), or, energy conserving (Ashikhmin and Shirley 2000, without the Fresnel factor), with
+    /// With the half vector h and its angle theta to the normal (the report's formula): albedo ((1 - s)/pi + s (alpha +
+    /// 2)/(2 pi) cos^alpha theta), or, energy conserving (Ashikhmin and Shirley 2000, without the Fresnel factor), with
     /// s (alpha + 1)/(8 pi (wo.h) max(cos i, cos o)) cos^alpha theta.
     fn f(&self, n: DVec3, wo: DVec3, wi: DVec3) -> DVec3 {
         let (alpha, s) = (self.words.exponent, self.words.specular);
@@ -28,7 +28,8 @@ impl Rough for BlinnPhong {
         self.albedo * ((1.0 - s) / PI + s * specular)
     }
 
-    /// Cosine-weighted, or every second time wo reflected in a half vector with density (alpha + 1)/(2 pi) cos^alpha theta.
+    /// Cosine-weighted, or every second time wo reflected in a half vector with density (alpha + 1)/(2 pi) cos^alpha
+    /// theta.
     fn sample(&self, n: DVec3, wo: DVec3, random: &mut Random) -> DVec3 {
         if random.number() < 0.5 {
             let cos = (1.0 - random.number()).powf(1.0 / (self.words.exponent + 1.0));

@@ -1,5 +1,5 @@
-//! Metals: GGX as Walter et al. 2007 have it, sampled by all normals, with Heitz's correlated shadowing and masking (2014), and the
-//! compensation of Kulla and Conty (2017).
+//! Metals: GGX as Walter et al. 2007 have it, sampled by all normals, with Heitz's correlated shadowing and masking
+//! (2014), and the compensation of Kulla and Conty (2017).
 
 use super::mirror::reflect;
 use super::{Incident, Rough, Scattered};
@@ -116,8 +116,8 @@ fn masking(alpha: f64, cos_o: f64, cos_i: f64) -> f64 {
     1.0 / (1.0 + lambda(cos_o) + lambda(cos_i))
 }
 
-/// Fresnel's equations with a complex index m = n + i k: r_s = (cos - m cos_t)/(cos + m cos_t), r_p = (m cos - cos_t)/(m cos + cos_t),
-/// m^2 sin_t^2 = sin^2.
+/// Fresnel's equations with a complex index m = n + i k: r_s = (cos - m cos_t)/(cos + m cos_t), r_p = (m cos -
+/// cos_t)/(m cos + cos_t), m^2 sin_t^2 = sin^2.
 fn complex_fresnel(n: f64, k: f64, cos: f64) -> f64 {
     type Complex = [f64; 2];
     let times = |a: Complex, b: Complex| [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];

@@ -16,9 +16,9 @@ pub struct Reflection {
     pub normal: DVec3,
 }
 
-/// 2 (wo.n) n - wo. On a smooth mesh it may point into the surface: then it is raised until it rises by a hundredth (by 0.9 of wo's
-/// own rise where that is less), and the normal becomes the half vector (Keller et al.: The Iray Light Transport Simulation and
-/// Rendering System, 2017, A.3).
+/// 2 (wo.n) n - wo. On a smooth mesh it may point into the surface: then it is raised until it rises by a hundredth (by
+/// 0.9 of wo's own rise where that is less), and the normal becomes the half vector (Keller et al.: The Iray Light
+/// Transport Simulation and Rendering System, 2017, A.3).
 pub fn reflect(s: &Surface, wo: DVec3) -> Reflection {
     let mirrored = 2.0 * wo.dot(s.ns) * s.ns - wo;
     let rise = mirrored.dot(s.ng);

@@ -1,5 +1,5 @@
-//! How surfaces scatter light, as the textbook has it: a file for each material. wo points to the viewer, wi to the light, both unit and
-//! away from the surface; `f` has no cosine, densities are in solid angle of wi.
+//! How surfaces scatter light, as the textbook has it: a file for each material. wo points to the viewer, wi to the
+//! light, both unit and away from the surface; `f` has no cosine, densities are in solid angle of wi.
 
 mod blinn_phong;
 mod conductor;

@@ -7,7 +7,8 @@ use crate::surface::Surface;
 use glam::DVec3;
 use tracer_core::scene::materials::Transparent;
 
-/// A smooth dielectric: reflection with the probability F, else refraction, whose radiance is scaled by (n_i/n_t)^2 (Veach 1997, 5.2).
+/// A smooth dielectric: reflection with the probability F, else refraction, whose radiance is scaled by (n_i/n_t)^2
+/// (Veach 1997, 5.2).
 pub fn sample(material: Transparent, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
     let (direction, weight) = dielectric(s, wo, material.ior, material.transmittance, random);
     Scattered::Specular(Incident { direction, weight })

@@ -34,7 +34,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let accel = build(&scene, Acceleration::Bvh);
     let stats = accel.stats();
     println!(
-        "{what}: {} triangles, {} parts of some; built in {:.3} s ({:.2} M triangles/s), {:.1} bytes a triangle, {} nodes, {} leaves ({:.2} full), depth {}",
+        "{what}: {} triangles, {} parts of some; built in {:.3} s ({:.2} M triangles/s), {:.1} bytes a triangle, {} \
+         nodes, {} leaves ({:.2} full), depth {}",
         stats.triangles,
         stats.parts,
         stats.seconds,

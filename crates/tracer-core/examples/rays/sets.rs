@@ -88,7 +88,8 @@ pub fn trace(accel: &Accel, set: &Set, answers: &mut Answers) {
     );
 }
 
-/// Hands a set over in batches: to `closest` with its rays, their indices and hits, or to `occluded` with the ends of its segments.
+/// Hands a set over in batches: to `closest` with its rays, their indices and hits, or to `occluded` with the ends of
+/// its segments.
 pub fn batches(
     set: &Set,
     answers: &mut Answers,
@@ -142,8 +143,8 @@ pub fn build(scene: &Scene, acceleration: Acceleration) -> Accel {
     Accel::build(&geometry, acceleration).expect("the mesh is sound")
 }
 
-/// `size`² camera rays and what follows from them: (camera, first bounce, second bounce shuffled, shadow rays of the first hits,
-/// shadow rays of the second shuffled).
+/// `size`² camera rays and what follows from them: (camera, first bounce, second bounce shuffled, shadow rays of the
+/// first hits, shadow rays of the second shuffled).
 pub fn sets(scene: &Scene, accel: &Accel, size: usize) -> Vec<Set> {
     let mut random = Random(7);
     let camera = camera(scene.view, size);

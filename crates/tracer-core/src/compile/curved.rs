@@ -1,4 +1,5 @@
-//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see [`tracer_kernels::shapes`]).
+//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see
+//! [`tracer_kernels::shapes`]).
 
 use super::materials::MaterialBuilder;
 use super::placing::{copies, place as place_matrix, sides};
@@ -211,8 +212,9 @@ impl Curved {
         self.maps.iter().map(radiance).collect()
     }
 
-    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index. `written`, where a
-    /// pattern asks for it: from the coordinates that things are written in to the world, the first the world's own.
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index.
+    /// `written`, where a pattern asks for it: from the coordinates that things are written in to the world, the first
+    /// the world's own.
     pub fn build(
         &self,
         frame: &Frame,

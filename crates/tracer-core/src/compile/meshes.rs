@@ -1,8 +1,9 @@
-//! Meshes: files loaded once each, and what the scene writes out, placed as often as the scene says, brought into render space.
+//! Meshes: files loaded once each, and what the scene writes out, placed as often as the scene says, brought into
+//! render space.
 //!
-//! A mesh that is placed once is moved vertex by vertex, in f64, and so is each copy of one whose copies are few triangles together
-//! ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to a size of about one, and its instances
-//! carry matrices.
+//! A mesh that is placed once is moved vertex by vertex, in f64, and so is each copy of one whose copies are few
+//! triangles together ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to
+//! a size of about one, and its instances carry matrices.
 
 use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
@@ -25,7 +26,8 @@ use tracer_mesh::{MeshData, NO_INDEX, mesh_of, normals::vertex_normals};
 
 /// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
 pub struct Loaded {
-    /// Each file once, then each mesh of the scene itself, then each shape that triangles are made for, then each unit shape once.
+    /// Each file once, then each mesh of the scene itself, then each shape that triangles are made for, then each unit
+    /// shape once.
     files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     file_of_object: Vec<Option<usize>>,
@@ -134,7 +136,8 @@ pub struct Assigned {
     of_object: Vec<u32>,
     /// Per object: how it shines, where it does.
     emissive: Vec<Option<Emissive>>,
-    /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for them.
+    /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for
+    /// them.
     of_file: Vec<Vec<u32>>,
 }
 
@@ -220,7 +223,8 @@ impl Placed {
         self.boxes.get(object).map_or(DVec3::ZERO, |[low, high]| 0.5 * (*low + *high))
     }
 
-    /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per object.
+    /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per
+    /// object.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         self.maps.iter().zip(&self.boxes).flat_map(move |(maps, corners)| {
             maps.iter().step_by(maps.len().div_ceil(1024).max(1)).map(move |map| {
@@ -283,9 +287,9 @@ struct Variant {
     smooth: bool,
 }
 
-/// Copies that have so many triangles together at most, and are at most so many, are flattened. Rays that enter an instance are up to a
-/// third slower than others; so many triangles are built in about a tenth of a second and take 20 to 35 MB (docs/performance.md: two to three
-/// million triangles a second, 80 to 130 bytes each).
+/// Copies that have so many triangles together at most, and are at most so many, are flattened. Rays that enter an
+/// instance are up to a third slower than others; so many triangles are built in about a tenth of a second and take 20
+/// to 35 MB (docs/performance.md: two to three million triangles a second, 80 to 130 bytes each).
 const FLATTENED_TRIANGLES: usize = 1 << 18;
 const FLATTENED_COPIES: usize = 1024;
 
@@ -317,8 +321,8 @@ pub struct Parts<'a> {
     pub first_light: u32,
 }
 
-/// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are written in to the
-/// world, the first the world's own.
+/// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
+/// written in to the world, the first the world's own.
 pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
     let Parts { desc, loaded, placed, assigned, .. } = *parts;
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
@@ -470,7 +474,8 @@ impl Built {
         }
     }
 
-    /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or [`NONE`].
+    /// Adds a mesh, its vertices mapped and then scaled; gives its index. `whole`: one material for all triangles, or
+    /// [`NONE`].
     fn add_mesh(
         &mut self,
         data: &MeshData,
@@ -542,8 +547,8 @@ impl Built {
         self.meshes.len() as u32 - 1
     }
 
-    /// Makes lights of a mesh's triangles, or of their pairs where those are parallelograms; `first`: the index of the first of
-    /// [`Built::lights`] among all lights.
+    /// Makes lights of a mesh's triangles, or of their pairs where those are parallelograms; `first`: the index of the
+    /// first of [`Built::lights`] among all lights.
     fn add_lights(&mut self, mesh: u32, shine: &Shine, first: u32) {
         let Mesh { first_triangle, triangle_count } = self.meshes[mesh as usize];
         let t = &mut self.triangles;
@@ -551,8 +556,8 @@ impl Built {
         for triangle in first_triangle..first_triangle + triangle_count {
             let second = shine.quads && (triangle - first_triangle) % 2 == 1;
             if !second && let Some([a, b, c]) = t.corners(triangle) {
-                // Of a pair the first triangle is (p, q, r), the second (p, r, s) with s = p + r - q, where none is mirrored: then
-                // (p, r, q). Edges from q span both.
+                // Of a pair the first triangle is (p, q, r), the second (p, r, s) with s = p + r - q, where none is
+                // mirrored: then (p, r, q). Edges from q span both.
                 let [corner, first, second] = match (shine.quads, shine.mirrored) {
                     (false, _) => [a, b, c],
                     (true, false) => [b, c, a],

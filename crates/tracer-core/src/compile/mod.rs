@@ -1,4 +1,5 @@
-//! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built. The second hand.
+//! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built.
+//! The second hand.
 
 mod curved;
 mod energy;
@@ -55,14 +56,14 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
 /// Compiles the scene. Relative paths start from `desc.base_dir`.
 ///
 /// # Errors
-/// All faults of the assets at once: missing or unreadable files, wrong meshes and textures, singular transforms, each at the place in
-/// the scene file that names it.
+/// All faults of the assets at once: missing or unreadable files, wrong meshes and textures, singular transforms, each
+/// at the place in the scene file that names it.
 pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
     compile_with(desc, None)
 }
 
-/// As [`compile`], to the same scene, but what is in `kept` and has not changed is neither read nor built anew, and what was read and built is kept in
-/// it. For programs that compile a scene again and again while it is edited.
+/// As [`compile`], to the same scene, but what is in `kept` and has not changed is neither read nor built anew, and
+/// what was read and built is kept in it. For programs that compile a scene again and again while it is edited.
 ///
 /// # Errors
 /// As [`compile`].
@@ -213,8 +214,8 @@ fn acceleration(word: Acceleration) -> bvh::Acceleration {
     }
 }
 
-/// The files that the scene names, each once: the scenes that it includes, and what [`compile`] opens: meshes, placements, pictures. What
-/// these name in turn is known when they have been read ([`Scene::files`]).
+/// The files that the scene names, each once: the scenes that it includes, and what [`compile`] opens: meshes,
+/// placements, pictures. What these name in turn is known when they have been read ([`Scene::files`]).
 pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
     let included = desc.includes.iter().map(|file| &**file);
     let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).chain(included).collect();
@@ -226,7 +227,8 @@ fn marks(curved: &[Curved], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec
     curved.iter().flat_map(|object| object.marks(look_at)).chain(placed.marks(look_at)).collect()
 }
 
-/// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved shapes, and the lights.
+/// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved
+/// shapes, and the lights.
 fn curved_and_lights(
     desc: &SceneDesc,
     frame: &Frame,
@@ -285,7 +287,8 @@ fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
     }
 }
 
-/// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray; none when there is nothing to hang in it.
+/// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray; none when there
+/// is nothing to hang in it.
 fn build_tree(
     acceleration: Acceleration,
     spheres: &[Sphere],

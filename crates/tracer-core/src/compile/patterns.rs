@@ -11,7 +11,8 @@ use tracer_mesh::placements::rotation;
 
 /// A copy that is to keep its distance gets so many tries.
 const TRIES: u64 = 32;
-/// After so many copies in a row without room there is hardly any left: no more are tried, so that a full box does not take for ever.
+/// After so many copies in a row without room there is hardly any left: no more are tried, so that a full box does not
+/// take for ever.
 const MISSES: u32 = 256;
 
 /// The maps of the copies. Copies of a `Scatter` that find no room are left out, with `W0311`.
@@ -90,7 +91,8 @@ fn random(numbers: [u64; 3]) -> f64 {
 struct Room {
     low: DVec3,
     spacing: f64,
-    /// The side of a cell: at least the distance, so that only neighbours matter, and not so small that cells could not be counted.
+    /// The side of a cell: at least the distance, so that only neighbours matter, and not so small that cells could not
+    /// be counted.
     cell: f64,
     /// The last point of each cell, and of each point the one before it in its cell.
     last: BTreeMap<[i64; 3], u32>,
@@ -172,7 +174,8 @@ mod tests {
         let count = 8000;
         let (maps, warnings) = of(scatter(count, [4.0, 0.0, -2.0], None));
         assert_eq!((maps.len(), warnings), (count as usize, 0));
-        // Chi-square over 8 x 8 x 4 classes of x, z, and size, which are independent: 255 degrees of freedom, 5 standard deviations.
+        // Chi-square over 8 x 8 x 4 classes of x, z, and size, which are independent: 255 degrees of freedom, 5
+        // standard deviations.
         let mut classes = [0u32; 256];
         for map in &maps {
             let (p, factor) = (map.translation, map.matrix3.y_axis.y);

@@ -7,8 +7,8 @@ use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use tracer_mesh::placements::{load_placements, rotation};
 
-/// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along. `lowest` gives the
-/// smallest y of the shape under a map (asked only by `DropTo`).
+/// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along.
+/// `lowest` gives the smallest y of the shape under a map (asked only by `DropTo`).
 pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
@@ -90,8 +90,8 @@ pub fn check(maps: &[DAffine3], at: Span, noun: &str, diagnostics: &mut Diagnost
     }
 }
 
-/// Where right and up are on a surface that faces along n (any length), as it is seen from the front, and n as a unit vector: right is y x n,
-/// or x where n is upright.
+/// Where right and up are on a surface that faces along n (any length), as it is seen from the front, and n as a unit
+/// vector: right is y x n, or x where n is upright.
 pub fn sides(n: DVec3) -> [DVec3; 3] {
     let n = (n / n.abs().max_element()).normalize();
     let right = if n.y.abs() > 0.9999 { DVec3::X } else { DVec3::Y.cross(n).normalize() };

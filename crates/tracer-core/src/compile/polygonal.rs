@@ -1,5 +1,5 @@
-//! Objects that become triangles: meshes, and the shapes with flat sides, each of which is one unit shape under an affine
-//! map: exact, watertight, and one set of vertices for a million boxes.
+//! Objects that become triangles: meshes, and the shapes with flat sides, each of which is one unit shape under an
+//! affine map: exact, watertight, and one set of vertices for a million boxes.
 
 use super::placing::sides;
 use glam::{DAffine3, DMat3, DVec3};
@@ -130,7 +130,8 @@ fn of_box(cuboid: &RectBox) -> DAffine3 {
 }
 
 impl UnitShape {
-    /// Its triangles: pairs that make parallelograms, each (a, b, c) and (a, c, d) with texture coordinates from 0 to 1.
+    /// Its triangles: pairs that make parallelograms, each (a, b, c) and (a, c, d) with texture coordinates from 0 to
+    /// 1.
     pub fn mesh(self) -> MeshData {
         const UVS: [[f32; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let faces: Vec<[DVec3; 3]> = match self {
@@ -165,7 +166,8 @@ impl UnitShape {
 mod tests {
     use super::*;
 
-    /// Right, up and normal of each face as the manual says them, by the corners' texture coordinates; closed and outwards.
+    /// Right, up and normal of each face as the manual says them, by the corners' texture coordinates; closed and
+    /// outwards.
     #[test]
     fn unit_shapes_face_outwards_with_upright_textures() {
         for (shape, faces) in [(UnitShape::Square, 1), (UnitShape::Cube, 6)] {

@@ -26,7 +26,8 @@ pub(super) struct Shining {
     span: Span,
 }
 
-/// What the objects shine that do, in the order of the scene. `meshes`: what copies of objects of triangles shine, by object.
+/// What the objects shine that do, in the order of the scene. `meshes`: what copies of objects of triangles shine, by
+/// object.
 pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64; 3]>]) -> Vec<Shining> {
     let sum = |radiance: &&[f64; 3]| radiance.iter().sum::<f64>();
     let shining = |copies: &[[f64; 3]], span: Span| {
@@ -45,8 +46,8 @@ pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64
     all.into_iter().map(|(_, shining)| shining).collect()
 }
 
-/// The largest power of two that is not above the brightest channel of all lights and the background: to divide by it changes no digit.
-/// One where there is no light. `background`: the most that comes from there.
+/// The largest power of two that is not above the brightest channel of all lights and the background: to divide by it
+/// changes no digit. One where there is no light. `background`: the most that comes from there.
 pub(super) fn unit(desc: &SceneDesc, shining: &[Shining], background: [f64; 3]) -> f64 {
     let lamps = desc.lights.iter().map(|light| {
         let desc::Light::SphereLight(light) = &light.value;
@@ -60,7 +61,8 @@ pub(super) fn unit(desc: &SceneDesc, shining: &[Shining], background: [f64; 3]) 
     if power > 1e-290 { power } else { 1.0 }
 }
 
-/// A warning for each light, and the background, that is so dark beside the brightest that single precision does not hold it.
+/// A warning for each light, and the background, that is so dark beside the brightest that single precision does not
+/// hold it.
 pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], background: [f64; 3], unit: f64) -> Vec<Diagnostic> {
     let is_lost = |radiance: [f64; 3]| radiance.iter().any(|&x| x > 0.0 && x / unit < f64::from(f32::MIN_POSITIVE));
     let warning = |span, what: &str| {

@@ -1,5 +1,5 @@
-//! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside out, a camera or a lamp shut
-//! in an opaque object.
+//! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside
+//! out, a camera or a lamp shut in an opaque object.
 
 use super::curved::Curved;
 use super::meshes::{Loaded, Placed};

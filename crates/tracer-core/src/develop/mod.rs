@@ -44,8 +44,8 @@ pub fn develop(film: &Film, look: &Look) -> Image {
     developed(film, look, |x, y| film.radiance(x, y))
 }
 
-/// Develops what denoising made of a film. The last of its layers, `noisy`, is the picture without it, as linear radiance, exposed as the
-/// picture is: what was filtered away cannot be had back otherwise.
+/// Develops what denoising made of a film. The last of its layers, `noisy`, is the picture without it, as linear
+/// radiance, exposed as the picture is: what was filtered away cannot be had back otherwise.
 pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image {
     let Crop { x: left, y: top, width, .. } = film.crop();
     let mut image = developed(film, look, |x, y| {

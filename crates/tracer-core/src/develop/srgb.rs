@@ -13,11 +13,11 @@ const EXPONENT: f64 = 1.0 / 2.4;
 
 /// [`srgb_encode`] in single precision, the same bits as rounding its value, for a tenth of the time.
 ///
-/// With x = 2^e m and c the middle of the 32nd part of 1..2 that m is in, x^a = 2^(e a) c^a (1 + r)^a, r = m / c - 1: two
-/// look-ups and the binomial series. |r| <= 1/65, so the series' terms from r^6 on come to less than 0.0227 / 65^6 / (1 - 1/65) =
-/// 3.1e-13 of the value; rounding and the tables add some 1e-16. So the value and what `libm` gives lie within [`MARGIN`] of each
-/// other, and where both ends of that margin round to the same number, `libm`'s does, too. Elsewhere, for one number in ten
-/// thousand, `libm` is asked.
+/// With x = 2^e m and c the middle of the 32nd part of 1..2 that m is in, x^a = 2^(e a) c^a (1 + r)^a, r = m / c - 1:
+/// two look-ups and the binomial series. |r| <= 1/65, so the series' terms from r^6 on come to less than 0.0227 / 65^6
+/// / (1 - 1/65) = 3.1e-13 of the value; rounding and the tables add some 1e-16. So the value and what `libm` gives lie
+/// within [`MARGIN`] of each other, and where both ends of that margin round to the same number, `libm`'s does, too.
+/// Elsewhere, for one number in ten thousand, `libm` is asked.
 pub(super) struct Encoder {
     /// 1 / c.
     inverse: [f64; PARTS],
@@ -87,7 +87,8 @@ mod tests {
         assert!((srgb_encode(0.003_130_8) - 0.003_130_8 * 12.92).abs() < 1e-6);
     }
 
-    /// Numbers in 0..=1: all ends of the table's parts with their neighbours, and a million in between, as many in each octave.
+    /// Numbers in 0..=1: all ends of the table's parts with their neighbours, and a million in between, as many in each
+    /// octave.
     fn numbers() -> impl Iterator<Item = f64> {
         let ends = (0..=10 * PARTS as u64).flat_map(|k| {
             let end = ((LOWEST << 52) + (k << 47)).cast_signed();
@@ -117,8 +118,8 @@ mod tests {
         }
     }
 
-    /// Where the margin holds the middle between two numbers, `libm` decides. The light of such middles is met to a rounding, which
-    /// moves the code value by 1e-16, so all but a few of them are near enough.
+    /// Where the margin holds the middle between two numbers, `libm` decides. The light of such middles is met to a
+    /// rounding, which moves the code value by 1e-16, so all but a few of them are near enough.
     #[test]
     fn midpoints_are_decided_by_libm() {
         let mut asked = 0;

@@ -9,8 +9,9 @@ pub fn filmic(rgb: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// An AgX-like curve (after Troy Sobotka's AgX, in the polynomial form of Benjamin Wrensch, 2023): the channels are mixed a little
-/// before a sigmoid over the logarithm, so that bright saturated colours go to white instead of to a primary.
+/// An AgX-like curve (after Troy Sobotka's AgX, in the polynomial form of Benjamin Wrensch, 2023): the channels are
+/// mixed a little before a sigmoid over the logarithm, so that bright saturated colours go to white instead of to a
+/// primary.
 pub fn agx(rgb: [f64; 3]) -> [f64; 3] {
     const IN: [[f64; 3]; 3] = [
         [0.842_479_062_253_094, 0.078_433_599_999_999_2, 0.079_223_745_147_764_3],

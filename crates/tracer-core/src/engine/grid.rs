@@ -2,8 +2,8 @@
 //!
 //! Pixels of a block share, so their errors are alike, and where a block ends, so does what they have in common: were
 //! it always at the same place, the border would be seen. Blocks are cut anew for each sample index
-//! ([`tracer_kernels::sampling::blocks`]), and all cuts together move by points of the sampler: the first 16 of them lie in all
-//! columns and all rows, the first 256 at all places. Blocks at the picture's border hold fewer pixels.
+//! ([`tracer_kernels::sampling::blocks`]), and all cuts together move by points of the sampler: the first 16 of them
+//! lie in all columns and all rows, the first 256 at all places. Blocks at the picture's border hold fewer pixels.
 
 use crate::film::Crop;
 use tracer_kernels::sampling::blocks::{Block, Cut, TILE};

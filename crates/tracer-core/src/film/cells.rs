@@ -1,7 +1,7 @@
 //! The film while threads add to it: its tiles behind a lock each.
 //!
-//! The blocks that pixels share in lie across tiles, up to two by two of them. One is locked at a time, so threads cannot wait for each other in
-//! a circle; sums are exact, so who comes first does not matter.
+//! The blocks that pixels share in lie across tiles, up to two by two of them. One is locked at a time, so threads
+//! cannot wait for each other in a circle; sums are exact, so who comes first does not matter.
 
 use super::state::Keeper;
 use super::{Crop, Film, TILE, Tile};
@@ -89,8 +89,8 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Does a work for each tile that has pixels in common with the block whose slots begin at `first`; what it is given tells them: slot
-    /// of the block, and place in the tile.
+    /// Does a work for each tile that has pixels in common with the block whose slots begin at `first`; what it is
+    /// given tells them: slot of the block, and place in the tile.
     pub fn each(&self, pixels: &Pixels, first: usize, mut work: impl FnMut(&mut Tile, &[[u8; 2]])) {
         let Crop { x: left, y: top, width, height } = self.crop;
         // By the lowest bits of the tile's column and row: a block lies within two by two tiles.

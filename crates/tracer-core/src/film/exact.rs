@@ -1,16 +1,17 @@
 //! Sums that do not depend on their order: whole numbers of a least unit.
 //!
-//! Radiance is in units of the scene's brightest lamp or background ([`crate::Scene::radiance_unit`]), which is then from 1 to 2, so that
-//! the window lies where the scene's numbers are:
+//! Radiance is in units of the scene's brightest lamp or background ([`crate::Scene::radiance_unit`]), which is then
+//! from 1 to 2, so that the window lies where the scene's numbers are:
 //!
-//! - a sum is a multiple of 2^-80 in 128 bits with its sign, below 2^47 that is: 2^20 samples of up to 2^26 = 6.7e7 times the brightest;
-//! - a sample of 2^-60 = 8.7e-19 of the brightest is rounded by 2^-21 of itself at most, so eighteen decimal orders below the brightest add
-//!   up, and larger ones to all 24 bits of an `f32` from 2^-57 on;
-//! - squares of the luminance, for the noise alone, are multiples of 2^-132 in 192 bits, below 2^60: 2^20 samples of up to 2^20 times the
-//!   brightest (what is above counts as that), and 2^-60 of the brightest still to 12 bits.
+//! - a sum is a multiple of 2^-80 in 128 bits with its sign, below 2^47 that is: 2^20 samples of up to 2^26 = 6.7e7
+//!   times the brightest;
+//! - a sample of 2^-60 = 8.7e-19 of the brightest is rounded by 2^-21 of itself at most, so eighteen decimal orders
+//!   below the brightest add up, and larger ones to all 24 bits of an `f32` from 2^-57 on;
+//! - squares of the luminance, for the noise alone, are multiples of 2^-132 in 192 bits, below 2^60: 2^20 samples of up
+//!   to 2^20 times the brightest (what is above counts as that), and 2^-60 of the brightest still to 12 bits.
 //!
-//! With more samples than 2^20 the mean must be lower for that: with 2^32, of which there are no more, 2^15 times the brightest at most.
-//! No pixel shows that much; nothing asks for it, and sums would wrap.
+//! With more samples than 2^20 the mean must be lower for that: with 2^32, of which there are no more, 2^15 times the
+//! brightest at most. No pixel shows that much; nothing asks for it, and sums would wrap.
 
 use super::PIXELS;
 use bytemuck::Zeroable;
@@ -95,7 +96,8 @@ impl Squares {
     pub fn add(&mut self, pixel: usize, y: f64) {
         let y = y.abs().min(Self::MOST);
         let bits = (y * y).to_bits();
-        // The square is mantissa * 2^(exponent - 1075); below the normal numbers it is far below the last place, like zero.
+        // The square is mantissa * 2^(exponent - 1075); below the normal numbers it is far below the last place, like
+        // zero.
         let (exponent, mantissa) = ((bits >> 52) as i32, bits & ((1 << 52) - 1) | 1 << 52);
         let shift = exponent - 1075 + Self::PLACES;
         if shift <= -53 {

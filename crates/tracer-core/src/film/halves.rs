@@ -1,9 +1,11 @@
-//! Two halves of the samples, summed apart: what the one does not know of the other's noise is how denoising tells noise from picture
-//! (`tracer_denoise`). The film sums all samples as ever, and beside them those of the second half; the first is the rest.
+//! Two halves of the samples, summed apart: what the one does not know of the other's noise is how denoising tells
+//! noise from picture (`tracer_denoise`). The film sums all samples as ever, and beside them those of the second half;
+//! the first is the rest.
 //!
-//! Which half a sample is of goes by its index alone, so that it is the same for any passes, parts and number of samples: of the indices
-//! from one power of two to the next the lower half is of the first, the upper of the second. So both have as many at every power of two,
-//! and each run of a half is a net of the sampler's: with every other index one half would have the left of each pixel, the other the right.
+//! Which half a sample is of goes by its index alone, so that it is the same for any passes, parts and number of
+//! samples: of the indices from one power of two to the next the lower half is of the first, the upper of the second.
+//! So both have as many at every power of two, and each run of a half is a net of the sampler's: with every other index
+//! one half would have the left of each pixel, the other the right.
 
 use super::exact::{LEAST, Sums, fixed};
 use super::pack::{pack, unpack};
@@ -126,8 +128,9 @@ impl Tile {
         }
     }
 
-    /// Adds what camera rays of a half have met of lamps, red, green and blue of the samples that [`Tile::add`] is given, too;
-    /// where halves are kept. What is met of a lamp is all that such a sample has, so that it is clamped as the sample is.
+    /// Adds what camera rays of a half have met of lamps, red, green and blue of the samples that [`Tile::add`] is
+    /// given, too; where halves are kept. What is met of a lamp is all that such a sample has, so that it is clamped as
+    /// the sample is.
     pub(crate) fn add_lamps(&mut self, of: usize, lamps: [&[f32]; 3], pixels: &[[u8; 2]], limit: Option<f64>) {
         let Some(half) = &mut self.half else { return };
         for &[k, pixel] in pixels {
@@ -179,8 +182,8 @@ impl Film {
         })
     }
 
-    /// What lamps that are seen, not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has
-    /// the layer `emission`, else zero. It is clamped where samples are.
+    /// What lamps that are seen, not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film
+    /// has the layer `emission`, else zero. It is clamped where samples are.
     pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);
@@ -188,14 +191,14 @@ impl Film {
         [0, 1].map(|of| lamps[of].mean(pixel, samples[of]).map(|x| x * self.unit))
     }
 
-    /// Mean radiance of a pixel over either half of its samples, linear RGB, as [`Film::radiance`] is over all; `None` where one of them has
-    /// no sample.
+    /// Mean radiance of a pixel over either half of its samples, linear RGB, as [`Film::radiance`] is over all; `None`
+    /// where one of them has no sample.
     pub fn radiance_of_halves(&self, x: u32, y: u32) -> Option<[[f64; 3]; 2]> {
         let (tile, pixel) = self.place(x, y);
         let half = tile.half.as_ref()?;
         let samples = self.samples_of_halves(x, y);
-        // Light paths of a pass that was ended early have come from other indices than samples have; else there are as many, and what was
-        // merged does not know its indices.
+        // Light paths of a pass that was ended early have come from other indices than samples have; else there are as
+        // many, and what was merged does not know its indices.
         let light = match &self.unfinished {
             Some(_) => {
                 let second = second_of(self.first()..self.light_samples.max(self.first()));

@@ -1,4 +1,5 @@
-//! The layers of a film: sums per pixel beside the radiance, in the same whole numbers, so that neither order nor threads can show.
+//! The layers of a film: sums per pixel beside the radiance, in the same whole numbers, so that neither order nor
+//! threads can show.
 
 use super::exact::{LARGEST, LEAST, fixed};
 use super::pack::{pack, unpack};
@@ -20,8 +21,8 @@ pub(super) struct TileLayers {
     nearest: Vec<[u64; PIXELS]>,
 }
 
-/// A sample's number as that of its pixel: the largest of all is the nearest sample's, and of equally near ones the one with the smallest
-/// number, whoever comes first.
+/// A sample's number as that of its pixel: the largest of all is the nearest sample's, and of equally near ones the one
+/// with the smallest number, whoever comes first.
 #[inline(always)]
 fn candidate(distance2: f32, number: u32) -> u64 {
     // What is not negative is ordered as its bits are.
@@ -147,8 +148,8 @@ impl Tile {
     }
 }
 
-/// What can be summed: 6.7e7 times the scene's size or its brightest light at most, which is as good as infinite for a layer. No layer makes a
-/// NaN of a hit; were there one, it would count as zero.
+/// What can be summed: 6.7e7 times the scene's size or its brightest light at most, which is as good as infinite for a
+/// layer. No layer makes a NaN of a hit; were there one, it would count as zero.
 #[inline(always)]
 fn within(x: f32) -> f32 {
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
@@ -180,7 +181,8 @@ impl Film {
     /// use tracer_core::{LayerSet, RenderOptions, Unobserved, compile, render};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let text = "Scene(image: Image(width: 9, height: 9), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+    /// let text = "Scene(image: Image(width: 9, height: 9), background: 1, \
+    ///             objects: [Sphere(center: (0, 0, 0), radius: 1)])";
     /// let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
     /// let scene = compile(&loaded.scene)?;
     /// let layers = LayerSet::from_iter([Layer::Depth, Layer::Normal]);

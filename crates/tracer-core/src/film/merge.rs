@@ -1,5 +1,5 @@
-//! Parts of a rendering, wherever they were made, become its film. Sums are exact, so it is the film of one machine: whatever the parts are,
-//! in whatever order they come.
+//! Parts of a rendering, wherever they were made, become its film. Sums are exact, so it is the film of one machine:
+//! whatever the parts are, in whatever order they come.
 //!
 //! One part is read at a time, and of it one tile: memory is the film's, however many parts there are.
 
@@ -197,13 +197,13 @@ pub(super) fn gaps(of: &Part, parts: impl Iterator<Item = Part>) -> Vec<Gap> {
 }
 
 impl Film {
-    /// The film of a rendering from its parts ([`crate::RenderOptions::part`]), which [`Film::save`] has written: the film of one machine, for any
-    /// parts in any order. It is told their heads, and asks for each part when it comes to it, so that not all have to be open.
-    /// [`crate::film_faults`] tells all that is wrong with the heads at once.
+    /// The film of a rendering from its parts ([`crate::RenderOptions::part`]), which [`Film::save`] has written: the
+    /// film of one machine, for any parts in any order. It is told their heads, and asks for each part when it comes to
+    /// it, so that not all have to be open. [`crate::film_faults`] tells all that is wrong with the heads at once.
     ///
     /// # Errors
-    /// When a part is of another rendering, not finished, or cannot be read; when two have samples in common; when some are missing and that is
-    /// not allowed.
+    /// When a part is of another rendering, not finished, or cannot be read; when two have samples in common; when some
+    /// are missing and that is not allowed.
     ///
     /// # Examples
     ///
@@ -212,7 +212,8 @@ impl Film {
     /// use tracer_core::{Crop, Film, Gaps, Part, RenderOptions, SavedFilm, Split, Unobserved, compile, render};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let text = "Scene(background: 1, image: Image(width: 8, height: 8), objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+    /// let text = "Scene(background: 1, image: Image(width: 8, height: 8), \
+    ///             objects: [Sphere(center: (0, 0, 0), radius: 1)])";
     /// let loaded = scene_format::load_str("ball.ron", text, scene_format::Syntax::Ron, Path::new("."), &[])?;
     /// let scene = compile(&loaded.scene)?;
     ///
@@ -227,7 +228,8 @@ impl Film {
     ///
     /// // On one:
     /// let open = |part: usize| SavedFilm::open(files[part].as_slice());
-    /// let heads = (0..3).map(|part| Ok(open(part)?.head().clone())).collect::<Result<Vec<_>, tracer_core::FilmError>>()?;
+    /// let heads = (0..3).map(|part| Ok(open(part)?.head().clone()));
+    /// let heads = heads.collect::<Result<Vec<_>, tracer_core::FilmError>>()?;
     /// let film = Film::merge(&heads, open, Gaps::Refused)?;
     /// let at_once = render(&scene, &RenderOptions { samples: Some(10), ..RenderOptions::default() }, &Unobserved);
     /// assert_eq!(film.radiance(4, 4), at_once.radiance(4, 4));

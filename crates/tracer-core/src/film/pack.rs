@@ -117,7 +117,8 @@ fn shifted_up(number: Wide, shift: u32) -> Wide {
     std::array::from_fn(|k| ((u128::from(word(k)) << 64 | u128::from(below(k))) << bits >> 64) as u64)
 }
 
-/// The head of a group: its first byte without [`SPARSE`], shift, width, and which numbers are told; zero where none is.
+/// The head of a group: its first byte without [`SPARSE`], shift, width, and which numbers are told; zero where none
+/// is.
 fn head(from: &mut &[u8]) -> Option<(u8, u32, u32, u64)> {
     let first = *from.split_off_first()?;
     if first == 0 {

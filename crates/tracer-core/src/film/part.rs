@@ -4,8 +4,8 @@ use super::{Crop, TILE};
 
 /// A part of a rendering: some of the sample indices of some of the rows.
 ///
-/// Any parts that lie beside each other and are all of the rendering sum to it ([`crate::Film::merge`]): equal ones or not, divided by samples,
-/// by rows or by both.
+/// Any parts that lie beside each other and are all of the rendering sum to it ([`crate::Film::merge`]): equal ones or
+/// not, divided by samples, by rows or by both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Pixels of the part: rows of [`Part::of_crop`], over its whole width.
@@ -23,10 +23,11 @@ pub struct Part {
 /// What a rendering is divided by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
-    /// Every part has some of the samples of all pixels. Nothing is done twice but the guides of [`crate::Film::caustics`].
+    /// Every part has some of the samples of all pixels. Nothing is done twice but the guides of
+    /// [`crate::Film::caustics`].
     Samples,
-    /// Every part has all samples of some rows, as many as tiles have (16) or a multiple. Blocks that lie across its borders, and all light
-    /// paths, are done by more than one.
+    /// Every part has all samples of some rows, as many as tiles have (16) or a multiple. Blocks that lie across its
+    /// borders, and all light paths, are done by more than one.
     Rows,
 }
 

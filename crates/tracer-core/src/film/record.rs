@@ -40,8 +40,8 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     out
 }
 
-/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many; this
-/// is kept for layers.
+/// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many;
+/// this is kept for layers.
 pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));

@@ -46,7 +46,8 @@ fn a_film_takes_the_bytes_that_were_foretold() {
     }
 }
 
-/// Light paths are counted by themselves: by as many sample indices as the pixels have samples, or by more where a rendering was ended.
+/// Light paths are counted by themselves: by as many sample indices as the pixels have samples, or by more where a
+/// rendering was ended.
 #[test]
 fn what_light_paths_bring_is_a_mean_of_its_own() {
     let mut film = Film::new([16, 16], Crop::whole([16, 16]), 0, 2.0, None);
@@ -82,8 +83,8 @@ fn wrong_samples_are_dropped_and_counted() {
     assert_eq!(std::array::from_fn(|k| tile.sums.of(0, k)), sums);
 }
 
-/// Samples of all signs and sizes, some of them far above the limit: per pixel and channel, what is taken and what is left sum to
-/// what there was to the last bit; nothing is above the limit, and the rest is as it was.
+/// Samples of all signs and sizes, some of them far above the limit: per pixel and channel, what is taken and what is
+/// left sum to what there was to the last bit; nothing is above the limit, and the rest is as it was.
 #[test]
 fn what_is_taken_and_what_is_left_are_the_whole() {
     const LIMIT: f32 = 0.7;

@@ -25,10 +25,12 @@ const LARGEST_HALF: f32 = 65504.0;
 /// Formats that are read.
 const FORMATS: [ImageFormat; 4] = [ImageFormat::Hdr, ImageFormat::OpenExr, ImageFormat::Png, ImageFormat::Jpeg];
 
-/// Reads the picture in `path`; its content decides the format, not its extension. PNG and JPEG are taken as sRGB, HDR and EXR as linear RGB.
+/// Reads the picture in `path`; its content decides the format, not its extension. PNG and JPEG are taken as sRGB, HDR
+/// and EXR as linear RGB.
 ///
 /// # Errors
-/// When there is no such file, it cannot be read, is of another format or broken, or too large in itself or for its file.
+/// When there is no such file, it cannot be read, is of another format or broken, or too large in itself or for its
+/// file.
 pub fn load_environment(path: &Path) -> Result<Panorama, TextureError> {
     let bytes = read_regular_file(path)?;
     let format = format_of(&bytes, path, &FORMATS)?;

@@ -106,7 +106,8 @@ impl TextureError {
             }
             TextureError::Size { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
                 .expected(format!(
-                    "1 to {MAX_SIDE} pixels along a side, and beyond 4096 x 4096 no more than 256 for each byte of the file"
+                    "1 to {MAX_SIDE} pixels along a side, and beyond 4096 x 4096 no more than 256 for each byte of the \
+                     file"
                 ))
                 .hint("save the picture smaller"),
         }

@@ -1,11 +1,11 @@
 //! Whether a picture file can hold the pixels that its header promises, asked before they are decoded.
 //!
-//! Decoders reserve memory by the header, and the one for JPEG fills what is missing with grey. Here a file that is cut off
-//! or whose header was damaged is found out by bounds that no whole file breaks:
+//! Decoders reserve memory by the header, and the one for JPEG fills what is missing with grey. Here a file that is cut
+//! off or whose header was damaged is found out by bounds that no whole file breaks:
 //!
 //! - PNG: deflate packs at most 1032 bytes into one.
-//! - JPEG (baseline and progressive): each block of 8 x 8 values of a component takes at least one bit for its mean, and in
-//!   baseline files one more for its end; and the file has an end marker.
+//! - JPEG (baseline and progressive): each block of 8 x 8 values of a component takes at least one bit for its mean,
+//!   and in baseline files one more for its end; and the file has an end marker.
 
 /// Most bytes that deflate makes of one: 258 of a match that costs two bits.
 const DEFLATE_RATIO: u64 = 1032;

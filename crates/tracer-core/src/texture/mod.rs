@@ -40,8 +40,8 @@ pub const MAX_SIDE: u32 = 1 << 15;
 /// Pixels that any file may have, however well it is packed (4096 x 4096).
 const FREE_PIXELS: u64 = 1 << 24;
 
-/// Further pixels that a file may have per byte. A JPEG of one colour has 64 with the usual tables; far beyond this a small
-/// file would take the memory of a large one.
+/// Further pixels that a file may have per byte. A JPEG of one colour has 64 with the usual tables; far beyond this a
+/// small file would take the memory of a large one.
 const PIXELS_PER_BYTE: u64 = 256;
 
 /// A decoded picture. Row 0 is the top row of the picture, each row from left to right.
@@ -73,12 +73,12 @@ impl Texture {
 
 /// Reads the PNG or JPEG picture in `path`; its content decides which, not its extension.
 ///
-/// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours are
-/// taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied.
+/// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours
+/// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied.
 ///
 /// # Errors
-/// When there is no such file, it cannot be read, it is no PNG or JPEG or a broken one, or it has more than [`MAX_SIDE`]
-/// pixels along a side or out of all proportion to its size.
+/// When there is no such file, it cannot be read, it is no PNG or JPEG or a broken one, or it has more than
+/// [`MAX_SIDE`] pixels along a side or out of all proportion to its size.
 pub fn load(path: &Path) -> Result<Texture, TextureError> {
     decode(&read_regular_file(path)?, path)
 }

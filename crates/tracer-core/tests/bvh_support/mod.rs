@@ -97,7 +97,8 @@ impl Mesh {
         mesh
     }
 
-    /// Closed square beams, up to two long and `width` wide, aslant in [−1, 1]³: eight vertices and twelve triangles each.
+    /// Closed square beams, up to two long and `width` wide, aslant in [−1, 1]³: eight vertices and twelve triangles
+    /// each.
     pub fn aslant(count: usize, width: f32, random: &mut Random) -> Self {
         let mut mesh = Self::default();
         for _ in 0..count {
@@ -200,8 +201,8 @@ impl Batch {
         batch
     }
 
-    /// `count` groups of about 20 rays that go nearly the same way: what packets are made of. Some groups straddle octants
-    /// or the diagonals between axes, some start at one point, a few rays are none.
+    /// `count` groups of about 20 rays that go nearly the same way: what packets are made of. Some groups straddle
+    /// octants or the diagonals between axes, some start at one point, a few rays are none.
     pub fn beams(count: usize, size: f32, random: &mut Random) -> Self {
         let mut batch = Self::default();
         for group in 0..count {

@@ -21,7 +21,8 @@ fn on_the_floor(objects: Vec<Object>) -> SceneDesc {
         .bounces(5)
 }
 
-/// Balls near to each other and to the floor, whose cones overlap; one that throws no caustic to speak of, but shows what is behind it.
+/// Balls near to each other and to the floor, whose cones overlap; one that throws no caustic to speak of, but shows
+/// what is behind it.
 #[test]
 fn balls() {
     let balls = vec![

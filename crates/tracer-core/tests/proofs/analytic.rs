@@ -12,12 +12,12 @@ use tracer_reference::statistics::Estimate;
 /// Renderings with independent seeds that a mean is taken from.
 const SEEDS: u32 = 16;
 
-/// Largest deviation of a mean in standard errors. Some 60 means are asserted here, each with 15 degrees of freedom: all of them
-/// together pass a right engine in 98 of 100 cases (Student: 2.6e-4 each).
+/// Largest deviation of a mean in standard errors. Some 60 means are asserted here, each with 15 degrees of freedom:
+/// all of them together pass a right engine in 98 of 100 cases (Student: 2.6e-4 each).
 const DEVIATION: f64 = 4.8;
 
-/// Asserts the picture's mean in the red channel. The noise must be small enough to tell (a fifth of a percent), and the arithmetic
-/// of `f32` may be wrong by 20 roundings (1.2e-6).
+/// Asserts the picture's mean in the red channel. The noise must be small enough to tell (a fifth of a percent), and
+/// the arithmetic of `f32` may be wrong by 20 roundings (1.2e-6).
 fn assert_mean(name: &str, desc: &SceneDesc, samples: u32, expected: f64) {
     let scene = compiled(desc);
     let [width, height] = scene.size;
@@ -44,12 +44,13 @@ fn assert_exact(name: &str, desc: &SceneDesc, expected: [f64; 3]) {
     }
 }
 
-/// Irradiance of a sphere of radiance 1, of half angle sigma (sin sigma = r/d), whose centre is at theta from the normal.
+/// Irradiance of a sphere of radiance 1, of half angle sigma (sin sigma = r/d), whose centre is at theta from the
+/// normal.
 ///
-/// Wholly above the horizon the projected solid angle is that of the cone: pi sin^2(sigma) cos(theta) (Nusselt: the cap's disc, seen at
-/// theta). Partly below it what sinks is missing; integrating the cap's part above the horizon gives (Snyder: Area light sources
-/// for real-time graphics, 1996) with x = cot sigma, y = -x cot theta, s = sin(theta) sqrt(1 - y^2):
-/// (cos(theta) acos(y) - x s) sin^2(sigma) + atan(s/x).
+/// Wholly above the horizon the projected solid angle is that of the cone: pi sin^2(sigma) cos(theta) (Nusselt: the
+/// cap's disc, seen at theta). Partly below it what sinks is missing; integrating the cap's part above the horizon
+/// gives (Snyder: Area light sources for real-time graphics, 1996) with x = cot sigma, y = -x cot theta, s = sin(theta)
+/// sqrt(1 - y^2): (cos(theta) acos(y) - x s) sin^2(sigma) + atan(s/x).
 fn irradiance(sigma: f64, theta: f64) -> f64 {
     if theta + sigma <= PI / 2.0 {
         return PI * sigma.sin().powi(2) * theta.cos();
@@ -102,8 +103,8 @@ fn a_sphere_light_above_and_partly_below_the_horizon() {
     }
 }
 
-/// Several lamps, above, on and below the horizon, light the floor as the sum of each alone: by light samples only (no bounces), and by
-/// light samples and scattered rays together.
+/// Several lamps, above, on and below the horizon, light the floor as the sum of each alone: by light samples only (no
+/// bounces), and by light samples and scattered rays together.
 #[test]
 fn several_lamps_are_the_sum_of_each() {
     // Half angle, angle from the normal, azimuth, radiance. Seen from the floor's middle none hides another.
@@ -130,10 +131,10 @@ fn several_lamps_are_the_sum_of_each() {
     }
 }
 
-/// Radiosity in a sphere of radius R and albedo a, with a light of radius r in its middle: of what leaves a point of the wall the
-/// share F = (r/R)^2 meets the light (reciprocity: the light's all meets the wall, and the areas are as r^2 to R^2) and the rest
-/// meets the wall, which is equally bright everywhere. So after the light's a F L each scattering more multiplies by a (1 - F), and
-/// n bounces are the partial sum a F L (1 + q + ... + q^n), q = a (1 - F).
+/// Radiosity in a sphere of radius R and albedo a, with a light of radius r in its middle: of what leaves a point of
+/// the wall the share F = (r/R)^2 meets the light (reciprocity: the light's all meets the wall, and the areas are as
+/// r^2 to R^2) and the rest meets the wall, which is equally bright everywhere. So after the light's a F L each
+/// scattering more multiplies by a (1 - F), and n bounces are the partial sum a F L (1 + q + ... + q^n), q = a (1 - F).
 fn inside_a_white_sphere(albedo: f64, bounces: u32) -> SceneDesc {
     scene(8, vec![light([0.0; 3], 1.0, [1.0; 3])], vec![sphere([0.0; 3], 2.0, diffuse([albedo; 3]))])
         .camera([0.0, 0.0, 1.5], [0.0, 0.0, 5.0], 60.0)
@@ -170,8 +171,8 @@ fn a_diffuse_ball_in_a_white_furnace_shows_its_albedo() {
     assert_mean("within a light", &lit.camera([0.0, 0.0, 4.0], [0.0; 3], 10.0).bounces(3), 64, 0.5);
 }
 
-/// What enters glass leaves it, and (n_i/n_t)^2 on the way in is undone on the way out: radiance 1 everywhere. Of a sample's 3000
-/// scatterings none is the last but by an R^3000 of a grazing ray.
+/// What enters glass leaves it, and (n_i/n_t)^2 on the way in is undone on the way out: radiance 1 everywhere. Of a
+/// sample's 3000 scatterings none is the last but by an R^3000 of a grazing ray.
 #[test]
 fn glass_in_a_white_furnace_cannot_be_seen() {
     for ior in [1.0, 1.33, 1.52, 2.5] {
@@ -205,8 +206,8 @@ fn a_light_in_a_mirror() {
     assert_exact("light in a mirror", &desc.camera([-4.0, 4.0, 0.0], [0.0; 3], 1.0).bounces(0), [1.5, 0.5, 0.0]);
 }
 
-/// Straight through a glass slab: each face reflects R = ((n - 1)/(n + 1))^2. Two scatterings see (1 - R)^2 L, two more also the light
-/// that was reflected twice inside: (1 - R)^2 (1 + R^2) L; one sees nothing.
+/// Straight through a glass slab: each face reflects R = ((n - 1)/(n + 1))^2. Two scatterings see (1 - R)^2 L, two more
+/// also the light that was reflected twice inside: (1 - R)^2 (1 + R^2) L; one sees nothing.
 #[test]
 fn a_light_through_glass() {
     let ior = 2.0;
@@ -239,8 +240,8 @@ fn a_light_from_within() {
     assert_exact("within a light", &desc.camera([0.0; 3], [0.0, 0.0, -1.0], 90.0).bounces(0), [2.0, 0.5, 0.25]);
 }
 
-/// A black half-plane before a white background, its edge `shift` pixels right of the picture's middle (or above it): a pixel whose
-/// centre is d pixels on the white side shows the filter's cumulative distribution at d.
+/// A black half-plane before a white background, its edge `shift` pixels right of the picture's middle (or above it): a
+/// pixel whose centre is d pixels on the white side shows the filter's cumulative distribution at d.
 fn step(filter: PixelFilter, shift: f64, upright: bool) -> SceneDesc {
     let degrees = 2.0 * (1.0f64 / 10.0).atan().to_degrees();
     // 32 pixels cover 2 units: 16 pixels a unit.
@@ -269,8 +270,8 @@ fn assert_step_response(name: &str, filter: &PixelFilter, cumulative: impl Fn(f6
                     / 32.0
             };
             let estimate = Estimate::of(&films.iter().map(line).collect::<Vec<_>>());
-            // Were the 32768 samples independent, this would be their error. Where few of them lie on one side the renderings'
-            // own spread cannot tell it. 128 lines are asserted per filter.
+            // Were the 32768 samples independent, this would be their error. Where few of them lie on one side the
+            // renderings' own spread cannot tell it. 128 lines are asserted per filter.
             let expected = cumulative(d);
             let count = f64::from(SEEDS * 64 * 32);
             let independent = (expected * (1.0 - expected) / count).sqrt();
@@ -309,10 +310,10 @@ fn the_other_filters_have_their_step_responses() {
     assert_step_response("Blackman-Harris", &PixelFilter::BlackmanHarris { radius: radius.into() }, window);
 }
 
-/// A point at depth d, with the lens focused at f, is a disc where it would be sharp: similar triangles give the diameter A |f - d|/d in
-/// the plane of focus, hence A |f - d|/d * height/(2 f tan(fov/2)) pixels. A uniform disc of radius R has E[r^2] = R^2/2 and
-/// E[r^4] = R^4/3 (a square lens: 7/20 of the square's, 5 % more). The light is a disc of radius rho itself: independent offsets add,
-/// E[r^2] = (R^2 + rho^2)/2 and E[r^4] = (R^4 + rho^4)/3 + R^2 rho^2.
+/// A point at depth d, with the lens focused at f, is a disc where it would be sharp: similar triangles give the
+/// diameter A |f - d|/d in the plane of focus, hence A |f - d|/d * height/(2 f tan(fov/2)) pixels. A uniform disc of
+/// radius R has E[r^2] = R^2/2 and E[r^4] = R^4/3 (a square lens: 7/20 of the square's, 5 % more). The light is a disc
+/// of radius rho itself: independent offsets add, E[r^2] = (R^2 + rho^2)/2 and E[r^4] = (R^4 + rho^4)/3 + R^2 rho^2.
 #[test]
 fn the_blur_disc_is_that_of_a_thin_lens() {
     for (aperture, focus, depth) in [(2.0, 10.0, 20.0), (3.0, 20.0, 12.0)] {
@@ -368,8 +369,8 @@ fn exposure_and_tone_maps() {
     // Narkowicz' fit at 0.6 * 1: 0.6 (2.51 * 0.6 + 0.03) / (0.6 (2.43 * 0.6 + 0.59) + 0.14) = 0.9216/1.3688.
     let filmic = flat_picture(1.0, 0.0, ToneMap::Filmic);
     assert!(filmic.display.iter().all(|&x| (f64::from(x) - srgb_encode(0.9216 / 1.3688)).abs() < 1e-6));
-    // AgX's curve is made to pass through middle grey: at (log2 0.18 + 12.47393)/16.5 = 0.606 it is 0.18^(1/2.4) = 0.489, and its
-    // polynomial is good to a hundredth. What is shown is that to the power of 2.2.
+    // AgX's curve is made to pass through middle grey: at (log2 0.18 + 12.47393)/16.5 = 0.606 it is 0.18^(1/2.4) =
+    // 0.489, and its polynomial is good to a hundredth. What is shown is that to the power of 2.2.
     let agx = flat_picture(0.18, 0.0, ToneMap::AgX);
     let grey = srgb_encode(0.18f64.powf(2.2 / 2.4));
     assert!(agx.display.iter().all(|&x| (f64::from(x) - grey).abs() < 0.01), "{}", agx.display[0]);

@@ -1,7 +1,8 @@
-//! Light over mirrors and glass to rough surfaces by rays that photons guide (`render.caustics`): the same picture on average as by paths
-//! alone, with far less noise.
+//! Light over mirrors and glass to rough surfaces by rays that photons guide (`render.caustics`): the same picture on
+//! average as by paths alone, with far less noise.
 //!
-//! Paths find small lights over mirrors and glass so seldom that nothing could be learnt from them; so the lamps here are wide.
+//! Paths find small lights over mirrors and glass so seldom that nothing could be learnt from them; so the lamps here
+//! are wide.
 
 use crate::random_scenes::random_scene;
 use crate::support::compare::assert_guiding_is_unbiased;
@@ -73,8 +74,8 @@ fn meshes() {
     assert_guiding_is_unbiased("smooth glass", &on_the_floor(vec![statue]), 512, SCENES);
     let box_of_glass = solid(&cube().obj("cube"), glass(1.4), Shading::Flat, 3.0);
     assert_guiding_is_unbiased("cube", &on_the_floor(vec![box_of_glass]), 512, SCENES);
-    // Most objects are 20000 away, and there is the middle of the scene: here rays start a hundredth beside their surface, a tenth of a
-    // triangle's side, and it must be the side that they go to.
+    // Most objects are 20000 away, and there is the middle of the scene: here rays start a hundredth beside their
+    // surface, a tenth of a triangle's side, and it must be the side that they go to.
     let fine = solid(&icosphere(5).obj("icosphere-5"), glass(1.5), Shading::Flat, 2.5);
     let far = (0..7).map(|k| sphere([20000.0 + f64::from(k), 0.0, 0.0], 0.4, diffuse([0.5; 3])));
     let aside = on_the_floor(std::iter::once(fine).chain(far).collect());
@@ -113,8 +114,8 @@ fn on_any_film() {
     assert_guiding_is_unbiased("wide angle", &wide, 512, SCENES);
 }
 
-/// Narrow glossy lobes, both kinds, beside mirrors; one so wide that paths bring its light; one with a texture. What they cast on each
-/// other, too.
+/// Narrow glossy lobes, both kinds, beside mirrors; one so wide that paths bring its light; one with a texture. What
+/// they cast on each other, too.
 #[test]
 fn glossy_lobes() {
     let shiny = |exponent: f64, specular: f64, energy_conserving: bool, y: f64| {
@@ -161,8 +162,9 @@ fn random_scenes_48_to_53() {
     }
 }
 
-/// A lamp a tenth as wide, whose light plain path tracing hardly ever finds under a ball, so that only the mean over many seeds tells
-/// its error. 13 times less; a third of that is asked for. The seeds are fixed, so the test gives the same every time.
+/// A lamp a tenth as wide, whose light plain path tracing hardly ever finds under a ball, so that only the mean over
+/// many seeds tells its error. 13 times less; a third of that is asked for. The seeds are fixed, so the test gives the
+/// same every time.
 #[test]
 fn photons_are_worth_it() {
     let render = |caustics: Caustics, samples: u32, seed: u32| {

@@ -64,11 +64,13 @@ fn left_and_taken_are_the_whole() {
                 let values = [free.radiance(x, y), clamped.radiance(x, y), clamped.taken(x, y)];
                 for c in 0..3 {
                     let [w, l, t] = values.map(|value| value[c]);
-                    // The sums of the film are exact. Each value is the sum of its two parts over the number of samples, rounded twice,
-                    // and l + t is rounded once: at most 2 + 2 + 2 + 1 halves of 2^-52 of the largest of the three.
+                    // The sums of the film are exact. Each value is the sum of its two parts over the number of
+                    // samples, rounded twice, and l + t is rounded once: at most 2 + 2 + 2 + 1 halves of 2^-52 of the
+                    // largest of the three.
                     let largest = w.abs().max(l.abs()).max(t.abs()).max((l + t).abs());
                     assert!((w - (l + t)).abs() <= 4.0 * f64::EPSILON * largest, "{name}, {x}, {y}: {w} {l} {t}");
-                    // No sample is above the limit, and so is no mean but for its own rounding; what light paths bring is a sum of its own.
+                    // No sample is above the limit, and so is no mean but for its own rounding; what light paths bring
+                    // is a sum of its own.
                     let mean = of_samples.radiance(x, y)[c];
                     assert!(mean <= f64::from(LIMIT) * (1.0 + 2.0 * f64::EPSILON), "{name}, {x}, {y}: {mean}");
                     whole[c] += w;
@@ -81,7 +83,8 @@ fn left_and_taken_are_the_whole() {
             let told = clamped.clamped().expect("it was clamped");
             assert!(told.samples > 0 && told.samples < u64::from(samples) * count as u64, "{name}: {told:?}");
             for c in 0..3 {
-                // As many roundings as there are terms, each at most half of 2^-52 of all that was added, in each of the three sums.
+                // As many roundings as there are terms, each at most half of 2^-52 of all that was added, in each of
+                // the three sums.
                 let tolerance = (4.0 + 1.5 * count) * f64::EPSILON * size;
                 assert!((whole[c] - (left[c] + taken[c])).abs() <= tolerance, "{name}: {whole:?} {left:?} {taken:?}");
                 assert!((told.radiance[c] * count - taken[c]).abs() <= tolerance, "{name}: {told:?} {taken:?}");

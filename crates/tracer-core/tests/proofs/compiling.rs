@@ -1,5 +1,5 @@
-//! What stands between the words of a scene and the engine, against formulas: reference and engine both start from the compiled scene,
-//! so comparing them shows nothing about it.
+//! What stands between the words of a scene and the engine, against formulas: reference and engine both start from the
+//! compiled scene, so comparing them shows nothing about it.
 
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, square};
@@ -42,8 +42,8 @@ fn a_wide_picture_has_square_pixels() {
     assert!((seen[0] - expected[0]).abs() < 0.1 && (seen[1] - expected[1]).abs() < 0.1, "{seen:?} not {expected:?}");
 }
 
-/// A lamp of intensity I lights a surface at distance d head on with I/d^2, whatever its radius (a sphere of even radiance lights as if
-/// it were in its middle); one of power P has I = P/(4 pi). A floor of albedo a shows a E/pi.
+/// A lamp of intensity I lights a surface at distance d head on with I/d^2, whatever its radius (a sphere of even
+/// radiance lights as if it were in its middle); one of power P has I = P/(4 pi). A floor of albedo a shows a E/pi.
 #[test]
 fn lamps_have_the_intensity_and_power_that_they_name() {
     let (distance, albedo) = (7.0, 0.6);
@@ -70,7 +70,8 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 };
                 let estimate = Estimate::of(&(0..16).map(mean).collect::<Vec<_>>());
                 let expected = albedo * intensity / (distance * distance) / PI;
-                // 18 means with 15 degrees of freedom: 4.8 standard errors pass 996 of 1000 right engines. f32 is wrong by 20 roundings.
+                // 18 means with 15 degrees of freedom: 4.8 standard errors pass 996 of 1000 right engines. f32 is wrong
+                // by 20 roundings.
                 assert!(estimate.error() < 2e-3 * expected, "too noisy to tell");
                 assert!(
                     (estimate.mean - expected).abs() < 4.8 * estimate.error() + 1.2e-6 * expected,
@@ -111,7 +112,8 @@ fn mirrored_meshes_are_not_inside_out() {
     }
 }
 
-/// A ball with its normals, stretched to an ellipsoid: at (x, y, z) the normal is along (x/a^2, y/b^2, z/c^2), outwards.
+/// A ball with its normals, stretched to an ellipsoid: at (x, y, z) the normal is along (x/a^2, y/b^2, z/c^2),
+/// outwards.
 #[test]
 fn normals_stay_upright_when_a_mesh_is_stretched() {
     let file = icosphere(2).obj("icosphere-2");
@@ -229,7 +231,8 @@ fn objects_have_their_materials() {
         assert!(scene.instances.iter().all(|i| i.material != NONE), "each mesh object names one material");
         let film = film(&scene, 64, 1);
         let mean = [0, 1, 2].map(|c| (0..64).map(|p| film.radiance(p % 8, p / 8)[c]).sum::<f64>() / 64.0);
-        // White all around but for the other objects, which take up to a tenth of the light: the colour is still its own.
+        // White all around but for the other objects, which take up to a tenth of the light: the colour is still its
+        // own.
         for channel in 0..3 {
             let ratio = mean[channel] / color[channel];
             assert!((0.85..=1.000_01).contains(&ratio), "object {k}: {mean:?} is not {color:?}");
@@ -237,8 +240,8 @@ fn objects_have_their_materials() {
     }
 }
 
-/// Every sample is black or white: with mean m of n samples the variance of the mean is m (1 - m)/(n - 1), and the noise of the picture
-/// the root of its average over the average of m.
+/// Every sample is black or white: with mean m of n samples the variance of the mean is m (1 - m)/(n - 1), and the
+/// noise of the picture the root of its average over the average of m.
 #[test]
 fn a_film_knows_its_noise() {
     let black =

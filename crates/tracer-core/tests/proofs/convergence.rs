@@ -35,12 +35,14 @@ fn depth_of_field(filter: PixelFilter) -> SceneDesc {
         .filter(filter)
 }
 
-/// A window into the same picture as if it were 192 pixels wide: the edge of the nearest light but one, whose blur is as wide as the window.
+/// A window into the same picture as if it were 192 pixels wide: the edge of the nearest light but one, whose blur is
+/// as wide as the window.
 fn depth_of_field_in_fine_pixels(filter: PixelFilter) -> SceneDesc {
     depth_of_field(filter).camera([0.0, 0.0, 6.0], [-0.95, 0.3, 0.0], 22.0 / 8.0)
 }
 
-/// Root mean square error of the red and green channels at 4, 8, ... samples against very many, and the slope of its logarithm.
+/// Root mean square error of the red and green channels at 4, 8, ... samples against very many, and the slope of its
+/// logarithm.
 fn slope(name: &str, desc: &SceneDesc) -> f64 {
     let scene = compiled(desc);
     let pixels = || (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)));
@@ -65,14 +67,15 @@ fn slope(name: &str, desc: &SceneDesc) -> f64 {
     slope
 }
 
-/// Soft shadows and depth of field in rendered pictures, through pixels' middles and over their squares. Independent samples have a slope
-/// of -0.5 whatever the scene; a discontinuity across d stratified dimensions allows -(1/2 + 1/(2d)) (He and Wang: On the convergence rate of
-/// randomized quasi-Monte Carlo for discontinuous functions, 2015): -0.75 for a light or lens alone, and where the
-/// blur is much wider than a pixel. Where square and lens move the edge alike, a blur of three pixels, four dimensions allow -0.625 in the
-/// long run (two padded pairs had -0.56; now they are four dimensions of one sequence).
+/// Soft shadows and depth of field in rendered pictures, through pixels' middles and over their squares. Independent
+/// samples have a slope of -0.5 whatever the scene; a discontinuity across d stratified dimensions allows -(1/2 +
+/// 1/(2d)) (He and Wang: On the convergence rate of randomized quasi-Monte Carlo for discontinuous functions, 2015):
+/// -0.75 for a light or lens alone, and where the blur is much wider than a pixel. Where square and lens move the edge
+/// alike, a blur of three pixels, four dimensions allow -0.625 in the long run (two padded pairs had -0.56; now they
+/// are four dimensions of one sequence).
 ///
-/// Each of the seven errors comes from 4 seeds of 576 pixels and is known to about 3 %, 0.04 of a binary logarithm: the slope over six
-/// octaves to 0.04/sqrt(28) = 0.008. Measured are -0.79, -0.78, -0.76, -0.75 and -0.68.
+/// Each of the seven errors comes from 4 seeds of 576 pixels and is known to about 3 %, 0.04 of a binary logarithm: the
+/// slope over six octaves to 0.04/sqrt(28) = 0.008. Measured are -0.79, -0.78, -0.76, -0.75 and -0.68.
 #[test]
 fn error_falls_faster_than_that_of_independent_samples() {
     let square = || PixelFilter::Box;
@@ -88,8 +91,9 @@ fn error_falls_faster_than_that_of_independent_samples() {
     }
 }
 
-/// The error of a rendered picture is blue at 1 to 16 samples: the lowest eighth of the frequencies holds less than half its share at up
-/// to 4 samples, and less than 0.9 beyond. A floor under a round light, a part of it in half shadow.
+/// The error of a rendered picture is blue at 1 to 16 samples: the lowest eighth of the frequencies holds less than
+/// half its share at up to 4 samples, and less than 0.9 beyond. A floor under a round light, a part of it in half
+/// shadow.
 #[test]
 fn the_error_of_a_rendered_picture_is_blue() {
     let mut desc = soft_shadow(PixelFilter::None);

@@ -1,5 +1,6 @@
-//! Surfaces in one plane do not speckle: one of them wins everywhere, whatever the distance, the angle, the attitude and the kind
-//! of ray. Under a white sky a plane's radiance is its albedo, sample by sample, so there is no noise to hide anything.
+//! Surfaces in one plane do not speckle: one of them wins everywhere, whatever the distance, the angle, the attitude
+//! and the kind of ray. Under a white sky a plane's radiance is its albedo, sample by sample, so there is no noise to
+//! hide anything.
 
 use crate::support::describe::*;
 use crate::support::meshes::square;
@@ -236,8 +237,8 @@ fn flat_sided(kind: &str, material: Material, transform: Vec<Transform>) -> Obje
 /// A plane of a material, which steps put in its place.
 type Support = fn(Material, Vec<Transform>) -> Object;
 
-/// Glass that changes nothing and stands on a table by the cap of a cylinder, a rug on a floor and a lid flush with it show no speckle: under a
-/// white sky all is of one albedo. Whatever holds them up, and in any attitude.
+/// Glass that changes nothing and stands on a table by the cap of a cylinder, a rug on a floor and a lid flush with it
+/// show no speckle: under a white sky all is of one albedo. Whatever holds them up, and in any attitude.
 #[test]
 fn flat_sides_of_curved_shapes_do_not_speckle() {
     let albedo = [1.0, 0.5, 0.25];
@@ -375,7 +376,8 @@ fn planes_through_the_origin_have_one_winner() {
     }
 }
 
-/// A real gap of a ten-thousandth of the scene stays one: the upper of two sheets is seen from above, the lower from below.
+/// A real gap of a ten-thousandth of the scene stays one: the upper of two sheets is seen from above, the lower from
+/// below.
 #[test]
 fn a_thin_gap_stays() {
     for eye in [DVec3::new(0.5, 2.0, 1.0), DVec3::new(0.5, -2.0, 1.0)] {

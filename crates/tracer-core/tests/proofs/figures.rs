@@ -112,7 +112,8 @@ fn figure_7_with_depth_of_field() {
 #[test]
 fn figures_8_and_9_without_and_with_anti_aliasing() {
     let ball = || vec![sphere([0.0, 0.0, 0.0], 20.0, diffuse([0.1, 0.3, 1.0]))];
-    // A little to the side: from the middle the centres of the diagonal's pixels see walls and ceiling at the same distance.
+    // A little to the side: from the middle the centres of the diagonal's pixels see walls and ceiling at the same
+    // distance.
     let sharp = figure(5, ball()).filter(PixelFilter::None).camera([0.37, 0.0, 55.0], [0.37, 0.0, 0.0], 60.0);
     assert_same_picture("figure 8", &sharp, SPHERES);
     assert_same_picture("figure 9", &figure(5, ball()), SPHERES);

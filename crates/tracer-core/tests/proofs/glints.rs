@@ -1,6 +1,7 @@
-//! Glint chains (`engine::glints`): the same picture on average as the plain path tracer's, and less than a quarter of its noise where all light
-//! comes over mirrors and glass. So the floor is black: what it would show of light over mirrors and glass, paths alone meet so seldom that
-//! no number of samples would tell the mean of a tile with little floor in it.
+//! Glint chains (`engine::glints`): the same picture on average as the plain path tracer's, and less than a quarter of
+//! its noise where all light comes over mirrors and glass. So the floor is black: what it would show of light over
+//! mirrors and glass, paths alone meet so seldom that no number of samples would tell the mean of a tile with little
+//! floor in it.
 
 use crate::support::compare::{assert_guiding_is_unbiased, noise};
 use crate::support::describe::*;
@@ -19,7 +20,8 @@ fn over_black(objects: Vec<Object>) -> SceneDesc {
         .bounces(5)
 }
 
-/// Balls that show the lamps and each other; a matt square stands before one of the lamps, where chains must end as paths do.
+/// Balls that show the lamps and each other; a matt square stands before one of the lamps, where chains must end as
+/// paths do.
 fn balls() -> SceneDesc {
     let before_the_lamp = vec![rotate([1.0, 0.0, 0.0], 90.0), Transform::Translate([-1.636, 5.818, 0.0])];
     let screen = mesh(&square(1.0).obj("square-1"), diffuse([0.001; 3]), Shading::Flat, before_the_lamp);
@@ -44,10 +46,11 @@ fn chains_see_what_paths_see() {
     assert_guiding_is_unbiased("a mesh under a background", &open, 96, SCENES);
 }
 
-/// At one sample a path's own share has a quarter of the weight and three chains the rest: 1/16 of the path's variance V and 9/16 of V/3, a
-/// quarter in all, if the chains were independent. Three samples of one sequence are stratified among themselves and do better: 0.17 is left,
-/// and 1/16 at the very least. Chains that were alike would leave 5/8, none all of it. The middle of 0.25 and 0.625 is 0.43;
-/// tiles without mirrors and glass hold no noise here but the lamps' edges.
+/// At one sample a path's own share has a quarter of the weight and three chains the rest: 1/16 of the path's variance
+/// V and 9/16 of V/3, a quarter in all, if the chains were independent. Three samples of one sequence are stratified
+/// among themselves and do better: 0.17 is left, and 1/16 at the very least. Chains that were alike would leave 5/8,
+/// none all of it. The middle of 0.25 and 0.625 is 0.43; tiles without mirrors and glass hold no noise here but the
+/// lamps' edges.
 #[test]
 fn a_quarter_of_the_noise_is_left() {
     let noise_of = |caustics: Caustics| {

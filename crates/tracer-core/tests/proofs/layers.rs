@@ -1,4 +1,5 @@
-//! Picture layers: what camera rays hit first, against the reference and against formulas; and the same bytes whatever the schedule.
+//! Picture layers: what camera rays hit first, against the reference and against formulas; and the same bytes whatever
+//! the schedule.
 
 use crate::same_bytes::{cut, everything, options};
 use crate::support::compiled;
@@ -45,8 +46,8 @@ fn open() -> SceneDesc {
     desc
 }
 
-/// Every material, shape, texture and way of shading, through the pixels' centres: as the reference finds them in f64. The engine's surfaces
-/// are right to some 1e-6 of the scene's size, which bent normals and textures enlarge.
+/// Every material, shape, texture and way of shading, through the pixels' centres: as the reference finds them in f64.
+/// The engine's surfaces are right to some 1e-6 of the scene's size, which bent normals and textures enlarge.
 #[test]
 fn first_hits_are_those_of_the_reference() {
     for desc in [everything(), open()] {
@@ -93,8 +94,8 @@ fn first_hits_are_those_of_the_reference() {
     }
 }
 
-/// A ball of albedo one shows in its layer the share of the samples that hit it, a black one before a white background in the picture the
-/// share of those that do not: together they are one, pixel by pixel, whatever places the samples.
+/// A ball of albedo one shows in its layer the share of the samples that hit it, a black one before a white background
+/// in the picture the share of those that do not: together they are one, pixel by pixel, whatever places the samples.
 #[test]
 fn layers_are_averaged_as_the_picture_is() {
     let filters = [
@@ -121,7 +122,8 @@ fn layers_are_averaged_as_the_picture_is() {
     }
 }
 
-/// A wall across the view axis has one depth, in all pixels, however samples and lens lie; also far from the world's origin and very small.
+/// A wall across the view axis has one depth, in all pixels, however samples and lens lie; also far from the world's
+/// origin and very small.
 #[test]
 fn a_wall_seen_straight_has_one_depth() {
     for (size, centre) in [(1.0, [0.0; 3]), (1e-3, [0.0; 3]), (1e4, [3e5, -7e5, 1e5])] {
@@ -148,8 +150,8 @@ fn a_wall_seen_straight_has_one_depth() {
     }
 }
 
-/// The normals of a ball, and its depths, lie between the least and the greatest that the formula has where the pixel's samples may lie: a
-/// box is half a pixel wide on each side.
+/// The normals of a ball, and its depths, lie between the least and the greatest that the formula has where the pixel's
+/// samples may lie: a box is half a pixel wide on each side.
 #[test]
 fn a_ball_is_as_the_formula_says() {
     const SIZE: u32 = 32;

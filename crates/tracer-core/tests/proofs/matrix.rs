@@ -1,6 +1,6 @@
-//! The picture is the same, byte for byte, in every combination: threads x lanes x crop x acceleration, with batches of 4, 8, 12 and 16
-//! items. [`crate::same_bytes`] goes further along each of these alone. Builds with and without optimisation are compared by the
-//! goldens (CONTRIBUTING.md names the command).
+//! The picture is the same, byte for byte, in every combination: threads x lanes x crop x acceleration, with batches of
+//! 4, 8, 12 and 16 items. [`crate::same_bytes`] goes further along each of these alone. Builds with and without
+//! optimisation are compared by the goldens (CONTRIBUTING.md names the command).
 
 use crate::same_bytes::{bits, cut, everything, many_balls, options};
 use crate::support::compiled;
@@ -12,7 +12,8 @@ use scene_format::diagnostic::Spanned;
 use tracer_core::Level;
 use tracer_core::{Crop, RenderOptions, Unobserved, develop};
 
-/// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map, clamping.
+/// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map,
+/// clamping.
 fn plain(filter: PixelFilter, tone_map: ToneMap, clamp: Option<f64>) -> SceneDesc {
     let tinted =
         Material::Transparent(Box::new(Transparent { ior: 1.4.into(), transmittance: [0.9, 0.6, 0.4].into() }));
@@ -39,8 +40,8 @@ fn plain(filter: PixelFilter, tone_map: ToneMap, clamp: Option<f64>) -> SceneDes
     desc
 }
 
-/// A pass of one sample puts four tiles into a batch: rows of one, two, three and four tiles make batches of 4, 8, 12 and 16
-/// items. Each begins or ends within a tile.
+/// A pass of one sample puts four tiles into a batch: rows of one, two, three and four tiles make batches of 4, 8, 12
+/// and 16 items. Each begins or ends within a tile.
 const CROPS: [Crop; 4] = [
     Crop { x: 3, y: 17, width: 11, height: 9 },
     Crop { x: 9, y: 2, width: 20, height: 13 },

@@ -1,5 +1,5 @@
-//! Metals: the engine against the reference, with light from everywhere, from a lamp, and over one metal to another; and the default
-//! picture against the plain path tracer's.
+//! Metals: the engine against the reference, with light from everywhere, from a lamp, and over one metal to another;
+//! and the default picture against the plain path tracer's.
 
 use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_picture, assert_sharing_is_unbiased};
 use crate::support::describe::*;

@@ -1,4 +1,5 @@
-//! Textures that are reckoned, point by point: the engine's arithmetic over lanes in f32 against the reference's in f64.
+//! Textures that are reckoned, point by point: the engine's arithmetic over lanes in f32 against the reference's in
+//! f64.
 
 use crate::support::compiled;
 use glam::DVec3;
@@ -38,8 +39,8 @@ fn loaded(text: &str) -> Scene {
     compiled(&loaded.unwrap_or_else(|error| panic!("{error}\n{text}")).scene)
 }
 
-/// A ball, an ellipsoid, a leaning cylinder, a turned and stretched box, and two copies of a box that differ, kept apart or as instances, far from
-/// the world's origin.
+/// A ball, an ellipsoid, a leaning cylinder, a turned and stretched box, and two copies of a box that differ, kept
+/// apart or as instances, far from the world's origin.
 fn scene(pattern: &str) -> Scene {
     loaded(&format!(
         r#"Scene(
@@ -104,10 +105,10 @@ fn seen(scene: &Scene, level: Level) -> Vec<[f32; 3]> {
     film.layer(Layer::Albedo).expect("all layers are kept").values.as_chunks::<3>().0.to_vec()
 }
 
-/// Points of render space, of size about one, are right to some 1e-6, the far world's coordinates to 2^-18 (half an ulp of 100, thrice): with up to
-/// 5 cells a unit and a slope of noise of at most 2 an octave and cell, which six octaves and gain 1/2 keep at 6, of waves pi, some
-/// 5 * 4e-6 * 6 * pi at the very most, 4e-4. Where t jumps a point may fall on the other side: such points are as rare as the width of the
-/// rounding, 2e-5 of a cell, is small.
+/// Points of render space, of size about one, are right to some 1e-6, the far world's coordinates to 2^-18 (half an ulp
+/// of 100, thrice): with up to 5 cells a unit and a slope of noise of at most 2 an octave and cell, which six octaves
+/// and gain 1/2 keep at 6, of waves pi, some 5 * 4e-6 * 6 * pi at the very most, 4e-4. Where t jumps a point may fall
+/// on the other side: such points are as rare as the width of the rounding, 2e-5 of a cell, is small.
 #[test]
 fn every_pattern_is_that_of_the_reference_at_every_level() {
     for pattern in PATTERNS {
@@ -137,7 +138,8 @@ fn every_pattern_is_that_of_the_reference_at_every_level() {
     }
 }
 
-/// From render space back to the coordinates that things are written in, by transforms whose matrices are known: half turns, factors and steps.
+/// From render space back to the coordinates that things are written in, by transforms whose matrices are known: half
+/// turns, factors and steps.
 #[test]
 fn objects_know_the_coordinates_that_they_are_written_in() {
     let scene = loaded(
@@ -146,8 +148,10 @@ fn objects_know_the_coordinates_that_they_are_written_in() {
             materials: { "it": Diffuse(albedo: Noise()) },
             objects: [
                 Sphere(center: (1, 2, 3), radius: 0.5, material: "it"),
-                Sphere(center: (0, 0, 0), radius: 1, material: "it", transform: [Scale(factor: 2, about: (1, 0, 0)), Translate((5, 0, 0))]),
-                Sphere(center: (0, 0, 0), radius: 1, material: "it", transform: [Scale(factor: (2, 1, -3), about: (0, 0, 0))]),
+                Sphere(center: (0, 0, 0), radius: 1, material: "it",
+                    transform: [Scale(factor: 2, about: (1, 0, 0)), Translate((5, 0, 0))]),
+                Sphere(center: (0, 0, 0), radius: 1, material: "it",
+                    transform: [Scale(factor: (2, 1, -3), about: (0, 0, 0))]),
                 Cylinder(
                     from: (1, 0, 0),
                     to: (1, 1, 2),

@@ -133,8 +133,9 @@ fn compare(first: u64) {
         if seed % 3 == 0 {
             desc.render.reuse = Reuse::None;
         }
-        // In four of them glass and mirrors show in a few pixels what one sample in ten thousand finds there (the engine goes both ways at glass, the
-        // reference does not): with fewer samples the reference sees nothing of it, and knows of no error. With 1536 all tiles agree.
+        // In four of them glass and mirrors show in a few pixels what one sample in ten thousand finds there (the
+        // engine goes both ways at glass, the reference does not): with fewer samples the reference sees nothing of it,
+        // and knows of no error. With 1536 all tiles agree.
         let reference = if [0, 19, 21, 30].contains(&seed) { 1536 } else { 96 };
         assert_same_picture(&format!("random scene {seed}"), &desc, Samples { engine: 256, reference });
     }

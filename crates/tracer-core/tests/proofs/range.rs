@@ -1,4 +1,5 @@
-//! The range of light: a picture follows its lights over all powers of ten, and what is dim in it keeps its digits beside what is bright.
+//! The range of light: a picture follows its lights over all powers of ten, and what is dim in it keeps its digits
+//! beside what is bright.
 
 use crate::same_bytes::{bits, everything, many_balls, options};
 use crate::support::describe::*;
@@ -53,8 +54,9 @@ fn powers_of_two_change_no_digit() {
     }
 }
 
-/// Powers of ten round the lights' radiances, by 2^-24 of them at most, and what is multiplied with them a little: every pixel is right to
-/// a hundred thousandth of itself, or of the mean where it is dark. No choice goes another way: of powers only ratios count.
+/// Powers of ten round the lights' radiances, by 2^-24 of them at most, and what is multiplied with them a little:
+/// every pixel is right to a hundred thousandth of itself, or of the mean where it is dark. No choice goes another way:
+/// of powers only ratios count.
 #[test]
 fn powers_of_ten_change_the_rounding_alone() {
     for (name, desc) in [("everything", everything()), ("many balls", many_balls())] {
@@ -73,8 +75,9 @@ fn powers_of_ten_change_the_rounding_alone() {
     }
 }
 
-/// A lamp of 1e12 is seen beside a ball whose near left side gets some 1e-6 from a lamp of its own: that side is the one of a picture without
-/// the bright lamp, which lies behind the ball and to the right, so that all of it is below the horizon there.
+/// A lamp of 1e12 is seen beside a ball whose near left side gets some 1e-6 from a lamp of its own: that side is the
+/// one of a picture without the bright lamp, which lies behind the ball and to the right, so that all of it is below
+/// the horizon there.
 #[test]
 fn eighteen_orders_in_one_picture() {
     let ball = sphere([0.0, 0.0, 0.0], 1.0, diffuse([0.5; 3]));
@@ -88,7 +91,8 @@ fn eighteen_orders_in_one_picture() {
     for (x, y) in pixels(&both) {
         let (a, b) = (both.radiance(x, y)[1], alone.radiance(x, y)[1]);
         brights += usize::from(a > 0.99e12);
-        // Inside of the ball's outline, where 64 samples of a small lamp differ by rounding, light's way of choosing and little else.
+        // Inside of the ball's outline, where 64 samples of a small lamp differ by rounding, light's way of choosing
+        // and little else.
         if x < 14 && b > 1e-7 {
             assert!(b < 1e-5 && (a / b - 1.0).abs() < 0.1, "pixel ({x}, {y}): {a:e} {b:e}");
             dims += 1;

@@ -64,9 +64,10 @@ fn random_scenes_36_to_47() {
     }
 }
 
-/// In a room of diffuse walls the second vertices of 64 paths light each of 64 pixels. At 256x256 pixels that is worth 40 times less
-/// squared error (`docs/performance.md`); at the 32x32 of this test, where the pixels of an item lie far apart and half of them share what the tree
-/// may hide, 5.7 times at 4 samples. An eighth of a 32-fold use is asked for. The seeds are fixed, so the test gives the same every time.
+/// In a room of diffuse walls the second vertices of 64 paths light each of 64 pixels. At 256x256 pixels that is worth
+/// 40 times less squared error (`docs/performance.md`); at the 32x32 of this test, where the pixels of an item lie far
+/// apart and half of them share what the tree may hide, 5.7 times at 4 samples. An eighth of a 32-fold use is asked
+/// for. The seeds are fixed, so the test gives the same every time.
 #[test]
 fn sharing_is_worth_it() {
     let objects = vec![ball(diffuse([0.7; 3]), -15.0), low_poly(diffuse([0.7; 3]), 15.0, Shading::Smooth)];
@@ -92,7 +93,8 @@ fn sharing_is_worth_it() {
     }
 }
 
-/// A room that has half a wall to the sky: nine paths in ten have a second vertex, so pixels share. On a floor under the sky they do not.
+/// A room that has half a wall to the sky: nine paths in ten have a second vertex, so pixels share. On a floor under
+/// the sky they do not.
 #[test]
 fn rooms_with_a_window() {
     let mut walls = cube();

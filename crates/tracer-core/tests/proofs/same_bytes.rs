@@ -1,5 +1,5 @@
-//! The picture is the same, byte for byte, for every number of threads, lane type, acceleration and crop, and whether rendered in one
-//! go or not: on scenes that reach every material, shape, light and effect.
+//! The picture is the same, byte for byte, for every number of threads, lane type, acceleration and crop, and whether
+//! rendered in one go or not: on scenes that reach every material, shape, light and effect.
 
 use crate::support::compiled;
 use crate::support::describe::*;
@@ -14,7 +14,8 @@ use std::path::Path;
 use tracer_core::Level;
 use tracer_core::{Crop, Film, Look, Observer, Progress, RenderOptions, Scene, Unobserved, develop};
 
-/// Every material, shape and way of shading, both kinds of texture and every wrap, copies, lights inside and outside, lens, background.
+/// Every material, shape and way of shading, both kinds of texture and every wrap, copies, lights inside and outside,
+/// lens, background.
 pub(crate) fn everything() -> SceneDesc {
     use TextureFilter::{Bilinear, Nearest};
     let wall = |wrap, filter| glossy(picture_albedo(wrap, filter), 50.0, 0.3, true);

@@ -1,5 +1,6 @@
-//! The sampler's points against independent ones and against plain Owen-scrambled Sobol' points per pixel: error of a pixel, error of
-//! the picture's mean, spectrum of the error over the picture, bias, and structure between dimensions and along the sequence.
+//! The sampler's points against independent ones and against plain Owen-scrambled Sobol' points per pixel: error of a
+//! pixel, error of the picture's mean, spectrum of the error over the picture, bias, and structure between dimensions
+//! and along the sequence.
 
 use tracer_core::sampling::sampler::{Pair, Purpose};
 use tracer_reference::Random;
@@ -178,9 +179,9 @@ pub(crate) fn worth(source: Source, purpose: Purpose, integrand: &Integrand, n: 
     Worth { pixel: pixel / n, picture: picture / n, low: low / all }
 }
 
-/// At every number of samples up to 16: a pixel's error is that of plain Owen-Sobol' points, and clearly smaller than that of
-/// independent ones; the picture's mean is better by far; and the error is blue: the lowest eighth of the frequencies holds far less
-/// than its share. The bounds stand a third above what was measured.
+/// At every number of samples up to 16: a pixel's error is that of plain Owen-Sobol' points, and clearly smaller than
+/// that of independent ones; the picture's mean is better by far; and the error is blue: the lowest eighth of the
+/// frequencies holds far less than its share. The bounds stand a third above what was measured.
 #[test]
 fn error_is_small_and_blue() {
     for purpose in [Purpose::Pixel, Purpose::Light(0), Purpose::Direction(0)] {
@@ -191,7 +192,8 @@ fn error_is_small_and_blue() {
                 let independent = worth(Source::Independent, purpose, &integrand, n, 4);
                 let mean = ours.picture / (independent.pixel / f64::from(SIZE * SIZE));
                 let line = format!(
-                    "{purpose:?} {} {n}: pixel {:.2} of independent, {:.2} of Owen; picture's mean {mean:.3}; low {:.3} (Owen {:.2})",
+                    "{purpose:?} {} {n}: pixel {:.2} of independent, {:.2} of Owen; picture's mean {mean:.3}; low \
+                     {:.3} (Owen {:.2})",
                     integrand.name,
                     ours.pixel / independent.pixel,
                     ours.pixel / owen.pixel,
@@ -235,8 +237,8 @@ fn two_bounces_together() {
     }
 }
 
-/// Over seeds each pixel's every point is uniform, and so are the points of two pairs together: no bias. 64 seeds of 4096 pixels, first
-/// sample and a later one; 8^4 cells for each pair of pairs; 5 % for all together.
+/// Over seeds each pixel's every point is uniform, and so are the points of two pairs together: no bias. 64 seeds of
+/// 4096 pixels, first sample and a later one; 8^4 cells for each pair of pairs; 5 % for all together.
 #[test]
 fn points_are_uniform_over_seeds_and_pairs_unrelated() {
     let pairs: Vec<(Purpose, Purpose)> =
@@ -261,7 +263,8 @@ fn points_are_uniform_over_seeds_and_pairs_unrelated() {
     }
 }
 
-/// The mean over 64 seeds of what a whole picture integrates is right, for each number of samples: within 4 standard errors over seeds.
+/// The mean over 64 seeds of what a whole picture integrates is right, for each number of samples: within 4 standard
+/// errors over seeds.
 #[test]
 fn means_over_64_seeds_are_right() {
     for purpose in PURPOSES {
@@ -293,8 +296,9 @@ fn means_over_64_seeds_are_right() {
     }
 }
 
-/// Every pair in every pixel: 2^n samples hit each elementary interval of area 2^-n once, of every shape, as a (0, 2)-sequence does; the
-/// second bounce, the third and fourth dimension of Sobol', hits each of area 2^-(n - 1) twice... (t = 1) or better than that.
+/// Every pair in every pixel: 2^n samples hit each elementary interval of area 2^-n once, of every shape, as a (0,
+/// 2)-sequence does; the second bounce, the third and fourth dimension of Sobol', hits each of area 2^-(n - 1) twice...
+/// (t = 1) or better than that.
 #[test]
 fn pairs_are_stratified_in_two_dimensions() {
     for purpose in PURPOSES {

@@ -1,4 +1,5 @@
-//! Surfaces have no seams: a quadrilateral of two triangles looks like one, whatever its place, size, attitude and light.
+//! Surfaces have no seams: a quadrilateral of two triangles looks like one, whatever its place, size, attitude and
+//! light.
 
 use crate::support::describe::*;
 use crate::support::meshes::square;
@@ -9,8 +10,8 @@ use scene_format::desc::{Placements, Shading, Transform};
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
-/// A white square of half side `size` in any attitude, seen face on so that the diagonal of its triangles runs through the centres of
-/// the diagonal's pixels, and lit by a small light `elevation` degrees above it.
+/// A white square of half side `size` in any attitude, seen face on so that the diagonal of its triangles runs through
+/// the centres of the diagonal's pixels, and lit by a small light `elevation` degrees above it.
 struct Pane {
     size: f64,
     place: DVec3,
@@ -70,8 +71,8 @@ fn assert_seamless(pane: &Pane) {
         // Irradiance of a sphere above the horizon over pi: (r/d)^2 cos.
         let expected = (0.02 * pane.size).powi(2) / d2 * to_light.normalize().dot(normal);
         let radiance = film.radiance(x, y)[0];
-        // The light's cosine varies by its half angle of 0.4 degrees at most, of an elevation of 2 or more: 16 stratified samples
-        // are within 2 %. One lost to a neighbouring triangle is 6 %.
+        // The light's cosine varies by its half angle of 0.4 degrees at most, of an elevation of 2 or more: 16
+        // stratified samples are within 2 %. One lost to a neighbouring triangle is 6 %.
         assert!((radiance / expected - 1.0).abs() < 0.03, "pixel ({x}, {y}): {radiance:e}, not {expected:e}");
     }
 }

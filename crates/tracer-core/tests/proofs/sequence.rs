@@ -6,8 +6,8 @@ use tracer_core::sampling::sampler::{Pair, Purpose};
 use tracer_reference::Random;
 use tracer_reference::statistics::Estimate;
 
-/// No period and no repetition: of the first 2^17 samples of a pixel each lies in its own one of 2^17 strata, in each dimension of each
-/// pair.
+/// No period and no repetition: of the first 2^17 samples of a pixel each lies in its own one of 2^17 strata, in each
+/// dimension of each pair.
 #[test]
 fn no_sample_of_131072_comes_again() {
     const N: usize = 1 << 17;
@@ -25,8 +25,9 @@ fn no_sample_of_131072_comes_again() {
     }
 }
 
-/// How unevenly the points of two pairs together fill 8^4 cells: Pearson's statistic, 4095 on average for independent points. It has not
-/// chi-square's spread (90), not for independently scrambled Sobol' pairs either: whole runs of points share their scrambling.
+/// How unevenly the points of two pairs together fill 8^4 cells: Pearson's statistic, 4095 on average for independent
+/// points. It has not chi-square's spread (90), not for independently scrambled Sobol' pairs either: whole runs of
+/// points share their scrambling.
 fn unevenness(points: impl Iterator<Item = [[f64; 2]; 2]>) -> f64 {
     let (mut cells, mut count) = (vec![0u32; 4096], 0.0);
     for [p, q] in points {
@@ -38,10 +39,11 @@ fn unevenness(points: impl Iterator<Item = [[f64; 2]; 2]>) -> f64 {
     cells.iter().map(|&c| (f64::from(c) - expected).powi(2) / expected).sum()
 }
 
-/// Two pairs that are meant to be unrelated, far out in one pixel: together they fill their four dimensions as evenly as pairs whose order
-/// and scrambling are nested uniform (Owen 1995) and drawn independently, in the mean over all pairs of pairs, pixels and seeds (Welch,
-/// three standard errors). Single ones may be further out, where the keys of two shuffles happen to be alike: of 264 at 2^14
-/// samples one came to 6487, the others and those at 2^17 stayed below 5100; of 100 independent ones the furthest was 4663.
+/// Two pairs that are meant to be unrelated, far out in one pixel: together they fill their four dimensions as evenly
+/// as pairs whose order and scrambling are nested uniform (Owen 1995) and drawn independently, in the mean over all
+/// pairs of pairs, pixels and seeds (Welch, three standard errors). Single ones may be further out, where the keys of
+/// two shuffles happen to be alike: of 264 at 2^14 samples one came to 6487, the others and those at 2^17 stayed below
+/// 5100; of 100 independent ones the furthest was 4663.
 ///
 /// 2^14 samples; with `TRACER_PROOFS=long` 2^17 as well.
 #[test]
@@ -78,7 +80,8 @@ fn pairs_are_as_unrelated_as_independent_scrambling_makes_them() {
         let (a, b) = (Estimate::of(&ours), Estimate::of(&ideal));
         let z = a.compare(&b).z;
         let line = format!(
-            "{n} samples: {:.0} +- {:.0}, at most {:.0} of {}; independent scrambling {:.0} +- {:.0}, at most {:.0} of {}; z {z:.2}",
+            "{n} samples: {:.0} +- {:.0}, at most {:.0} of {}; independent scrambling {:.0} +- {:.0}, at most {:.0} of \
+             {}; z {z:.2}",
             a.mean,
             a.error(),
             largest(&ours),
@@ -97,8 +100,8 @@ fn pairs_are_as_unrelated_as_independent_scrambling_makes_them() {
 const TOGETHER: [(Purpose, Purpose); 2] =
     [(Purpose::Pixel, Purpose::Lens), (Purpose::Direction(0), Purpose::Direction(1))];
 
-/// What they are for: of a product of functions of both, and of an edge across all four dimensions, they make less error than
-/// padded pairs (the second is exchanged for that of the third bounce).
+/// What they are for: of a product of functions of both, and of an edge across all four dimensions, they make less
+/// error than padded pairs (the second is exchanged for that of the third bounce).
 #[test]
 fn pairs_that_belong_together_are_better_than_padded_ones() {
     for (first, second) in TOGETHER {
@@ -126,19 +129,18 @@ fn pairs_that_belong_together_are_better_than_padded_ones() {
     }
 }
 
-/// The second bounce's directions are the third and fourth dimension of Sobol', whose projection is no (0, 2)-sequence (t = 3): at 8
-/// samples a disc in them alone is up to a twentieth worse than independent points, everything else is better, and the picture's low
-/// frequencies never hold more than those of independent points. What it is for is
-/// below.
+/// The second bounce's directions are the third and fourth dimension of Sobol', whose projection is no (0, 2)-sequence
+/// (t = 3): at 8 samples a disc in them alone is up to a twentieth worse than independent points, everything else is
+/// better, and the picture's low frequencies never hold more than those of independent points. What it is for is below.
 #[test]
 fn the_second_bounce_alone_is_no_worse_than_independent_points() {
     for integrand in integrands() {
         for n in [2, 8, 32] {
             let ours = worth(Source::Sampler, Purpose::Direction(1), &integrand, n, 8);
             let independent = worth(Source::Independent, Purpose::Direction(1), &integrand, n, 8);
-            // 8 pictures hold some 400 independent low frequencies, each exponentially distributed: the ratio to the mean of all, which is
-            // known much better, has a standard error of 1/20. Powers are compared absolutely: that of the sampler's low
-            // frequencies against the mean power of independent points.
+            // 8 pictures hold some 400 independent low frequencies, each exponentially distributed: the ratio to the
+            // mean of all, which is known much better, has a standard error of 1/20. Powers are compared absolutely:
+            // that of the sampler's low frequencies against the mean power of independent points.
             let low = ours.low * ours.pixel / independent.pixel;
             let line = format!(
                 "{} {n}: pixel {:.2} of independent, low frequencies {low:.2} of independent ({:.2} of its own)",

@@ -5,9 +5,10 @@ use crate::support::{compiled, film};
 use scene_format::desc::Reuse;
 use tracer_reference::statistics::Estimate;
 
-/// The eye in the middle of four panes as thin as air (spheres of index 1), in a diffuse ball under a lamp. The first vertex that is shared is
-/// the fifth, and goes on with the chance 1/2, its albedo: the others must reckon with that. Without it half of what is shared, a fifth
-/// of the picture or more, would be lost; the pictures' means are known to a hundredth, and agree within four standard errors.
+/// The eye in the middle of four panes as thin as air (spheres of index 1), in a diffuse ball under a lamp. The first
+/// vertex that is shared is the fifth, and goes on with the chance 1/2, its albedo: the others must reckon with that.
+/// Without it half of what is shared, a fifth of the picture or more, would be lost; the pictures' means are known to a
+/// hundredth, and agree within four standard errors.
 #[test]
 fn roulette_before_the_first_shared_vertex() {
     let eye = [0.0, -3.0, 0.0];

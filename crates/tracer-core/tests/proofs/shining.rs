@@ -1,4 +1,5 @@
-//! Objects that shine: rectangles, boxes, meshes and spheres with `Emissive`, as paths of the reference see them, and against closed forms.
+//! Objects that shine: rectangles, boxes, meshes and spheres with `Emissive`, as paths of the reference see them, and
+//! against closed forms.
 
 use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_picture};
 use crate::support::describe::*;
@@ -79,7 +80,8 @@ fn rectangles_as_the_reference_sees_them() {
         let turned = |z: f64| vec![Transform::Scale { factor: [1.0, 1.0, z], about: Some(Box::new([0.0; 3])) }.into()];
         rectangle.placements = Placements::List(Box::new([turned(1.0), turned(-1.0)].into_iter().collect()));
     }
-    // One tile is lit by so few paths that 512 samples of the reference are no sum that a normal distribution describes.
+    // One tile is lit by so few paths that 512 samples of the reference are no sum that a normal distribution
+    // describes.
     let samples = Samples { engine: 512, reference: 8192 };
     assert_same_picture("sheared and mirrored", &view(vec![floor(), sheared, ball]), samples);
 }
@@ -160,8 +162,9 @@ fn a_sphere_that_shines_is_a_sphere_light() {
     assert!((word / object - 1.0).abs() < 1e-3, "{word} {object}");
 }
 
-/// Irradiance right under the middle of a square lamp of side 2a at height h that faces down, of radiance one: the four corners' form factors
-/// (Howell: A Catalog of Radiation Heat Transfer Configuration Factors, B-3), E = 4 a / sqrt(a^2 + h^2) atan(a / sqrt(a^2 + h^2)).
+/// Irradiance right under the middle of a square lamp of side 2a at height h that faces down, of radiance one: the four
+/// corners' form factors (Howell: A Catalog of Radiation Heat Transfer Configuration Factors, B-3), E = 4 a /
+/// sqrt(a^2 + h^2) atan(a / sqrt(a^2 + h^2)).
 #[test]
 fn light_under_a_square_lamp() {
     for (a, h) in [(0.5, 1.0), (2.0, 1.0), (0.05, 1.0), (0.5, 0.05)] {
@@ -175,8 +178,9 @@ fn light_under_a_square_lamp() {
         let s = (a * a + h * h).sqrt();
         let expected = 0.5 / std::f64::consts::PI * 4.0 * a / s * (a / s).atan();
         let error = (0..64).map(|k| picture.variance(k % 8, k / 8)).sum::<f64>().sqrt() / 64.0;
-        // Four cases: 4.5 standard errors are left by chance once in 40,000 runs. Rays start off the ground by what single precision
-        // does not tell of a square 4 wide, 1e-6 of it, and light falls with the square of the distance at most.
+        // Four cases: 4.5 standard errors are left by chance once in 40,000 runs. Rays start off the ground by what
+        // single precision does not tell of a square 4 wide, 1e-6 of it, and light falls with the square of the
+        // distance at most.
         assert!((mean - expected).abs() < 4.5 * error + 1e-5 * expected, "{a} {h}: {mean} +- {error}, not {expected}");
     }
 }

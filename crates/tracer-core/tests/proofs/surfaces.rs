@@ -41,7 +41,8 @@ fn cat() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/cat.obj"))
 }
 
-/// A mirrored direction never points into the mesh, so on a convex one each ray goes out to the white, exactly once mirrored.
+/// A mirrored direction never points into the mesh, so on a convex one each ray goes out to the white, exactly once
+/// mirrored.
 #[test]
 fn a_smooth_low_poly_mirror_has_no_dark_spot() {
     let ball = in_a_furnace(&icosphere(1).off("icosphere-1"), mirror([0.8; 3]), 5);
@@ -56,8 +57,8 @@ fn a_smooth_mirror_cat_has_no_dark_spot() {
     assert!(least >= 0.999, "{least}");
 }
 
-/// Glass neither takes nor makes light: all that enters leaves again. On a smooth mesh some rays that enter close to the outline run
-/// round under the surface for long, at an angle to the interpolated normals beyond the critical one.
+/// Glass neither takes nor makes light: all that enters leaves again. On a smooth mesh some rays that enter close to
+/// the outline run round under the surface for long, at an angle to the interpolated normals beyond the critical one.
 #[test]
 fn low_poly_glass_has_no_dark_and_no_bright_spot() {
     let ball = |shading, bounces| {
@@ -85,8 +86,8 @@ fn terminator(file: &Path, size: u32) -> SceneDesc {
         .bounces(0)
 }
 
-/// Where the light only just reaches a smooth ball of 80 triangles, the picture is nearer to that of 82000 triangles than plain
-/// interpolation of normals brings it, at least five times in the mean of the squares' root.
+/// Where the light only just reaches a smooth ball of 80 triangles, the picture is nearer to that of 82000 triangles
+/// than plain interpolation of normals brings it, at least five times in the mean of the squares' root.
 #[test]
 fn the_terminator_of_a_low_poly_ball_is_smooth() {
     const SIZE: u32 = 48;
@@ -97,7 +98,8 @@ fn the_terminator_of_a_low_poly_ball_is_smooth() {
     let to_light = DVec3::new(200.0, 60.0, 40.0).normalize();
     let (mut error, mut naive_error, mut count) = (0.0, 0.0, 0);
     for (x, y) in pixels(SIZE) {
-        // The true ball's normal in the pixel's middle; the band is within 25 degrees of the terminator, on its lit side.
+        // The true ball's normal in the pixel's middle; the band is within 25 degrees of the terminator, on its lit
+        // side.
         let across = |k: u32| ((f64::from(k) + 0.5) / f64::from(SIZE) * 2.0 - 1.0) * 10f64.to_radians().tan();
         let direction = DVec3::new(across(x), -across(y), -1.0).normalize();
         let b = -6.0 * direction.z;
@@ -188,14 +190,16 @@ fn coincident_surfaces_show_one_of_them() {
     }
 }
 
-/// The eye on a surface sees what lies before it; within glass, within a ball and within a block it sees what the reference does.
+/// The eye on a surface sees what lies before it; within glass, within a ball and within a block it sees what the
+/// reference does.
 #[test]
 fn the_camera_on_and_within_surfaces() {
     let up =
         |objects| scene(16, vec![], objects).camera([0.0; 3], [0.0, 1.0, 0.001], 60.0).background([1.0, 0.5, 0.25]);
     let floors = [
         ("ball", sphere([0.0, -3.0, 0.0], 3.0, diffuse([0.5; 3]))),
-        // On top of so large a ball a rounding of the eye decides on which side it is: it is held a billionth of the radius above.
+        // On top of so large a ball a rounding of the eye decides on which side it is: it is held a billionth of the
+        // radius above.
         ("huge ball", sphere([0.0, -1e5 - 1e-4, 0.0], 1e5, diffuse([0.5; 3]))),
         ("mesh", mesh(&square(1.0).obj("square-1"), diffuse([0.5; 3]), Shading::Flat, vec![])),
     ];
@@ -223,7 +227,8 @@ fn the_camera_on_and_within_surfaces() {
     }
 }
 
-/// Direct light of a small lamp on a huge ball, without rings or acne: each pixel shows (r/d)^2 cos/1 of where its ray meets the ball.
+/// Direct light of a small lamp on a huge ball, without rings or acne: each pixel shows (r/d)^2 cos/1 of where its ray
+/// meets the ball.
 #[test]
 fn huge_spheres_have_no_rings() {
     const SIZE: u32 = 64;
@@ -304,8 +309,8 @@ fn elsewhere(desc: &SceneDesc, scale: f64, offset: f64) -> SceneDesc {
     moved
 }
 
-/// The same scene as small as 1e-4 and as large as 1e5, and far from the origin: the same picture, tile by tile within the noise of
-/// independent seeds (Welch's test; Šidák for all tiles, channels and places together, 1 %).
+/// The same scene as small as 1e-4 and as large as 1e5, and far from the origin: the same picture, tile by tile within
+/// the noise of independent seeds (Welch's test; Šidák for all tiles, channels and places together, 1 %).
 #[test]
 fn size_and_place_do_not_matter() {
     const SEEDS: u32 = 12;

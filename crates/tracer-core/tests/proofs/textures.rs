@@ -18,9 +18,10 @@ fn wrapped_square() -> Mesh {
     }
 }
 
-/// Every filter, wrap and depth of texture on a mesh and on a ball. Rays through the pixels' middles onto something white all around and
-/// not shaded by anything else: each pixel is the albedo there, without noise. Coordinates up to 4 are right to 10 roundings of f32
-/// (2.4e-6, on the ball with its arcs twice that); over 7 texels of contrast up to 1 the albedo is right to 4e-5.
+/// Every filter, wrap and depth of texture on a mesh and on a ball. Rays through the pixels' middles onto something
+/// white all around and not shaded by anything else: each pixel is the albedo there, without noise. Coordinates up to 4
+/// are right to 10 roundings of f32 (2.4e-6, on the ball with its arcs twice that); over 7 texels of contrast up to 1
+/// the albedo is right to 4e-5.
 #[test]
 fn every_filter_and_wrap_is_that_of_the_reference() {
     for file in [picture(), deep_picture()] {
@@ -31,7 +32,8 @@ fn every_filter_and_wrap_is_that_of_the_reference() {
                     mesh(&wrapped_square().obj("wrapped-square"), textured(&file, filter, wrap), Shading::Flat, steps);
                 let ball = sphere([0.0, 0.0, 0.0], 1.0, textured(&file, filter, wrap));
                 for (name, object) in [("square", flat), ("ball", ball)] {
-                    // From the front a ball shows its poles' side and the picture's middle; from behind the picture's edges meet.
+                    // From the front a ball shows its poles' side and the picture's middle; from behind the picture's
+                    // edges meet.
                     for eye in [[0.3, 0.4, 4.0], [-0.4, -0.5, -4.0]] {
                         let desc = scene(SIZE, vec![], vec![object.clone()])
                             .camera(eye, [0.0; 3], 24.0)
@@ -46,7 +48,8 @@ fn every_filter_and_wrap_is_that_of_the_reference() {
                             let off = (0..3).map(|c| (got[c] - expected[c]).abs()).fold(0.0, f64::max);
                             assert!(
                                 off < 4e-5,
-                                "{name} from {eye:?}, {filter:?} {wrap:?} {}: pixel ({x}, {y}) {got:?} not {expected:?}",
+                                "{name} from {eye:?}, {filter:?} {wrap:?} {}: pixel ({x}, {y}) {got:?} not \
+                                 {expected:?}",
                                 file.display()
                             );
                         }

@@ -28,7 +28,8 @@ pub struct PreviewArgs {
     #[arg(long, value_name = "IP", default_value = "127.0.0.1", hide_default_value = true)]
     #[arg(help = "Listen at this address [default: 127.0.0.1]")]
     pub address: IpAddr,
-    /// Command that opens a file at a line: code, or \"vi +{line} {file}\" [default: that of TRACER_EDITOR, VISUAL or EDITOR]
+    /// Command that opens a file at a line: code, or \"vi +{line} {file}\" [default: that of TRACER_EDITOR, VISUAL or
+    /// EDITOR]
     #[arg(long, value_name = "COMMAND", help = "Opens the lines of errors: code, \"ed +{line} {file}\"")]
     pub editor: Option<String>,
     /// Set a field of the scene: camera.fov=40 (repeatable)

@@ -20,8 +20,9 @@ const FILE: &str = "file:";
 /// All that the film depends on: words that are in no part above, too.
 const WHOLE: &str = "whole";
 
-/// What is written beside the film: what it is known by, where samples may grow and what makes the picture of the film may change, and
-/// how its picture is made; `set` are the fields that the command line has set. The scene is as it was afterwards.
+/// What is written beside the film: what it is known by, where samples may grow and what makes the picture of the film
+/// may change, and how its picture is made; `set` are the fields that the command line has set. The scene is as it was
+/// afterwards.
 ///
 /// # Errors
 /// When a file of the scene cannot be read any more.
@@ -62,8 +63,8 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf], set: &[String]) -> Result<
     Ok(notes)
 }
 
-/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits; and but for its layers, which are
-/// named where they differ.
+/// Hash of the scene but for what may change: samples, what develops the film, what finds the hits; and but for its
+/// layers, which are named where they differ.
 fn hash_of_film(desc: &mut SceneDesc) -> String {
     let render = desc.render.clone();
     let effects = desc.effects.clone();

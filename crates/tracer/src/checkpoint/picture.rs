@@ -38,7 +38,8 @@ fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
     all(notes, name).next().unwrap_or_default()
 }
 
-/// The layers that are written beside the picture: the film may have more, for denoising. `None` where the notes do not tell.
+/// The layers that are written beside the picture: the film may have more, for denoising. `None` where the notes do not
+/// tell.
 pub fn picture_layers(notes: &[Note]) -> Option<LayerSet> {
     let names = all(notes, "layers").next()?;
     Some(names.split(',').filter_map(LayerSet::by_name).collect())

@@ -7,7 +7,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What is added to a checkpoint's name for the files beside it: the one before, the one that is being written, and the lock.
+/// What is added to a checkpoint's name for the files beside it: the one before, the one that is being written, and the
+/// lock.
 pub const BESIDE: [&str; 3] = [PREVIOUS, WRITING, LOCK];
 const PREVIOUS: &str = ".previous";
 const WRITING: &str = ".writing";

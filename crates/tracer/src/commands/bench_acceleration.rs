@@ -1,5 +1,5 @@
-//! `tracer bench-acceleration`: a scene rendered without boxes, with one box per mesh, and with a tree of boxes. Figure 3 of the
-//! report is this table; its times stand beside ours.
+//! `tracer bench-acceleration`: a scene rendered without boxes, with one box per mesh, and with a tree of boxes. Figure
+//! 3 of the report is this table; its times stand beside ours.
 
 use crate::args::BenchAccelerationArgs;
 use crate::failure::{Failure, exit};

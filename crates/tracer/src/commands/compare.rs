@@ -118,7 +118,8 @@ fn kind(difference: &Difference) -> &'static str {
 fn as_text(d: &Difference, above: &[&Limit]) -> String {
     let psnr = if d.psnr.is_finite() { format!("{:.2} dB", d.psnr) } else { "infinite".to_owned() };
     let mut text = format!(
-        "compared   {}\nmax        {:.6} at ({}, {})\nRMSE       {:.6}\nrelMSE     {:.6}\nPSNR       {psnr}\nFLIP mean  {:.6}\nFLIP max   {:.6}\n",
+        "compared   {}\nmax        {:.6} at ({}, {})\nRMSE       {:.6}\nrelMSE     {:.6}\nPSNR       {psnr}\n\
+         FLIP mean  {:.6}\nFLIP max   {:.6}\n",
         kind(d),
         d.max,
         d.max_at.x,

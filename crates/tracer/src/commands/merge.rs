@@ -94,7 +94,8 @@ fn spare_parts(args: &MergeArgs, outputs: &[Output]) -> Result<(), Failure> {
 /// A file and its head.
 type Head = (PathBuf, FilmHead);
 
-/// The parts that are whole, and what is wrong with the others. Every file is read to its end before anything is made of any.
+/// The parts that are whole, and what is wrong with the others. Every file is read to its end before anything is made
+/// of any.
 fn read(paths: &[PathBuf]) -> Result<(Vec<Head>, Vec<String>), Failure> {
     for (k, path) in paths.iter().enumerate() {
         if is_dash(path) {

@@ -8,8 +8,8 @@ pub fn false_colours(numbers: &[f32], width: u32, height: u32) -> Image {
     Image { width, height, linear: display.clone(), display, layers: Vec::new() }
 }
 
-/// Display values of the colour map "magma" (Stéfan van der Walt, Nathaniel Smith, 2015: dark is none, bright is much, evenly for
-/// the eye) in the polynomial form by Matt Zucker (2019), within 0.02 of the table.
+/// Display values of the colour map "magma" (Stéfan van der Walt, Nathaniel Smith, 2015: dark is none, bright is much,
+/// evenly for the eye) in the polynomial form by Matt Zucker (2019), within 0.02 of the table.
 pub fn magma(x: f32) -> [f32; 3] {
     const C: [[f32; 3]; 7] = [
         [-0.002_136_485, -0.000_749_655, -0.005_386_128],
@@ -28,7 +28,8 @@ pub fn magma(x: f32) -> [f32; 3] {
 mod tests {
     use super::*;
 
-    /// The table begins at (0.001, 0.000, 0.014), has (0.716, 0.215, 0.475) in its middle and ends at (0.987, 0.991, 0.750).
+    /// The table begins at (0.001, 0.000, 0.014), has (0.716, 0.215, 0.475) in its middle and ends at (0.987, 0.991,
+    /// 0.750).
     #[test]
     fn magma_is_the_table_within_its_error() {
         for (x, expected) in [(0.0, [0.001, 0.0, 0.014]), (0.5, [0.716, 0.215, 0.475]), (1.0, [0.987, 0.991, 0.75])] {

@@ -1,5 +1,6 @@
-//! Radiance HDR (Greg Ward, "Real Pixels", Graphics Gems II, 1991): three 8-bit mantissas and one exponent a pixel, rows run-length
-//! encoded per channel. Deviation: mantissas are rounded to the nearest (the original cuts them off), which halves the error.
+//! Radiance HDR (Greg Ward, "Real Pixels", Graphics Gems II, 1991): three 8-bit mantissas and one exponent a pixel,
+//! rows run-length encoded per channel. Deviation: mantissas are rounded to the nearest (the original cuts them off),
+//! which halves the error.
 
 use super::Provenance;
 use tracer_core::Image;
@@ -36,7 +37,8 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Vec<u8> {
     bytes
 }
 
-/// The nearest RGBE value: channel = mantissa / 256 * 2^(exponent - 128). Negative and NaN become 0; what is too large, the largest.
+/// The nearest RGBE value: channel = mantissa / 256 * 2^(exponent - 128). Negative and NaN become 0; what is too large,
+/// the largest.
 fn rgbe(rgb: [f32; 3]) -> [u8; 4] {
     // 255/256 * 2^127, the largest that there is.
     const LARGEST: f64 = 255.0 / 256.0 * 1.701_411_834_604_692_3e38;

@@ -1,7 +1,7 @@
 //! The fifth hand: a developed [`Image`] becomes a file, whole or not at all.
 //!
-//! EXR, HDR and PFM hold linear exposed radiance; PNG holds display values, rounded to the nearest code value. The bytes depend on
-//! the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine.
+//! EXR, HDR and PFM hold linear exposed radiance; PNG holds display values, rounded to the nearest code value. The
+//! bytes depend on the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine.
 
 mod encoding;
 mod error;
@@ -45,7 +45,8 @@ pub struct Written {
 /// Writes the picture: the fifth hand, [`Image`] to a file.
 ///
 /// # Errors
-/// When the place cannot be written: no such folder, no permission, read-only, disk full, the reader of standard output gone.
+/// When the place cannot be written: no such folder, no permission, read-only, disk full, the reader of standard output
+/// gone.
 pub fn write(image: &Image, encoding: Encoding, place: &Place, provenance: &Provenance) -> Result<Written, WriteError> {
     let bytes = encode(image, encoding, provenance)?;
     match place {

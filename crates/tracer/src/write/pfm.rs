@@ -1,5 +1,5 @@
-//! PFM, the portable float map (Paul Debevec): a text header, then rows of RGB floats from the bottom of the picture to its top. A
-//! negative scale says little-endian.
+//! PFM, the portable float map (Paul Debevec): a text header, then rows of RGB floats from the bottom of the picture to
+//! its top. A negative scale says little-endian.
 
 use tracer_core::Image;
 

@@ -29,8 +29,8 @@ fn encode_pixels(image: &Image, bits: Bits, provenance: &Provenance, pixels: &[u
     info.utf8_text = text(provenance)?;
     let mut bytes = Vec::new();
     let mut encoder = Encoder::with_info(&mut bytes, info)?;
-    // A twentieth of the time of zlib's level 6, for files that are a few hundredths larger, and an eighth where all is noise
-    // (docs/performance.md).
+    // A twentieth of the time of zlib's level 6, for files that are a few hundredths larger, and an eighth where all is
+    // noise (docs/performance.md).
     encoder.set_deflate_compression(DeflateCompression::FdeflateUltraFast);
     encoder.set_filter(Filter::Adaptive);
     let mut writer = encoder.write_header()?;

@@ -9,7 +9,8 @@ pub struct Setting {
     pub value: String,
 }
 
-/// What a picture was made from. It goes into PNG, EXR and HDR files, so that a picture found years later can be made again.
+/// What a picture was made from. It goes into PNG, EXR and HDR files, so that a picture found years later can be made
+/// again.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     /// The scene file's name, without its folders.

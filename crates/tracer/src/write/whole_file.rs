@@ -1,4 +1,5 @@
-//! Files that appear whole or not at all: written beside their place under another name, forced to the disk, then renamed.
+//! Files that appear whole or not at all: written beside their place under another name, forced to the disk, then
+//! renamed.
 
 use super::WriteError;
 use std::fs::{self, File, OpenOptions};
@@ -43,8 +44,8 @@ pub fn probe(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Writes a file, whole or not at all. A link is followed; an older file's permissions are kept; what is no regular file (a
-/// device, a pipe) is written directly.
+/// Writes a file, whole or not at all. A link is followed; an older file's permissions are kept; what is no regular
+/// file (a device, a pipe) is written directly.
 ///
 /// # Errors
 /// Why it could not be written; an older file is then as it was.
@@ -60,8 +61,8 @@ fn io_error(path: &Path, source: io::Error) -> WriteError {
     WriteError::Io { path: path.to_owned(), source }
 }
 
-/// The file that [`save`] would write for a name: two names of one file give the same. A link is followed even when nothing is
-/// where it leads.
+/// The file that [`save`] would write for a name: two names of one file give the same. A link is followed even when
+/// nothing is where it leads.
 ///
 /// # Errors
 /// When the system does not say: there is no such folder, or links lead in a circle.

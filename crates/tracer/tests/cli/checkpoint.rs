@@ -306,7 +306,8 @@ fn wrong_words_for_checkpoints() {
 fn a_full_disk_is_said_once_and_the_rendering_goes_on() {
     let sandbox = Sandbox::new();
     sandbox.run(&render("whole.png", "400", &[])).ends(0);
-    let line = r#"trap '' XFSZ; ulimit -f 16; exec "$T" render scene.ron -o a.png --samples 400 --checkpoint c.film --every 2ms"#;
+    let line = r#"trap '' XFSZ; ulimit -f 16
+        exec "$T" render scene.ron -o a.png --samples 400 --checkpoint c.film --every 2ms"#;
     let ran: Ran = sandbox.shell(line).ends(1);
     assert_eq!(ran.err.matches("the rendering goes on").count(), 1, "{}", ran.err);
     let ran = ran.says(&["warning: cannot write the checkpoint c.film", "error: cannot write the checkpoint c.film"]);

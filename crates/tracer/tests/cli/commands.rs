@@ -174,7 +174,8 @@ fn convert_goes_both_ways() {
     assert!(!sandbox.files().contains(&"bad.toml".to_owned()));
 }
 
-/// A path starts from the scene's folder: whoever converts into another one is told, but only where the scene names such a path.
+/// A path starts from the scene's folder: whoever converts into another one is told, but only where the scene names
+/// such a path.
 #[test]
 fn convert_warns_of_paths_that_move() {
     let sandbox = Sandbox::new();

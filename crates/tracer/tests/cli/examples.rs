@@ -1,4 +1,5 @@
-//! Every example of `docs/scene-reference.md` is rendered: each kind of thing in the language, and each block of the page.
+//! Every example of `docs/scene-reference.md` is rendered: each kind of thing in the language, and each block of the
+//! page.
 
 use crate::support::{Sandbox, repository};
 use scene_format::{Syntax, examples, load_str};

@@ -33,11 +33,13 @@ fn scenes_are_laid_out_in_their_files() {
 #[test]
 fn what_is_certain_is_mended() {
     let sandbox = Sandbox::new();
-    let wrong = "Scene(\n    bakground: 1, // light\n    objects: [Sphere(centre: (0, 0, 0), radus: 1), Sphere(center: (0, 0, 0))],\n)\n";
+    let wrong = "Scene(\n    bakground: 1, // light\n    objects: [Sphere(centre: (0, 0, 0), radus: 1), Sphere(center: \
+                 (0, 0, 0))],\n)\n";
     sandbox.write("a.ron", wrong);
     // One sphere has no radius: that is for the person.
     sandbox.run(&["check", "a.ron", "--fix"]).ends(2).says(&["a.ron: mended 3 faults", "radius"]);
-    let mended = "Scene(\n    background: 1, // light\n    objects: [Sphere(center: (0, 0, 0), radius: 1), Sphere(center: (0, 0, 0))],\n)\n";
+    let mended = "Scene(\n    background: 1, // light\n    objects: [Sphere(center: (0, 0, 0), radius: 1), \
+                  Sphere(center: (0, 0, 0))],\n)\n";
     assert_eq!(sandbox.text("a.ron"), mended);
     sandbox.run(&["check", "a.ron", "--fix"]).ends(2).says(&["radius"]);
     assert_eq!(sandbox.text("a.ron"), mended);

@@ -74,7 +74,8 @@ fn closed_standard_error_is_no_fault() {
     }
 }
 
-/// On a terminal there are colours, unless NO_COLOR is set or `--color never` says so. `script` (of util-linux) is the terminal.
+/// On a terminal there are colours, unless NO_COLOR is set or `--color never` says so. `script` (of util-linux) is the
+/// terminal.
 #[cfg(target_os = "linux")]
 #[test]
 fn colours_on_a_terminal() {
@@ -105,7 +106,8 @@ fn verbose_tells_what_is_loaded() {
     std::fs::copy(repository().join("assets/globe.png"), sandbox.path("globe.png")).expect("a texture");
     sandbox.write("t.off", "OFF\n4 4 0\n-1 -1 -1\n1 1 -1\n1 -1 1\n-1 1 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n");
     let objects = r#"    objects: [
-        Mesh(file: "t.off"), Sphere(center: (0, 9, 0), radius: 1, material: Diffuse(albedo: Texture(file: "globe.png"))),"#;
+        Mesh(file: "t.off"),
+        Sphere(center: (0, 9, 0), radius: 1, material: Diffuse(albedo: Texture(file: "globe.png"))),"#;
     sandbox.write("all.ron", SCENE.replace("    objects: [", objects));
     for command in [&["check", "all.ron"][..], &["render", "all.ron", "-o", "a.png"], &["info", "all.ron"]] {
         let quiet = sandbox.run(command).ends(0).silent();

@@ -58,7 +58,8 @@ fn the_second_leaves_at_once() {
         "slow.ron",
         format!(
             "Scene(background: 1, render: Render(acceleration: None), image: Image(width: 256, height: 256), \
-             camera: Camera(position: (0, 1, 5)), objects: [Mesh(file: {mesh:?}, material: Diffuse(), placements: [{}])])",
+             camera: Camera(position: (0, 1, 5)), objects: [Mesh(file: {mesh:?}, material: Diffuse(), placements: \
+             [{}])])",
             "[Translate((0.1, 0, 0))], ".repeat(50)
         ),
     );

@@ -164,8 +164,8 @@ fn nothing_but_the_picture_is_written() {
     assert_eq!(sandbox.files(), ["a.png", "scene.ron"]);
 }
 
-/// Start-up, reading, compiling, a picture of one batch, writing. The bound is for a machine that does nothing else; eight times of
-/// it are allowed here, and the best of several runs counts.
+/// Start-up, reading, compiling, a picture of one batch, writing. The bound is for a machine that does nothing else;
+/// eight times of it are allowed here, and the best of several runs counts.
 #[test]
 fn a_small_picture_is_there_at_once() {
     let sandbox = Sandbox::new();

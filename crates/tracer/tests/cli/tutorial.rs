@@ -1,9 +1,11 @@
 //! `docs/tutorial.md`, done step by step: every command is run, every edit made, every output and picture compared.
 //!
-//! A block ```` ```ron FILE ```` shows a whole file as it is, ```` ```obj FILE ```` makes one, ```` ```diff FILE ```` edits one, ```` ```sh ```` runs commands, and
-//! the ```` ```text ```` after it is what they print (`...` stands for lines left out, and a number in it for any number).
+//! A block ```` ```ron FILE ```` shows a whole file as it is, ```` ```obj FILE ```` makes one, ```` ```diff FILE ````
+//! edits one, ```` ```sh ```` runs commands, and the ```` ```text ```` after it is what they print (`...` stands for
+//! lines left out, and a number in it for any number).
 //!
-//! `TUTORIAL=write cargo test -p tracer --test cli tutorial` makes the pictures anew; look at them before committing them.
+//! `TUTORIAL=write cargo test -p tracer --test cli tutorial` makes the pictures anew; look at them before committing
+//! them.
 
 use crate::support::{Ran, Sandbox, is_done, repository};
 use std::fs;
@@ -136,12 +138,13 @@ impl Page {
 
     /// Compares the last rendering with a picture of the page.
     ///
-    /// The same program makes the same bytes. Another one may differ in its noise, and in nothing else: then the picture and the
-    /// rendering are two independent estimates of the same values with as many samples, and so are two renderings with other
-    /// seeds. The mean square difference of two such is twice the variance of one, in display values clipped to 0 to 1, whatever
-    /// the tone curve does to their means. If the noise has stayed as it was, the two mean squares have the same expectation; each
-    /// is a mean over 122 880 numbers in [0, 1], so that a ratio of two stands for a change of the picture or for a program
-    /// whose variance has fallen to less than a third of what it was: in both cases the pictures are worth making anew.
+    /// The same program makes the same bytes. Another one may differ in its noise, and in nothing else: then the
+    /// picture and the rendering are two independent estimates of the same values with as many samples, and so are two
+    /// renderings with other seeds. The mean square difference of two such is twice the variance of one, in display
+    /// values clipped to 0 to 1, whatever the tone curve does to their means. If the noise has stayed as it was, the
+    /// two mean squares have the same expectation; each is a mean over 122 880 numbers in [0, 1], so that a ratio of
+    /// two stands for a change of the picture or for a program whose variance has fallen to less than a third of what
+    /// it was: in both cases the pictures are worth making anew.
     fn picture(&mut self, file: &str) {
         let kept = repository().join("docs").join(file);
         let (words, output) = self.rendering.take().expect("a picture follows its rendering");
@@ -165,7 +168,8 @@ impl Page {
         let difference = mean_square(&shown, &made);
         assert!(
             difference <= 2.0 * noise,
-            "{file} differs by {:.4} (RMSE of display values), and noise by {:.4}: look at it, and make it anew as this test says",
+            "{file} differs by {:.4} (RMSE of display values), and noise by {:.4}: look at it, and make it anew as \
+             this test says",
             difference.sqrt(),
             noise.sqrt()
         );

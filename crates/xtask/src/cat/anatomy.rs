@@ -1,7 +1,7 @@
 //! The cat's shape: a standing house cat as a signed distance field of melted blobs.
 //!
-//! Frame: x forward (the cat looks along +x), y up with the floor at y = 0, z to the cat's right. One unit is a little less than a
-//! centimetre of a real cat: the back is at 28, the ears' tips at 37.
+//! Frame: x forward (the cat looks along +x), y up with the floor at y = 0, z to the cat's right. One unit is a little
+//! less than a centimetre of a real cat: the back is at 28, the ears' tips at 37.
 
 use super::sdf::{Blob, Melt, smooth_max, smooth_min};
 use glam::{DMat3, DVec3};

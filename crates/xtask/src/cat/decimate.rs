@@ -1,8 +1,8 @@
 //! Fewer triangles: edge collapses in the order of the quadric error (Garland and Heckbert 1997).
 //!
-//! Deviations: a small share of the squared edge length is added to the error, so that flat places keep well-shaped triangles; a weight per
-//! place keeps more of them where people look. A collapse that would change the topology (link condition), flip or flatten
-//! a triangle is not made.
+//! Deviations: a small share of the squared edge length is added to the error, so that flat places keep well-shaped
+//! triangles; a weight per place keeps more of them where people look. A collapse that would change the topology (link
+//! condition), flip or flatten a triangle is not made.
 
 use super::mesh::{Mesh, area_vector, quality};
 use glam::{DMat3, DVec3};
@@ -18,7 +18,8 @@ const WORST_LEAN: f64 = 0.4;
 /// Nor leave a vertex with more triangles than this.
 const MOST_NEIGHBOURS: usize = 11;
 
-/// Collapses edges of a closed mesh until `target` triangles are left (or none can go). `importance` weighs the error at a place.
+/// Collapses edges of a closed mesh until `target` triangles are left (or none can go). `importance` weighs the error
+/// at a place.
 pub fn decimate(mesh: &mut Mesh, target: usize, importance: impl Fn(DVec3) -> f64) {
     loop {
         let before = mesh.triangles.len();
@@ -223,8 +224,8 @@ impl Work {
         self.triangles_at[v].iter().map(|&t| quality(mesh.corners(t))).fold(1.0, f64::min)
     }
 
-    /// Whether the triangles at `moved` that do not vanish with the edge to `other` stay upright and no worse than `worst` when
-    /// `moved` goes to `point`.
+    /// Whether the triangles at `moved` that do not vanish with the edge to `other` stay upright and no worse than
+    /// `worst` when `moved` goes to `point`.
     fn keeps_shape(&self, mesh: &Mesh, moved: usize, other: usize, point: DVec3, worst: f64) -> bool {
         self.triangles_at[moved].iter().filter(|&&t| !mesh.triangles[t].contains(&other)).all(|&t| {
             let mut corners = mesh.corners(t);

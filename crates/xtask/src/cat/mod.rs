@@ -1,7 +1,8 @@
 //! The cat: shape, meshes, texture, files.
 //!
-//! `anatomy` says what the cat is (a signed distance field), `polygonise` makes triangles of it, `decimate` and `relax` make fewer
-//! and better ones, `unwrap` lays them out in the texture, `paint` colours it by `coat`, `write` makes the files.
+//! `anatomy` says what the cat is (a signed distance field), `polygonise` makes triangles of it, `decimate` and `relax`
+//! make fewer and better ones, `unwrap` lays them out in the texture, `paint` colours it by `coat`, `write` makes the
+//! files.
 
 pub mod anatomy;
 pub mod coat;

@@ -1,8 +1,9 @@
 //! A distance field's zero surface as triangles: marching tetrahedra (Doi and Koide 1991).
 //!
-//! Each cell of a cubic grid is cut into six tetrahedra about its diagonal, alike in all cells, so that neighbours agree
-//! on their common faces: the surface is a closed 2-manifold whatever the field does, which marching cubes and surface nets do
-//! not promise. Its many slivers are the decimation's business. Cells far from the surface are never looked at.
+//! Each cell of a cubic grid is cut into six tetrahedra about its diagonal, alike in all cells, so that neighbours
+//! agree on their common faces: the surface is a closed 2-manifold whatever the field does, which marching cubes and
+//! surface nets do not promise. Its many slivers are the decimation's business. Cells far from the surface are never
+//! looked at.
 
 use super::mesh::Mesh;
 use glam::DVec3;
@@ -26,8 +27,8 @@ const BLOCK: usize = 6;
 const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
-/// The surface where `distance` is zero, outward where it is positive. `distance` must not grow faster than 1.25 times the
-/// length walked, and its zero surface must lie inside the grid.
+/// The surface where `distance` is zero, outward where it is positive. `distance` must not grow faster than 1.25 times
+/// the length walked, and its zero surface must lie inside the grid.
 pub fn polygonise(grid: &Grid, distance: impl Fn(DVec3) -> f64) -> Mesh {
     let size = ((grid.max - grid.min) / grid.cell).ceil();
     let blocks = [size.x, size.y, size.z].map(|n| (n as usize).div_ceil(BLOCK));

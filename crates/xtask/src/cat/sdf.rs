@@ -1,8 +1,8 @@
 //! Signed distance building blocks: positive outside, negative inside, in the model's unit.
 //!
-//! Round cone and ellipsoid after Inigo Quilez, "Distance functions" (the ellipsoid's is a first-order estimate, exact on the
-//! surface); the smooth minimum is his quadratic polynomial one: it leaves the minimum alone where the two differ by more
-//! than `k`, so that far shapes can be skipped exactly.
+//! Round cone and ellipsoid after Inigo Quilez, "Distance functions" (the ellipsoid's is a first-order estimate, exact
+//! on the surface); the smooth minimum is his quadratic polynomial one: it leaves the minimum alone where the two
+//! differ by more than `k`, so that far shapes can be skipped exactly.
 
 use glam::{DMat3, DVec3};
 

@@ -1,9 +1,9 @@
 //! Texture coordinates: an atlas of flat views.
 //!
-//! Each part of the cat is seen from the six sides of a box; a triangle belongs to the view that it faces. So a
-//! texture coordinate is an affine function of the position within a chart, the same for every mesh of the cat: meshes of any number
-//! of triangles share one texture, no triangle is stretched by more than 1/cos 55 degrees, and none runs across a seam (vertices
-//! on a chart's border have one texture coordinate per chart).
+//! Each part of the cat is seen from the six sides of a box; a triangle belongs to the view that it faces. So a texture
+//! coordinate is an affine function of the position within a chart, the same for every mesh of the cat: meshes of any
+//! number of triangles share one texture, no triangle is stretched by more than 1/cos 55 degrees, and none runs across
+//! a seam (vertices on a chart's border have one texture coordinate per chart).
 
 use super::anatomy::{Cat, Part};
 use super::mesh::{Mesh, area_vector};
@@ -157,7 +157,8 @@ impl Atlas {
         Atlas { size, charts }
     }
 
-    /// Texture coordinates of a point in a chart, (0, 0) at the texture's lower left; `None` where the atlas lacks the chart.
+    /// Texture coordinates of a point in a chart, (0, 0) at the texture's lower left; `None` where the atlas lacks the
+    /// chart.
     pub fn uv(&self, id: ChartId, p: DVec3) -> Option<DVec2> {
         let place = self.charts.get(&id)?;
         Some((place.corner + (id.side.see(p) - place.min) * place.density) / self.size)

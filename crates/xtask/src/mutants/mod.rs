@@ -1,7 +1,7 @@
 //! Faults seeded on purpose: each is one exact change of the source, and tests other than the goldens must notice it.
 //!
-//! A list of plausible slips, not of random ones: what a person gets wrong in a path tracer. One that no test notices is a missing
-//! test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
+//! A list of plausible slips, not of random ones: what a person gets wrong in a path tracer. One that no test notices
+//! is a missing test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
 
 mod curved;
 mod engine;

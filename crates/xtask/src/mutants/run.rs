@@ -138,8 +138,8 @@ impl Copy {
         Ok(copy)
     }
 
-    /// Compiles the engine's stages for one lane type instead of four: most of the time goes into them, and all make the same bytes,
-    /// which `same_bytes` proves. Where the CPU lacks it, all four stay.
+    /// Compiles the engine's stages for one lane type instead of four: most of the time goes into them, and all make
+    /// the same bytes, which `same_bytes` proves. Where the CPU lacks it, all four stay.
     fn slim(&self) -> anyhow::Result<()> {
         if !has_avx2() {
             return Ok(());

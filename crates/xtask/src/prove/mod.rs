@@ -1,7 +1,7 @@
 //! The long proofs: what takes longer than the README's test command may, or needs more than a compiler.
 //!
-//! Each is a line of [`PROOFS`]: its name, whether CI runs it, what it needs, and its commands. What it needs is installed on Debian
-//! by root; anywhere else the proof says what is missing.
+//! Each is a line of [`PROOFS`]: its name, whether CI runs it, what it needs, and its commands. What it needs is
+//! installed on Debian by root; anywhere else the proof says what is missing.
 
 mod need;
 mod table;
@@ -24,7 +24,8 @@ pub struct Proof {
     pub what: &'static str,
     /// What has to be installed.
     pub needs: &'static [Need],
-    /// Its commands for a shell in the root of the repository, one after the other; `python` has the packages that it needs.
+    /// Its commands for a shell in the root of the repository, one after the other; `python` has the packages that it
+    /// needs.
     pub commands: &'static [&'static str],
 }
 

@@ -28,28 +28,172 @@ const MITSUBA: &[Need] =
 /// A browser, and what drives it: chromium of Debian, playwright-core of npm.
 const BROWSER: &[Need] = &[Program("chromium", "chromium"), Program("node", "nodejs"), Program("npm", "npm")];
 
-/// All of them. A line each; CONTRIBUTING.md has a row for each.
-#[rustfmt::skip]
+/// All of them. CONTRIBUTING.md has a row for each.
 pub const PROOFS: &[Proof] = &[
-    proof("instructions", Always, "the instructions of the hot paths stay below their limits; four minutes", GUNGRAUN, &["cd bench && cargo bench --locked --bench instructions"]),
-    proof("preview", Asked, "`tracer preview` in a real browser: saves, faults, keys, two pages, a phone's width; two minutes", BROWSER, &["cargo build --locked -p tracer", "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1", "node crates/preview/tests/browser/main.mjs"]),
-    proof("golden", Asked, "the page of `tracer golden` in a real browser: wipe by mouse and keys, dark and light, a phone's width, nothing asked of anybody; a minute", BROWSER, &["cargo build --locked -p tracer", "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1", "node crates/golden/tests/browser/main.mjs"]),
-    proof("pairs", Always, "scenes that must look the same, in exact pairs; four minutes", &[], &["cargo test --locked -p xtask --test pairs"]),
-    proof("random-scenes", Always, "twenty random scenes against the truth; a minute", &[], &["cargo test --locked -p xtask --test truth"]),
-    proof("pairs-long", Asked, "the same pairs with four times the pictures; a quarter of an hour", &[], &["cargo xtask truth --pairs 40"]),
-    proof("truth", Asked, "random scenes, the default picture against the plain path tracer's or that of a scene that must look the same; an hour and a half", &[], &["cargo xtask truth --scenes 1000"]),
-    proof("sweeps", Asked, "no cliffs, no pops: noise and mean while a parameter changes in forty steps, and films of 24 frames; twenty minutes", &[], &["cargo xtask sweeps"]),
-    proof("rooms", Asked, "squares in the noise of ten rooms where light is hard to find, at 4 to 256 samples; half an hour", &[], &["cargo xtask rooms"]),
-    proof("statistics", Asked, "the statistical proofs with 16 times the samples; an hour", &[], &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"]),
-    proof("mutants", Asked, "faults seeded one at a time, of which a test must notice each; an hour", &[], &["cargo xtask mutants"]),
-    proof("watertight", Asked, "a hundred million rays at edges and vertices; minutes", &[], &["BVH_WATERTIGHT_RAYS=100000000 cargo test --locked -p tracer-core --test bvh_watertight"]),
-    proof("scene-mutants", Asked, "a hundred thousand broken scenes, read without a panic or a second's wait; minutes", &[], &["SCENE_MUTANTS=100000 cargo test --release --locked -p scene-format --test mutants"]),
-    proof("scene-mistakes", Asked, "sixty sorts of human mistakes at a thousand places of each scene; minutes", &[], &["SCENE_MISTAKES=1000 cargo test --release --locked -p scene-format --test mistakes"]),
-    proof("scene-memory", Asked, "the memory that reading takes, with files of 64 MB; minutes", &[], &["SCENE_MEMORY=64 cargo test --release --locked -p scene-format --test memory"]),
-    proof("mesh-mutants", Asked, "half a million broken meshes, read without a panic; minutes", &[], &["TRACER_MUTANTS=500000 cargo test --release --locked -p tracer-mesh --test mesh_mutations"]),
-    proof("goldens-release", Asked, "the goldens with all optimisations: the bytes are those of the profile `dev`; ten minutes", &[], &["cargo test --release --locked -p tracer --test goldens"]),
-    proof("address-sanitizer", Asked, "the engine's tests with the address sanitizer, vector code and all; an hour", &[Nightly(&["rust-src"])], &["RUSTFLAGS=-Zsanitizer=address CARGO_TARGET_DIR=target/asan cargo +nightly test -p tracer-core --target x86_64-unknown-linux-gnu"]),
-    proof("miri", Asked, "the smallest whole rendering under Miri; a quarter of an hour", &[Nightly(&["miri", "rust-src"])], &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance -Zmiri-disable-stacked-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core --test soundness"]),
-    proof("miri-borrows", Asked, "who may point where in the lanes' unsafe code, under Miri; half an hour", &[Nightly(&["miri", "rust-src"])], &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance -Zmiri-tree-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core --lib -- lanes"]),
-    proof("mitsuba", Asked, "eleven scenes against Mitsuba 3; half an hour", MITSUBA, &["cargo build --release --locked", "DRJIT_LIBLLVM_PATH=/usr/lib/x86_64-linux-gnu/libLLVM-19.so python bench/peers/compare.py"]),
+    proof(
+        "instructions",
+        Always,
+        "the instructions of the hot paths stay below their limits; four minutes",
+        GUNGRAUN,
+        &["cd bench && cargo bench --locked --bench instructions"],
+    ),
+    proof(
+        "preview",
+        Asked,
+        "`tracer preview` in a real browser: saves, faults, keys, two pages, a phone's width; two minutes",
+        BROWSER,
+        &[
+            "cargo build --locked -p tracer",
+            "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1",
+            "node crates/preview/tests/browser/main.mjs",
+        ],
+    ),
+    proof(
+        "golden",
+        Asked,
+        "the page of `tracer golden` in a real browser: wipe by mouse and keys, dark and light, a phone's width, \
+         nothing asked of anybody; a minute",
+        BROWSER,
+        &[
+            "cargo build --locked -p tracer",
+            "npm install --silent --no-audit --no-fund --no-save --prefix target/prove/node playwright-core@1.56.1",
+            "node crates/golden/tests/browser/main.mjs",
+        ],
+    ),
+    proof(
+        "pairs",
+        Always,
+        "scenes that must look the same, in exact pairs; four minutes",
+        &[],
+        &["cargo test --locked -p xtask --test pairs"],
+    ),
+    proof(
+        "random-scenes",
+        Always,
+        "twenty random scenes against the truth; a minute",
+        &[],
+        &["cargo test --locked -p xtask --test truth"],
+    ),
+    proof(
+        "pairs-long",
+        Asked,
+        "the same pairs with four times the pictures; a quarter of an hour",
+        &[],
+        &["cargo xtask truth --pairs 40"],
+    ),
+    proof(
+        "truth",
+        Asked,
+        "random scenes, the default picture against the plain path tracer's or that of a scene that must look the \
+         same; an hour and a half",
+        &[],
+        &["cargo xtask truth --scenes 1000"],
+    ),
+    proof(
+        "sweeps",
+        Asked,
+        "no cliffs, no pops: noise and mean while a parameter changes in forty steps, and films of 24 frames; \
+         twenty minutes",
+        &[],
+        &["cargo xtask sweeps"],
+    ),
+    proof(
+        "rooms",
+        Asked,
+        "squares in the noise of ten rooms where light is hard to find, at 4 to 256 samples; half an hour",
+        &[],
+        &["cargo xtask rooms"],
+    ),
+    proof(
+        "statistics",
+        Asked,
+        "the statistical proofs with 16 times the samples; an hour",
+        &[],
+        &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"],
+    ),
+    proof(
+        "mutants",
+        Asked,
+        "faults seeded one at a time, of which a test must notice each; an hour",
+        &[],
+        &["cargo xtask mutants"],
+    ),
+    proof(
+        "watertight",
+        Asked,
+        "a hundred million rays at edges and vertices; minutes",
+        &[],
+        &["BVH_WATERTIGHT_RAYS=100000000 cargo test --locked -p tracer-core --test bvh_watertight"],
+    ),
+    proof(
+        "scene-mutants",
+        Asked,
+        "a hundred thousand broken scenes, read without a panic or a second's wait; minutes",
+        &[],
+        &["SCENE_MUTANTS=100000 cargo test --release --locked -p scene-format --test mutants"],
+    ),
+    proof(
+        "scene-mistakes",
+        Asked,
+        "sixty sorts of human mistakes at a thousand places of each scene; minutes",
+        &[],
+        &["SCENE_MISTAKES=1000 cargo test --release --locked -p scene-format --test mistakes"],
+    ),
+    proof(
+        "scene-memory",
+        Asked,
+        "the memory that reading takes, with files of 64 MB; minutes",
+        &[],
+        &["SCENE_MEMORY=64 cargo test --release --locked -p scene-format --test memory"],
+    ),
+    proof(
+        "mesh-mutants",
+        Asked,
+        "half a million broken meshes, read without a panic; minutes",
+        &[],
+        &["TRACER_MUTANTS=500000 cargo test --release --locked -p tracer-mesh --test mesh_mutations"],
+    ),
+    proof(
+        "goldens-release",
+        Asked,
+        "the goldens with all optimisations: the bytes are those of the profile `dev`; ten minutes",
+        &[],
+        &["cargo test --release --locked -p tracer --test goldens"],
+    ),
+    proof(
+        "address-sanitizer",
+        Asked,
+        "the engine's tests with the address sanitizer, vector code and all; an hour",
+        &[Nightly(&["rust-src"])],
+        &["RUSTFLAGS=-Zsanitizer=address CARGO_TARGET_DIR=target/asan cargo +nightly test -p tracer-core \
+             --target x86_64-unknown-linux-gnu"],
+    ),
+    proof(
+        "miri",
+        Asked,
+        "the smallest whole rendering under Miri; a quarter of an hour",
+        &[Nightly(&["miri", "rust-src"])],
+        &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance \
+             -Zmiri-disable-stacked-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core \
+             --test soundness"],
+    ),
+    proof(
+        "miri-borrows",
+        Asked,
+        "who may point where in the lanes' unsafe code, under Miri; half an hour",
+        &[Nightly(&["miri", "rust-src"])],
+        &["MIRIFLAGS='-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-permissive-provenance \
+             -Zmiri-tree-borrows' CARGO_TARGET_DIR=target/miri cargo +nightly miri test -p tracer-core --lib -- \
+             lanes"],
+    ),
+    proof(
+        "mitsuba",
+        Asked,
+        "eleven scenes against Mitsuba 3; half an hour",
+        MITSUBA,
+        &[
+            "cargo build --release --locked",
+            "DRJIT_LIBLLVM_PATH=/usr/lib/x86_64-linux-gnu/libLLVM-19.so python bench/peers/compare.py",
+        ],
+    ),
 ];

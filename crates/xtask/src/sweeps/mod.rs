@@ -1,5 +1,5 @@
-//! `cargo xtask sweeps`: no cliffs, no pops. A parameter of a scene is changed step by step, and neither the noise of the
-//! default picture, over that of the plain path tracer at equal samples, nor its mean may jump between neighbours;
+//! `cargo xtask sweeps`: no cliffs, no pops. A parameter of a scene is changed step by step, and neither the noise of
+//! the default picture, over that of the plain path tracer at equal samples, nor its mean may jump between neighbours;
 //! frames of a film may not flicker more than the plain path tracer's. How that is told: `statistics`; what is swept:
 //! `scenes`.
 
@@ -54,7 +54,8 @@ pub fn run(options: &Options) -> anyhow::Result<usize> {
     let tests: usize = sweeps.iter().map(|sweep| 3 * steps_of(sweep, options)).sum();
     let level = LEVEL / tests as f64;
     println!(
-        "{} pictures of {} samples; ratio: noise of the default picture over the plain path tracer's; the largest jumps \
+        "{} pictures of {} samples; ratio: noise of the default picture over the plain path tracer's; the largest \
+         jumps \
          between neighbours, as factors, with their standard errors",
         options.pictures, options.samples
     );

@@ -77,7 +77,8 @@ fn lamp_distance(distance: f64, size: u32) -> String {
 /// A glossy floor gets smoother, to all but a mirror.
 fn exponent(exponent: f64, size: u32) -> String {
     let floor = format!(
-        "Rectangle(size: 30, material: BlinnPhong(albedo: 0.8, exponent: {exponent}, specular: 0.6, energy_conserving: true)),
+        "Rectangle(size: 30, material: BlinnPhong(albedo: 0.8, exponent: {exponent}, specular: 0.6, energy_conserving: \
+         true)),
         Rectangle(center: (0, 2, -3), normal: (0, 0, 1), size: (6, 4), material: Diffuse(albedo: (0.5, 0.6, 0.7))),\n"
     );
     let rest = lamp("(1.5, 2.4, -0.6)", 0.3, 25.0);

@@ -1,22 +1,23 @@
 //! What is asked of a sweep: does the noise, does the mean jump between neighbouring steps?
 //!
 //! # Noise
-//! Of n pictures with independent seeds the sample variance of each pixel, averaged over pixels, is an unbiased estimate of the
-//! noise V of one picture, whatever hangs together within it. Default and plain pictures give the ratio R = V/V'. Between
-//! neighbours d = ln R(i+1) - ln R(i), a function of the four sets of pictures; its variance is that of the jackknife,
-//! picture k being left out of all four at a time. The pictures of a seed are alike at both steps where the technique is, and then
-//! their luck cancels in d, which the jackknife sees as well. The noise of the plain path tracer may be a few events; then so may
-//! R, and d's error is large and says so. H0: |d| <= ln 1.5. It is rejected where (|d| - ln 1.5) over the error is so large that
-//! Student's t with n - 1 degrees of freedom gives it a chance below the level, divided among all jumps that are asked for (Bonferroni).
+//! Of n pictures with independent seeds the sample variance of each pixel, averaged over pixels, is an unbiased
+//! estimate of the noise V of one picture, whatever hangs together within it. Default and plain pictures give the ratio
+//! R = V/V'. Between neighbours d = ln R(i+1) - ln R(i), a function of the four sets of pictures; its variance is that
+//! of the jackknife, picture k being left out of all four at a time. The pictures of a seed are alike at both steps
+//! where the technique is, and then their luck cancels in d, which the jackknife sees as well. The noise of the plain
+//! path tracer may be a few events; then so may R, and d's error is large and says so. H0: |d| <= ln 1.5. It is
+//! rejected where (|d| - ln 1.5) over the error is so large that Student's t with n - 1 degrees of freedom gives it a
+//! chance below the level, divided among all jumps that are asked for (Bonferroni).
 //!
 //! # Means
-//! A mean changes with the parameter; what it must not do is jump. Over four steps c = (3 (m2 - m1) - (m3 - m0)) / 2 is zero for any
-//! parabola but for terms of third order, and J for a jump J between the middle ones. Its standard error is that of n values of c, one
-//! for each seed. H0: |c| <= 2 % of the mean, tested as above.
+//! A mean changes with the parameter; what it must not do is jump. Over four steps c = (3 (m2 - m1) - (m3 - m0)) / 2 is
+//! zero for any parabola but for terms of third order, and J for a jump J between the middle ones. Its standard error
+//! is that of n values of c, one for each seed. H0: |c| <= 2 % of the mean, tested as above.
 //!
 //! # Frames
-//! Mean squared differences between neighbouring frames, default over plain, both with one seed for all frames: what is to be seen
-//! there beside motion is noise. The ratio, and its error as above; H0: it is at most one.
+//! Mean squared differences between neighbouring frames, default over plain, both with one seed for all frames: what is
+//! to be seen there beside motion is noise. The ratio, and its error as above; H0: it is at most one.
 
 use tracer_reference::statistics::student;
 
@@ -132,8 +133,8 @@ mod tests {
             let d = jump_of_mean([0, 1, 2, 3].map(|k| &steps[k][0]));
             means += (d.value / d.error).powi(2) / 60.0;
         }
-        // The square of Student's t of 7 degrees of freedom has a mean of 7/5 and a fourth moment of 3 * 49 / (5 * 3), hence a
-        // deviation of 2.8; of 60 of them the mean is off by 0.36: three and a half of these on either side.
+        // The square of Student's t of 7 degrees of freedom has a mean of 7/5 and a fourth moment of 3 * 49 / (5 * 3),
+        // hence a deviation of 2.8; of 60 of them the mean is off by 0.36: three and a half of these on either side.
         assert!((0.14..2.66).contains(&jumps) && (0.14..2.66).contains(&means), "{jumps} {means}");
     }
 
@@ -144,7 +145,8 @@ mod tests {
         let plain = [(); 2].map(|()| pictures(&mut random, 8, 1.0, 1.0));
         let ours = [0.3, 0.6].map(|deviation| pictures(&mut random, 8, 1.0, deviation));
         let d = jump(&ratios(&ours[0], &plain[0]), &ratios(&ours[1], &plain[1]));
-        // A variance of 8 times 400 numbers is off by (2 / (7 * 400))^(1/2), four of them by 0.053: nearly four of these.
+        // A variance of 8 times 400 numbers is off by (2 / (7 * 400))^(1/2), four of them by 0.053: nearly four of
+        // these.
         assert!((d.value - 4f64.ln()).abs() < 0.2 && d.chance(LARGEST.ln(), 8) < 1e-5, "{d:?}");
         for (means, jumps) in [([1.0, 1.0, 1.05, 1.05], true), ([1.0, 1.1, 1.2, 1.3], false)] {
             let steps = means.map(|mean| pictures(&mut random, 8, mean, 0.05));

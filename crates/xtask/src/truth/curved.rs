@@ -74,7 +74,8 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     world.desc.objects.push(object.into());
 }
 
-/// Adds a closed cylinder that stands, or hangs where `height` is below 0, with one of its caps at the height of its foot.
+/// Adds a closed cylinder that stands, or hangs where `height` is below 0, with one of its caps at the height of its
+/// foot.
 pub fn standing(world: &mut World, foot: Point, height: f64, radius: f64, material: Material) {
     world.desc.objects.push(
         Object::Cylinder(Box::new(Cylinder {

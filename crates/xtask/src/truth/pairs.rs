@@ -155,7 +155,8 @@ fn shells(pairs: &mut Vec<Pair>) {
     }
 }
 
-/// What lies in the floor's plane changes nothing where it is as the floor is, or glass of index 1.0: rugs, lids let into the floor, tumblers.
+/// What lies in the floor's plane changes nothing where it is as the floor is, or glass of index 1.0: rugs, lids let
+/// into the floor, tumblers.
 fn flush(pairs: &mut Vec<Pair>) {
     for receiver in [Receiver::Grass, Receiver::LowPoly] {
         let name = name_of(receiver);

@@ -7,8 +7,8 @@ use super::written::compiled;
 /// Pixels along a side: seven borders of 8 pixels, three of 16.
 const SIZE: u32 = 64;
 
-/// The walls of a room of 4 by 3 by 4 about (0, 1.5, 0), a floor and a ceiling, but for the sides named; solid, and into each other
-/// at the corners, so that no light comes through.
+/// The walls of a room of 4 by 3 by 4 about (0, 1.5, 0), a floor and a ceiling, but for the sides named; solid, and
+/// into each other at the corners, so that no light comes through.
 pub fn walls(without: &str) -> String {
     [
         ("left", "(-2.1, 1.5, 0)", "(0.2, 3.4, 4.4)", 0.6),
@@ -59,7 +59,8 @@ fn lamp(center: &str, radius: f64, radiance: f64) -> String {
 pub fn all() -> Vec<(&'static str, String)> {
     let scene = |eye: &str, at: &str, lights: String, background: f64, objects: String| {
         format!(
-            "Scene(camera: Camera(position: {eye}, look_at: {at}, fov: 65), image: Image(width: {SIZE}, height: {SIZE}),\n\
+            "Scene(camera: Camera(position: {eye}, look_at: {at}, fov: 65), image: Image(width: {SIZE}, height: \
+             {SIZE}),\n\
              background: {background}, lights: [{lights}],\nobjects: [\n{objects}])"
         )
     };
@@ -132,7 +133,8 @@ pub fn all() -> Vec<(&'static str, String)> {
                 [-1.4, -0.7, 0.0, 0.7, 1.4].map(|x| lamp(&format!("({x}, 2.85, -1.85)"), 0.05, 200.0)).join(", "),
                 0.0,
                 whole.clone()
-                    + "Box(center: (0, 2.7, -1.75), size: (3.9, 0.1, 0.5)),\nBox(center: (0, 2.78, -1.52), size: (3.9, 0.25, 0.06)),\n"
+                    + "Box(center: (0, 2.7, -1.75), size: (3.9, 0.1, 0.5)),\n\
+                       Box(center: (0, 2.78, -1.52), size: (3.9, 0.25, 0.06)),\n"
                     + &things(0.4),
             ),
         ),
@@ -144,7 +146,9 @@ pub fn all() -> Vec<(&'static str, String)> {
                 String::new(),
                 0.0,
                 whole
-                    + "Box(center: (0.2, 0.55, -0.8), size: (1.8, 0.2, 1.6)),\nRectangle(center: (0.2, 0.42, -0.8), normal: (0, -1, 0), size: (1.4, 0.3), material: Emissive(radiance: 40)),\n",
+                    + "Box(center: (0.2, 0.55, -0.8), size: (1.8, 0.2, 1.6)),\n\
+                       Rectangle(center: (0.2, 0.42, -0.8), normal: (0, -1, 0), size: (1.4, 0.3), material: \
+                       Emissive(radiance: 40)),\n",
             ),
         ),
     ]
@@ -155,7 +159,10 @@ fn curtain() -> String {
     (0..11)
         .map(|k| {
             let z = -2.0 + 0.4 * f64::from(k);
-            format!("Box(center: (-0.2, 1.45, {z}), size: (0.04, 2.9, 0.36), transform: [Rotate(axis: (0, 1, 0), degrees: 35)]),\n")
+            format!(
+                "Box(center: (-0.2, 1.45, {z}), size: (0.04, 2.9, 0.36), transform: [Rotate(axis: (0, 1, 0), \
+                     degrees: 35)]),\n"
+            )
         })
         .collect()
 }
@@ -183,7 +190,8 @@ fn window() -> String {
         + &block([-0.7, 1.9], [-0.3, 3.2])
 }
 
-/// Measures all rooms, or those whose names hold `name`, at these numbers of samples; gives how many upper bounds are above the limit.
+/// Measures all rooms, or those whose names hold `name`, at these numbers of samples; gives how many upper bounds are
+/// above the limit.
 ///
 /// # Errors
 /// A scene is refused; nothing has such a name.
@@ -191,7 +199,8 @@ pub fn run(samples: &[u32], name: &str) -> anyhow::Result<usize> {
     let rooms: Vec<_> = all().into_iter().filter(|room| room.0.contains(name)).collect();
     anyhow::ensure!(!rooms.is_empty(), "no room has {name:?} in its name");
     println!(
-        "{PICTURES} pictures of {SIZE}x{SIZE}; ratio of squared steps at borders, and its upper bound at 95 % ({LIMIT} is right)"
+        "{PICTURES} pictures of {SIZE}x{SIZE}; ratio of squared steps at borders, and its upper bound at 95 % ({LIMIT} \
+         is right)"
     );
     println!("{:38} {:>7}  {:>16}  {:>16}  below zero", "room", "samples", "8 pixels", "16 pixels");
     let mut above = 0;

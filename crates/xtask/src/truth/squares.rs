@@ -1,11 +1,12 @@
 //! Squares in the noise: steps of the error across the borders of blocks of pixels against those elsewhere.
 //!
-//! The error of a picture is the picture less the mean of the others, in standard deviations of the pixel's own: what is in the picture lies
-//! where it lies, and a lamp's edge that happens to fall on a border must not count for one (it made steps of 2.6 times the others in
-//! scenes in which no pixels hung together). Pixels that hang together within blocks have errors alike there, and a step to the next block.
-//! Were there no blocks, the mean squared step would be the same at every column and row. Each picture gives a sum of squared steps at
-//! borders and elsewhere; their ratio over all pictures has its variance by the jackknife (pictures left out one at a time; Efron 1982),
-//! so a few events that hold most of the noise make the bound wide and not wrong.
+//! The error of a picture is the picture less the mean of the others, in standard deviations of the pixel's own: what
+//! is in the picture lies where it lies, and a lamp's edge that happens to fall on a border must not count for one (it
+//! made steps of 2.6 times the others in scenes in which no pixels hung together). Pixels that hang together within
+//! blocks have errors alike there, and a step to the next block. Were there no blocks, the mean squared step would be
+//! the same at every column and row. Each picture gives a sum of squared steps at borders and elsewhere; their ratio
+//! over all pictures has its variance by the jackknife (pictures left out one at a time; Efron 1982), so a few events
+//! that hold most of the noise make the bound wide and not wrong.
 
 use super::trial::Source;
 use super::world::grey;
@@ -124,7 +125,8 @@ mod tests {
         (0..6).map(|_| random.number()).sum::<f64>() - 3.0
     }
 
-    /// Independent pixels have none; pixels to which a block adds something of its own do; noise that lies on a border does not.
+    /// Independent pixels have none; pixels to which a block adds something of its own do; noise that lies on a border
+    /// does not.
     #[test]
     fn blocks_are_told() {
         let mut random = Random::new(1);

@@ -295,7 +295,8 @@ struct Found {
     binning: Binning,
 }
 
-/// A subtree whose nodes are in pieces still: each is copied once, whatever the number of levels that are built in parallel.
+/// A subtree whose nodes are in pieces still: each is copied once, whatever the number of levels that are built in
+/// parallel.
 enum Grown {
     Dense(Vec<BinaryNode>),
     Halves { bounds: Bounds, halves: Box<[Grown; 2]> },

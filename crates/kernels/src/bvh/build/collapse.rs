@@ -29,8 +29,8 @@ struct Choice {
 /// The choices for a whole tree in preorder.
 pub struct Choices<'a> {
     nodes: &'a [BinaryNode],
-    /// For 2 to 8 slots, 4 bits each: how many of them go to the left child; 0 where one slot less does as well. Costs are kept for
-    /// one task's nodes only: of a large tree they would be a large part of the memory.
+    /// For 2 to 8 slots, 4 bits each: how many of them go to the left child; 0 where one slot less does as well. Costs
+    /// are kept for one task's nodes only: of a large tree they would be a large part of the memory.
     left_slots: Vec<u32>,
 }
 
@@ -43,7 +43,8 @@ impl<'a> Choices<'a> {
         Self { nodes, left_slots }
     }
 
-    /// The (at most eight) children of the wide node over the binary subtree `root..end`, each with the end of its subtree.
+    /// The (at most eight) children of the wide node over the binary subtree `root..end`, each with the end of its
+    /// subtree.
     pub fn children(&self, root: u32, end: u32, children: &mut Vec<(u32, u32)>) {
         children.clear();
         self.expand(root, end, 8, children);
@@ -120,7 +121,8 @@ fn choice(node: &BinaryNode, memory: f32, left: &Choice, right: &Choice) -> Choi
     all
 }
 
-/// The share of memory in the cost of a node over instances. Summed in the order of the nodes, so that it is always the same.
+/// The share of memory in the cost of a node over instances. Summed in the order of the nodes, so that it is always the
+/// same.
 fn memory_cost(nodes: &[BinaryNode]) -> f32 {
     let (mut sum, mut leaves) = (0.0f64, 0u32);
     for node in nodes {

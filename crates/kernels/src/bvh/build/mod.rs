@@ -236,8 +236,8 @@ fn size_of_scene(bounds: &Bounds) -> f32 {
     (bounds.upper - bounds.lower).truncate().max_element().max(0.0)
 }
 
-/// The rows of an instance's matrix; `None` where the triangles are part of the world's tree. A mesh that is in the world already
-/// and stands there a second time is an instance like any other.
+/// The rows of an instance's matrix; `None` where the triangles are part of the world's tree. A mesh that is in the
+/// world already and stands there a second time is an instance like any other.
 fn rows_of(geometry: &Geometry, direct: &[u32], index: usize) -> Option<[[f32; 4]; 3]> {
     const IDENTITY: [[f32; 4]; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     let instance = &geometry.instances[index];

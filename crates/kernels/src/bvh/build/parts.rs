@@ -1,19 +1,20 @@
 //! Cutting triangles whose boxes are empty, before the tree is built: spatial splits.
 //!
-//! A long triangle that lies aslant fills little of its box, and every ray through the box tests it. Cut into parts, each
-//! with a box of its own, it is found where it is. Cuts are made beforehand, triangle by triangle (Ernst and Greiner,
-//! *Early split clipping for bounding volume hierarchies*, 2007), not while the tree is built (Stich, Friedrich and Dietrich,
-//! *Spatial splits in bounding volume hierarchies*, 2009): they are then a function of the geometry alone, so that
-//! every [`Acceleration`](super::super::Acceleration) has the same parts and gives the same answers.
+//! A long triangle that lies aslant fills little of its box, and every ray through the box tests it. Cut into parts,
+//! each with a box of its own, it is found where it is. Cuts are made beforehand, triangle by triangle (Ernst and
+//! Greiner, *Early split clipping for bounding volume hierarchies*, 2007), not while the tree is built (Stich,
+//! Friedrich and Dietrich, *Spatial splits in bounding volume hierarchies*, 2009): they are then a function of the
+//! geometry alone, so that every [`Acceleration`](super::super::Acceleration) has the same parts and gives the same
+//! answers.
 //!
 //! What a cut gains is surface: half that of the box before it less half those of the two boxes after it. Divided by
 //! half that of the box of all triangles it is the number of tests that a ray through them is spared. A cut costs
 //! memory, and levels of the tree; so it is made only where it gains [`WORTH`] times a triangle's share of one test a
 //! ray, and [`SHARE`] of its own box. The cuts of a triangle together gain no more than half its box's surface less its
 //! own shadows on the three planes: by the sum of these the least gain is raised until there cannot be more cuts than
-//! [`MOST`] and [`LIMIT`] allow. And unless all cuts together spare a ray a good share of its tests ([`PAYS`]), which they
-//! do for girders, pipes, cables, and buildings askew, but not for scans and what lies along the axes, there are none.
-//! What the constants were chosen by is in `docs/performance.md`.
+//! [`MOST`] and [`LIMIT`] allow. And unless all cuts together spare a ray a good share of its tests ([`PAYS`]), which
+//! they do for girders, pipes, cables, and buildings askew, but not for scans and what lies along the axes, there are
+//! none. What the constants were chosen by is in `docs/performance.md`.
 
 use super::super::bounds::Bounds;
 use super::super::triangle::padding;
@@ -36,8 +37,8 @@ const SIZES: std::ops::RangeInclusive<f64> = 1.0 / 1_073_741_824.0..=1_073_741_8
 
 /// In tests a ray, divided by the number of triangles.
 const WORTH: f64 = 4.0;
-/// In half surfaces of the box that is cut, of which a long, thin triangle aslant gains half. Less, and triangles of all
-/// shapes are cut, for little.
+/// In half surfaces of the box that is cut, of which a long, thin triangle aslant gains half. Less, and triangles of
+/// all shapes are cut, for little.
 const SHARE: f64 = 0.4;
 /// Of the boxes of all triangles together. Where cuts gain less, they are not made: a part takes longer to test than a
 /// triangle, and more memory.

@@ -7,8 +7,8 @@
 //!
 //! Triangles are put into the cells of a grid over their planes, given by the squares of the normal's components and
 //! the distance from the origin, which know no sign; the coarser the cells, the worse the plane is known. The best
-//! known ones gather first, from their own cells and coarser ones, those whose corners are all in their plane. In
-//! each plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
+//! known ones gather first, from their own cells and coarser ones, those whose corners are all in their plane. In each
+//! plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
 
 use super::super::geometry::{Geometry, NONE};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, TRANSMITS};
@@ -23,8 +23,8 @@ const MOST_TRIANGLES: usize = 1 << 18;
 /// Scenes with more curved shapes have theirs left out.
 const MOST_SHAPES: usize = 1 << 16;
 
-/// What the arithmetic in double precision, a shape's map among it, may move a point by, in parts of its coordinates: some
-/// ten roundings of 2^-53. In a plane through the origin the roundings of single precision are none.
+/// What the arithmetic in double precision, a shape's map among it, may move a point by, in parts of its coordinates:
+/// some ten roundings of 2^-53. In a plane through the origin the roundings of single precision are none.
 const DOUBLE: f64 = 16.0 / 9_007_199_254_740_992.0;
 
 /// 2^-24.

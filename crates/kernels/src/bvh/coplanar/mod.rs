@@ -11,16 +11,16 @@
 //! What wins is what shines, then what lets no light through, then what lets it through, then the smaller
 //! (primitive, instance). A lamp let into the ceiling shines, and glass on a table shows the table.
 //!
-//! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but the
-//! other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes from
-//! body to body would leave twice, or enter twice, and carry the square of an index too much or too little.
+//! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but
+//! the other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes
+//! from body to body would leave twice, or enter twice, and carry the square of an index too much or too little.
 //!
 //! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
 //! triangles pays for one question a batch.
 //!
-//! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a cap if
-//! the line meets the cap's plane at the t of the hit.
+//! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a
+//! cap if the line meets the cap's plane at the t of the hit.
 //!
 //! What lies farther apart than rounding takes it stays apart: two triangles are in one plane if the corners of one
 //! are no farther from the plane of the other than twice what the rounding of both may have moved them.
@@ -210,8 +210,8 @@ impl Coplanar {
         })
     }
 
-    /// The first of those that win over a member whose outlines the ray's line passes within, but for the one that the ray
-    /// leaves, `from`.
+    /// The first of those that win over a member whose outlines the ray's line passes within, but for the one that the
+    /// ray leaves, `from`.
     fn winner(&self, member: &Member, rays: &Rays, ray: usize, t: f32) -> Option<&Member> {
         let [first, end] = member.winners;
         if first == end {
@@ -247,8 +247,8 @@ impl Coplanar {
         !self.touching.is_empty()
     }
 
-    /// The body that begins where some rays meet one that lets light through, for hits that were settled: its material + 1.
-    /// Nothing is written where nothing touches.
+    /// The body that begins where some rays meet one that lets light through, for hits that were settled: its
+    /// material + 1. Nothing is written where nothing touches.
     pub fn touching(&self, rays: &Rays, active: &[u32], hits: &Hits, behind: &mut [u32]) {
         for ray in active.iter().map(|&ray| ray as usize) {
             let hit = (hits.primitive[ray], hits.instance[ray]);

@@ -1,9 +1,9 @@
 //! The vector operations that the kernels are written over.
 //!
-//! An [`Isa`] value is a token: that one exists proves that the processor has its instructions, so the arithmetic
-//! needs no `unsafe` above this line; only loads and stores through pointers do. Every function is `inline(always)`,
-//! because an intrinsic that is not inlined into a function with its target feature becomes a call (some 20 times
-//! slower). All operations but the memory ones are IEEE single operations lane by lane: any two `Isa`s give the same bits.
+//! An [`Isa`] value is a token: that one exists proves that the processor has its instructions, so the arithmetic needs
+//! no `unsafe` above this line; only loads and stores through pointers do. Every function is `inline(always)`, because
+//! an intrinsic that is not inlined into a function with its target feature becomes a call (some 20 times slower). All
+//! operations but the memory ones are IEEE single operations lane by lane: any two `Isa`s give the same bits.
 
 /// 8-wide boxes and 4-wide leaves.
 pub trait Isa: Copy {

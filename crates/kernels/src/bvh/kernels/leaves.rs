@@ -1,5 +1,5 @@
-//! Leaf tests: one ray against four triangles, four spheres or one other shape. The formulas are those of [`triangle`](super::super::triangle)
-//! and [`sphere`](super::super::sphere), operation by operation.
+//! Leaf tests: one ray against four triangles, four spheres or one other shape. The formulas are those of
+//! [`triangle`](super::super::triangle) and [`sphere`](super::super::sphere), operation by operation.
 
 use super::super::layout::{Parts4, Shape, Spheres4, Triangles4};
 use super::super::ray_space::{PAD, RaySpace};
@@ -268,8 +268,8 @@ pub fn spheres4<I: Isa>(
     Some(LeafHits { mask, t: isa.array4(t) })
 }
 
-/// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves. One function for all levels and widths
-/// ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits.
+/// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves. One function for all
+/// levels and widths ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits.
 #[inline(always)]
 pub fn shape(leaf: &Shape, origin: [f32; 3], direction: [f32; 3], from: u32, limit: f32) -> Option<LeafHits> {
     let t = leaf.row.hit(origin, direction, leaf.ids[0] == from)?;

@@ -35,8 +35,8 @@ pub const STACK: usize = 576;
 /// and 8 entries of room for a whole vector to be stored.
 pub const DEEPEST: usize = (STACK - 10) / 7;
 
-/// Rays under way at a time: enough to hide a miss to memory, few enough for their state to stay in L1; and one for each
-/// lane of [`WordLanes`](isa::WordLanes), which the rounds of `interleaved` rely on.
+/// Rays under way at a time: enough to hide a miss to memory, few enough for their state to stay in L1; and one for
+/// each lane of [`WordLanes`](isa::WordLanes), which the rounds of `interleaved` rely on.
 const IN_FLIGHT: usize = 16;
 
 /// What traversals did, summed over rays.
@@ -76,8 +76,8 @@ pub fn occluded(
     trace(level, coherence, tree, batch, &mut AnyHit { occlusion }, counters);
 }
 
-/// Packets gain where sixteen lanes are one or two instructions. Without them they are code alone: unrolled by the compiler, a
-/// quarter of a megabyte for each question.
+/// Packets gain where sixteen lanes are one or two instructions. Without them they are code alone: unrolled by the
+/// compiler, a quarter of a megabyte for each question.
 #[allow(unsafe_code)]
 fn trace<G: Goal>(
     level: Level,

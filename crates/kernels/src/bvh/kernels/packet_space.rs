@@ -12,7 +12,8 @@ const WIDEST_SPREAD: f32 = 0.25;
 /// Nor are those whose origins spread further than this part of the scene.
 const WIDEST_START: f32 = 0.125;
 
-/// The rays of a packet in one space. Indices of arrays are axes, of `shear` and `shear_origin` roles, as in [`RaySpace`].
+/// The rays of a packet in one space. Indices of arrays are axes, of `shear` and `shear_origin` roles, as in
+/// [`RaySpace`].
 #[derive(Clone)]
 pub struct PacketSpace {
     pub origin: [Lanes; 3],

@@ -47,7 +47,8 @@ impl TreeView<'_> {
         after.checked_sub(1).map_or(NONE, |mesh| self.meshes[mesh].direct_instance)
     }
 
-    /// The primitive to leave out in the world space, of a surface (primitive, instance): `NONE` for surfaces of placed instances.
+    /// The primitive to leave out in the world space, of a surface (primitive, instance): `NONE` for surfaces of placed
+    /// instances.
     #[inline(always)]
     pub fn in_world(&self, primitive: u32, instance: u32) -> u32 {
         match self.instances.get(instance as usize) {

@@ -1,4 +1,5 @@
-//! Casters: objects with mirrors, glass or narrow glossy lobes on them, each within a sphere at which photons are aimed.
+//! Casters: objects with mirrors, glass or narrow glossy lobes on them, each within a sphere at which photons are
+//! aimed.
 
 use crate::scene::{NONE, Scene};
 use glam::{DMat3, DVec3};
@@ -89,7 +90,8 @@ fn passes_on(scene: &Scene, material: u32) -> f64 {
     scene.materials.get(material as usize).map_or(0.0, |material| material.traits().casts)
 }
 
-/// The sphere around a placed sphere: the largest stretch of a matrix M is at most the root of the largest row sum of M^T M.
+/// The sphere around a placed sphere: the largest stretch of a matrix M is at most the root of the largest row sum of
+/// M^T M.
 fn placed(rows: [[f32; 4]; 3], center: DVec3, radius: f64) -> (DVec3, f64) {
     let row = |k: usize| DVec3::from([rows[k][0], rows[k][1], rows[k][2]].map(f64::from));
     let linear = DMat3::from_cols(row(0), row(1), row(2)).transpose();

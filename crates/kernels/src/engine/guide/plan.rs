@@ -48,7 +48,8 @@ pub struct PairTable {
     pub caster: Vec<u32>,
     /// One of [`aim`].
     pub aim: Vec<u32>,
-    /// Flux of a photon, were it the only one, per cosine and solid angle of the cone it was chosen from ([`aim::EVERYWHERE`]: the flux).
+    /// Flux of a photon, were it the only one, per cosine and solid angle of the cone it was chosen from
+    /// ([`aim::EVERYWHERE`]: the flux).
     pub flux: [Vec<f32>; 3],
     /// Radiance of the light.
     pub radiance: [Vec<f32>; 3],

@@ -1,15 +1,17 @@
-//! Rays aimed at where light comes from over mirrors, glass and glossy surfaces, from the first rough vertices of paths.
+//! Rays aimed at where light comes from over mirrors, glass and glossy surfaces, from the first rough vertices of
+//! paths.
 //!
-//! From a rough vertex x one more ray is cast, by a chance that goes with the strength of that light, into a cone around one of the
-//! spheres that the guide has for the place ([`crate::engine::guide`]), or around a caster; what it meets first must be a mirror, glass or
-//! glossy surface, else it counts nothing: lamps are found by light samples, and what diffuse surfaces send is shared ([`super::share`]). The two ways to find a direction w
-//! have the densities p(w), that of the surface's own samples, and
+//! From a rough vertex x one more ray is cast, by a chance that goes with the strength of that light, into a cone
+//! around one of the spheres that the guide has for the place ([`crate::engine::guide`]), or around a caster; what it
+//! meets first must be a mirror, glass or glossy surface, else it counts nothing: lamps are found by light samples, and
+//! what diffuse surfaces send is shared ([`super::share`]). The two ways to find a direction w have the densities p(w),
+//! that of the surface's own samples, and
 //!
 //! a(w) = chance sum_k c_k [w in cone k] / (solid angle of cone k),
 //!
-//! and each counts by the balance heuristic (Veach 1997, 9.2.2): the aimed ray f cos / (p + a), the own one by p / (p + a). The chance
-//! c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle) and a bound on the cosine. Spheres that x is in
-//! or near to are not aimed at: the own ray meets them anyway.
+//! and each counts by the balance heuristic (Veach 1997, 9.2.2): the aimed ray f cos / (p + a), the own one by p / (p +
+//! a). The chance c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle) and a
+//! bound on the cosine. Spheres that x is in or near to are not aimed at: the own ray meets them anyway.
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
@@ -26,15 +28,16 @@ use crate::scene::NONE;
 pub const AIMS_UNTIL: u32 = 3;
 /// Chance that a ray is aimed where the guide has nothing, or knows of faint light only.
 const LEAST_CHANCE: f32 = 0.1;
-/// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance is this times
-/// s / (s + 1), at most one: so rays are spent where the noise is. A ray from every vertex was twice as many in a room of balls, for
-/// a fifth less error.
+/// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance
+/// is this times s / (s + 1), at most one: so rays are spent where the noise is. A ray from every vertex was twice as
+/// many in a room of balls, for a fifth less error.
 const STEEPNESS: f32 = 5.0;
 /// Share of the aimed rays that goes to the casters' own spheres, where the guide knows something.
 const TO_CASTERS: f32 = 0.1;
 /// Cones wider than this are not aimed at: squared sine of half the angle.
 const WIDEST: f32 = 0.75;
-/// Cones are not narrower than this, by 1 - cos of half the angle: a thousandth of a radian, whose square single precision tells to 1e-4.
+/// Cones are not narrower than this, by 1 - cos of half the angle: a thousandth of a radian, whose square single
+/// precision tells to 1e-4.
 const NARROWEST: f32 = 5e-7;
 
 /// The cone from a point around a sphere.
@@ -61,7 +64,8 @@ impl<F: Lanes> Cone<F> {
         Cone { axis, width, highest: F::select(sin2.lt(c(WIDEST)), highest, c(0.0)) }
     }
 
-    /// Whether a direction lies within: 1 - cos as half the squared way between two unit vectors, which keeps its digits where it is small.
+    /// Whether a direction lies within: 1 - cos as half the squared way between two unit vectors, which keeps its
+    /// digits where it is small.
     #[inline(always)]
     fn holds(&self, w: V3<F>) -> F::M {
         let d = w.sub(self.axis);
@@ -136,7 +140,8 @@ fn over<F: Lanes>(share: F, sum: F) -> F {
     F::select(F::splat(0.0).lt(sum), share / sum, F::splat(0.0))
 }
 
-/// Density in solid angle with which a ray from a rough vertex at p with shading normal n is aimed along w, for the lanes of the mask.
+/// Density in solid angle with which a ray from a rough vertex at p with shading normal n is aimed along w, for the
+/// lanes of the mask.
 #[inline(always)]
 pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M) -> F {
     let zero = F::splat(0.0);
@@ -219,7 +224,8 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         density = density * targets.chance * c(1.0 / TWO_PI);
         let bsdf = bsdf_of::<F>(aimers, i, aimed);
         let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
-        // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways are one sum.
+        // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways
+        // are one sum.
         aimed = aimed & zero.lt(by_itself);
         let by_itself = F::select(aimed, by_itself, one);
         let throughput = V3::<F>::load(&aimers.weight, i).scale(f.0 * cos / by_itself);

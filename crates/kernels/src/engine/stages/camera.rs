@@ -9,7 +9,8 @@ use crate::sampling::sampler::Purpose;
 use crate::sampling::warp;
 use crate::scene::{Camera, Filter, NONE, Scene};
 
-/// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`: of their pixels in the picture.
+/// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`: of their pixels in
+/// the picture.
 #[inline(always)]
 pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch) {
     let c = F::splat;
@@ -70,8 +71,8 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
     batch.counters.camera_rays += paths.len as u64;
 }
 
-/// One over the filter's density at an offset from the pixel's centre, in pixels; zero where light paths are not reckoned with: beyond
-/// [`Filter::reach`], and for all rays through the centre.
+/// One over the filter's density at an offset from the pixel's centre, in pixels; zero where light paths are not
+/// reckoned with: beyond [`Filter::reach`], and for all rays through the centre.
 #[inline(always)]
 fn inverse_density<F: Lanes>(filter: Filter, dx: F, dy: F) -> F {
     let c = F::splat;

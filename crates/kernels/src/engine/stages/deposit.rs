@@ -2,8 +2,8 @@
 
 use crate::engine::batch::{Batch, path};
 
-/// Adds each unblocked contribution to its slot; those of a slot in the order of its paths. Which rays are blocked cannot be foretold, so
-/// the others are listed first, without a branch.
+/// Adds each unblocked contribution to its slot; those of a slot in the order of its paths. Which rays are blocked
+/// cannot be foretold, so the others are listed first, without a branch.
 pub fn deposit(batch: &mut Batch) {
     let (shadows, open) = (&batch.shadows, &mut batch.active);
     let mut count = 0;

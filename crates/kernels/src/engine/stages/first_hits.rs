@@ -1,5 +1,5 @@
-//! What camera rays hit first, for the layers that are asked for ([`crate::layers`]): a kernel of its own, run where there are any, so
-//! that pictures without them pay nothing.
+//! What camera rays hit first, for the layers that are asked for ([`crate::layers`]): a kernel of its own, run where
+//! there are any, so that pictures without them pay nothing.
 
 use super::camera::filter_offset;
 use super::points::{PairPoints, PixelOf};

@@ -1,25 +1,27 @@
 //! Light paths: from the lights over mirrors and glass to rough surfaces, and from there to the camera.
 //!
-//! What a diffuse or glossy surface shows of light that comes over mirrors and glass (E D S+ L in Heckbert's notation) is found from both
-//! ends: by paths, whose rays from the surface happen to meet the light or are aimed ([`super::aim`]), and by light paths (light tracing:
-//! Arvo 1986; Dutre, Lafortune, Willems 1993), each of which is seen by whatever pixel it falls into. Far from a bent mirror the first are
-//! rare and bright, the second many and faint. Both count by the balance heuristic (Veach 1997, 9.2), so nothing is lost where one of them
-//! finds nothing.
+//! What a diffuse or glossy surface shows of light that comes over mirrors and glass (E D S+ L in Heckbert's notation)
+//! is found from both ends: by paths, whose rays from the surface happen to meet the light or are aimed
+//! ([`super::aim`]), and by light paths (light tracing: Arvo 1986; Dutre, Lafortune, Willems 1993), each of which is
+//! seen by whatever pixel it falls into. Far from a bent mirror the first are rare and bright, the second many and
+//! faint. Both count by the balance heuristic (Veach 1997, 9.2), so nothing is lost where one of them finds nothing.
 //!
-//! A path is told by the point u of the film and the direction w at the surface point y; what follows is given by mirrors and glass, which
-//! both ends choose between alike. Per unit of film area (in pixels) and solid angle
+//! A path is told by the point u of the film and the direction w at the surface point y; what follows is given by
+//! mirrors and glass, which both ends choose between alike. Per unit of film area (in pixels) and solid angle
 //!
 //! - pixel j samples it with h_j(u) P(w), h_j the pixel's filter, P the densities of own and aimed ray together;
-//! - light paths with D = rho / cos_q  K  cos_y J: rho per area of the light and solid angle there (all of a sample index together), cos_q
-//!   and cos_y the cosines at light and surface, J the area of surface that a unit of film sees, K what mirrors and glass change:
-//!   they keep n^2 dA cos dw (n the refractive index), and where the shading normal s differs from the geometric one g, each reflection has the
-//!   factor |l.g| / |e.g| and each refraction |l.g| |e.s| / (|e.g| |l.s|), l and e being the directions on the sides of light and eye.
+//! - light paths with D = rho / cos_q  K  cos_y J: rho per area of the light and solid angle there (all of a sample
+//!   index together), cos_q and cos_y the cosines at light and surface, J the area of surface that a unit of film sees,
+//!   K what mirrors and glass change: they keep n^2 dA cos dw (n the refractive index), and where the shading normal s
+//!   differs from the geometric one g, each reflection has the factor |l.g| / |e.g| and each refraction |l.g| |e.s| /
+//!   (|e.g| |l.s|), l and e being the directions on the sides of light and eye.
 //!
-//! With the integrand h_j F, F = f cos L (and colours and the radiance scaling of glass), a light path adds h_j F / (h_j P + D) to pixel
-//! j, and a path that has met the light counts by h_j P / (h_j P + D).
+//! With the integrand h_j F, F = f cos L (and colours and the radiance scaling of glass), a light path adds h_j F /
+//! (h_j P + D) to pixel j, and a path that has met the light counts by h_j P / (h_j P + D).
 //!
-//! Left to paths alone: surfaces with interpolated normals, where rays do not start where light paths land; reflections and refractions that
-//! are not the same from both sides (bent normals of low-poly meshes); glossy lobes on the way; metals that are not smooth.
+//! Left to paths alone: surfaces with interpolated normals, where rays do not start where light paths land; reflections
+//! and refractions that are not the same from both sides (bent normals of low-poly meshes); glossy lobes on the way;
+//! metals that are not smooth.
 
 use super::aim;
 use super::materials::{Bsdf, TWO_PI, reflect_bent};
@@ -146,8 +148,8 @@ fn cosine<F: Lanes>(v: V3<F>, n: V3<F>) -> F {
     v.dot(n).abs().max(F::splat(1e-6))
 }
 
-/// Whether a mirror or glass takes light from `wi` to `wo`, the side that `s` is seen from, and from there to here alike: always, but for
-/// what is done about interpolated normals.
+/// Whether a mirror or glass takes light from `wi` to `wo`, the side that `s` is seen from, and from there to here
+/// alike: always, but for what is done about interpolated normals.
 #[inline(always)]
 fn alike<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>, refracted: F::M, ior: F) -> F::M {
     let c = F::splat;
@@ -156,14 +158,14 @@ fn alike<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>, refracted: F::M, ior: F
     let (low, high) = (og.abs().min(ig.abs()), og.abs().max(ig.abs()));
     let eta = F::select(s.outside, one / ior, ior);
     let total = Total { eta2: eta * eta };
-    // Reflected in the very shading normal: `reflect_bent` bends where either side is low, and `Dielectric` takes the triangle's own normal
-    // where that would let the light out.
+    // Reflected in the very shading normal: `reflect_bent` bends where either side is low, and `Dielectric` takes the
+    // triangle's own normal where that would let the light out.
     let off = s.ns.scale(os + os).sub(wo).sub(wi);
     let caught = !s.outside & total.at(os) & (!total.at(og) | !total.at(ig));
     let unbent = (high * c(0.9)).min(c(0.0101)).lt(low) & off.dot(off).lt(c(1e-8));
     let reflects = zero.lt(og) & zero.lt(ig) & unbent & !caught;
-    // Refracted in it by Snell's law, and on neither side would the reflected direction be bent, nor does the other pass so low that the
-    // triangle's own normal is taken.
+    // Refracted in it by Snell's law, and on neither side would the reflected direction be bent, nor does the other
+    // pass so low that the triangle's own normal is taken.
     let tall = c(0.0101);
     let turn = wo.scale(eta).add(wi);
     let across = s.ns.scale(-turn.dot(s.ns)).add(turn);
@@ -172,7 +174,8 @@ fn alike<F: Lanes>(s: &Surface<F>, wo: V3<F>, wi: V3<F>, refracted: F::M, ior: F
     !s.smooth | (refracted & passes) | (!refracted & reflects)
 }
 
-/// K of one mirror or glass, zero where it is not the same from both sides; `from_eye`: the ray comes from the eye's side.
+/// K of one mirror or glass, zero where it is not the same from both sides; `from_eye`: the ray comes from the eye's
+/// side.
 #[inline(always)]
 pub fn change<F: Lanes>(s: &Surface<F>, seen: Turn<F>, from_eye: bool) -> F {
     let Turn { wo, wi, refracted, ior, eta2 } = seen;
@@ -202,7 +205,8 @@ pub struct Turn<F: Lanes> {
     pub eta2: F,
 }
 
-/// D over h P of paths that have met a light at a surface `s` along `direction`, coming from a caster's surface: `ratio` is K cos_y J / (h P).
+/// D over h P of paths that have met a light at a surface `s` along `direction`, coming from a caster's surface:
+/// `ratio` is K cos_y J / (h P).
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub fn density_ratio<F: Lanes>(
@@ -270,8 +274,9 @@ pub struct LightPass<'a> {
     pub guide: &'a Guide,
 }
 
-/// What becomes of the light paths in `batch.paths` where they hit, after `event` mirrors and glass: over these they go on; at rough
-/// surfaces behind them they end, and what they bring to the film is in `batch.splats`, with a shadow ray to the lens each in `batch.shadows`.
+/// What becomes of the light paths in `batch.paths` where they hit, after `event` mirrors and glass: over these they go
+/// on; at rough surfaces behind them they end, and what they bring to the film is in `batch.splats`, with a shadow ray
+/// to the lens each in `batch.shadows`.
 #[inline(always)]
 pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, batch: &mut Batch) {
     let c = F::splat;
@@ -436,7 +441,8 @@ mod tests {
         }
     }
 
-    /// What counts for both ends is the same way from both: mirrors and glass with interpolated normals lead back, with the same factor.
+    /// What counts for both ends is the same way from both: mirrors and glass with interpolated normals lead back, with
+    /// the same factor.
     #[test]
     fn ways_that_count_lead_back() {
         let (mut counted, mut reflections) = (0, 0);

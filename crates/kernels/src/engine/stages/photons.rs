@@ -13,8 +13,8 @@ use crate::sampling::sobol::{owen, pascal_upper, shuffle_indices};
 use crate::sampling::warp;
 use crate::scene::{LightTable, NONE, Scene};
 
-/// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each pair with an
-/// order of its own.
+/// Random numbers of a photon: Owen-scrambled Sobol' pairs over the photons of its light and caster in all maps, each
+/// pair with an order of its own.
 pub struct Numbers<F: Lanes> {
     /// Which photon.
     pub index: F::U,
@@ -37,8 +37,8 @@ impl<F: Lanes> Numbers<F> {
     }
 }
 
-/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of light paths
-/// radiance, and `pdf` their density per area and solid angle over the cosine.
+/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of
+/// light paths radiance, and `pdf` their density per area and solid angle over the cosine.
 #[inline(always)]
 pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
     let c = F::splat;
@@ -124,9 +124,10 @@ fn lane_numbers<F: Lanes>(i: usize) -> F::U {
     F::U::load(&numbers)
 }
 
-/// What becomes of the photons in `batch.paths` where they hit: over mirrors, glass and narrow glossy lobes they go on, at rough surfaces
-/// they are stored if they have come over `event` > 0 of these, all others end. The first thing that a photon meets must belong to the caster
-/// that it was aimed at: so each way from a light over its first mirror or glass is taken by the photons of one caster only.
+/// What becomes of the photons in `batch.paths` where they hit: over mirrors, glass and narrow glossy lobes they go on,
+/// at rough surfaces they are stored if they have come over `event` > 0 of these, all others end. The first thing that
+/// a photon meets must belong to the caster that it was aimed at: so each way from a light over its first mirror or
+/// glass is taken by the photons of one caster only.
 #[inline(always)]
 pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
     let c = F::splat;

@@ -28,8 +28,8 @@ impl<F: Lanes> PixelOf<F> {
     }
 }
 
-/// A dimension pair with its parts for each item and each tile of the sampler that the item touches: four tables over the items, since
-/// tables of 16 words are looked up in registers.
+/// A dimension pair with its parts for each item and each tile of the sampler that the item touches: four tables over
+/// the items, since tables of 16 words are looked up in registers.
 pub struct PairPoints<F: Lanes> {
     pair: Pair,
     x: [[u32; ITEMS]; 4],

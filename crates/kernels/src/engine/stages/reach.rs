@@ -1,7 +1,8 @@
-//! Which rays can meet the tree at all: those that pass one of the boxes under its root. In a room whose walls are spheres most
-//! rays miss them, and a traversal costs more than these few slabs over lanes.
+//! Which rays can meet the tree at all: those that pass one of the boxes under its root. In a room whose walls are
+//! spheres most rays miss them, and a traversal costs more than these few slabs over lanes.
 //!
-//! The interval of a box is computed as the tree does (`bvh::ray_space`), so a ray that is left out would have met nothing there.
+//! The interval of a box is computed as the tree does (`bvh::ray_space`), so a ray that is left out would have met
+//! nothing there.
 
 use crate::bvh::{Boxes, TopBoxes};
 use crate::engine::batch::{Batch, Columns};

@@ -1,7 +1,8 @@
 //! One vertex of every path: light that the ray met, light sampled from here, and the next ray.
 //!
-//! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the material's lobe.
-//! At the last vertex a diffuse surface casts no further ray, so there the light sample has weight one.
+//! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the
+//! material's lobe. At the last vertex a diffuse surface casts no further ray, so there the light sample has weight
+//! one.
 
 use super::aim;
 use super::light_paths::{Film, Turn, change, density_ratio};
@@ -17,15 +18,16 @@ use crate::math::V3;
 use crate::sampling::sampler::Purpose;
 use crate::scene::{NONE, Scene};
 
-/// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier, roulette throws
-/// away the stratification that the sampler pays for.
+/// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier,
+/// roulette throws away the stratification that the sampler pays for.
 pub const ROULETTE_FROM: u32 = 3;
 
 /// Where the fainter of both ways carries less than this, one of them is taken at random.
 const LEAST_BRANCH: f32 = 0.003;
 
-/// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in `batch.shadows`.
-/// Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to `batch.members` and `batch.suffixes`.
+/// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in
+/// `batch.shadows`. Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to
+/// `batch.members` and `batch.suffixes`.
 #[inline(always)]
 pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     let seed = pass.seed;
@@ -92,8 +94,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
 
-        // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass have one slot, and the
-        // order of a sum must not depend on the number of lanes.
+        // Light met by the ray, a lamp's or the background's. Added path by path, not kind by kind: both ways at glass
+        // have one slot, and the order of a sum must not depend on the number of lanes.
         let lamp = hit & !s.light.eq(F::U::splat(0));
         let emits = lamp & !aimed;
         if emits.any() {
@@ -247,8 +249,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let mut refracted = d.reflectance.le(lobe);
             let mut share = one;
             if vertex < BRANCHING {
-                // The path goes on where more of the light goes; the rest is a path of its own, and shares nothing. Roulette must not
-                // see their shares: they make a whole.
+                // The path goes on where more of the light goes; the rest is a path of its own, and shares nothing.
+                // Roulette must not see their shares: they make a whole.
                 let fresh = (slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
                 let fainter = d.reflectance.min(one - d.reflectance);
                 let both = bsdf.transparent & fresh & c(LEAST_BRANCH).lt(fainter * eta2 * throughput.max_component());
@@ -339,8 +341,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     batch.counters.shadow_rays += batch.shadows.len as u64;
 }
 
-/// The primitive that a ray from this surface must not meet: the one it leaves. A ray that sinks below a smooth triangle starts
-/// above it (Hanika) and may well meet it.
+/// The primitive that a ray from this surface must not meet: the one it leaves. A ray that sinks below a smooth
+/// triangle starts above it (Hanika) and may well meet it.
 #[inline(always)]
 pub fn leaves<F: Lanes>(s: &Surface<F>, wi: V3<F>, primitive: F::U) -> F::U {
     let sinks = s.smooth & wi.dot(s.ng).le(F::splat(0.0)) & !s.start.sub(s.p).dot(s.ng).le(s.offset);

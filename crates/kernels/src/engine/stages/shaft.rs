@@ -1,8 +1,9 @@
 //! What can stand between a suffix and its group at all: one test for all their segments, where there are sixty-four.
 //!
-//! The segments from a point y to the members of a group lie in the *shaft* of y and the bounds B of the members' points (Haines and
-//! Wallace: Shaft Culling for Efficient Ray-Traced Radiosity, 1991): the union of the boxes y + t (B - y), t from 0 to 1. An object that
-//! the shaft misses is not asked about. The answers are the same to the last bit, so the tests here may keep too much and never too little.
+//! The segments from a point y to the members of a group lie in the *shaft* of y and the bounds B of the members'
+//! points (Haines and Wallace: Shaft Culling for Efficient Ray-Traced Radiosity, 1991): the union of the boxes y + t
+//! (B - y), t from 0 to 1. An object that the shaft misses is not asked about. The answers are the same to the last
+//! bit, so the tests here may keep too much and never too little.
 
 use crate::bvh::Boxes;
 use crate::engine::batch::{Group, Members};
@@ -10,12 +11,12 @@ use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{LargeSphere, NONE, Scene};
 
-/// 2^-17: by this part of the coordinates boxes are padded. A slab test (`reach`) finds a ray in a box that it passes at 2^-19 of its
-/// origin's largest coordinate and some 2^-20 of all coordinates, the roundings of its direction among them; small spheres are off by
-/// less. The shaft's own roundings are some 2^-20. That is half of it.
+/// 2^-17: by this part of the coordinates boxes are padded. A slab test (`reach`) finds a ray in a box that it passes
+/// at 2^-19 of its origin's largest coordinate and some 2^-20 of all coordinates, the roundings of its direction among
+/// them; small spheres are off by less. The shaft's own roundings are some 2^-20. That is half of it.
 const PAD: f32 = 1.0 / 131_072.0;
-/// 2^-16: by this part of its terms a large sphere's F has to be clear of zero. F itself, and what is made of it in `spheres::blocked`,
-/// is off by a fifth of that.
+/// 2^-16: by this part of its terms a large sphere's F has to be clear of zero. F itself, and what is made of it in
+/// `spheres::blocked`, is off by a fifth of that.
 const MARGIN: f32 = 1.0 / 65_536.0;
 /// In place of zero, whose inverse is infinite: the bounds become as much wider.
 const TINY: f32 = 1e-18;
@@ -24,7 +25,8 @@ const PLACES: usize = 64;
 /// Top boxes come first, the boxes of small spheres after them.
 const TOP: usize = 8;
 
-/// Columns of boxes, padded for what their own coordinates make wrong. Places that are not used hold boxes that nothing meets.
+/// Columns of boxes, padded for what their own coordinates make wrong. Places that are not used hold boxes that nothing
+/// meets.
 struct Table {
     planes: [[f32; PLACES]; 6],
     len: usize,
@@ -159,7 +161,8 @@ impl LargeTable {
         self.len += 1;
     }
 
-    /// Those that may hide a point on a primitive. Along a segment of length d that ends in y, F is F(y) - 2 b s + k s^2, s from y on.
+    /// Those that may hide a point on a primitive. Along a segment of length d that ends in y, F is F(y) - 2 b s + k
+    /// s^2, s from y on.
     #[inline(always)]
     fn left<F: Lanes>(&self, ends: &Ends, shaft: &Shaft, primitive: u32) -> u64 {
         let (c, zero) = (F::splat, F::splat(0.0));
@@ -175,8 +178,8 @@ impl LargeTable {
             let slope = m.abs().0 + m.abs().1 + m.abs().2;
             let terms = size.fma(size.fma(k, slope + slope), constant.abs());
             let margin = terms * c(MARGIN);
-            // F falls by k d^2 at most on the way from its lowest point, where it does not fall, to the end: where one end is above
-            // that and the other not inside, nothing between is.
+            // F falls by k d^2 at most on the way from its lowest point, where it does not fall, to the end: where one
+            // end is above that and the other not inside, nothing between is.
             let fall = c(shaft.length2).fma(k, margin);
             let (least, most) = (F::load(&ends.least[base..]), F::load(&ends.most[base..]));
             let outside = zero.le(least) & fall.lt(f);
@@ -330,7 +333,8 @@ impl Shaft {
             for k in 0..3 {
                 let below = (F::load(&boxes.planes[2 * k + 1][base..]) - c(self.y[k] - pad)) * c(self.inverse_lower[k]);
                 let above = (F::load(&boxes.planes[2 * k][base..]) - c(self.y[k] + pad)) * c(self.inverse_upper[k]);
-                // t lower <= upper plane, t upper >= lower plane; which way that bounds t, the signs say, the same for all boxes.
+                // t lower <= upper plane, t upper >= lower plane; which way that bounds t, the signs say, the same for
+                // all boxes.
                 let falls = F::first(if self.lower[k] < 0.0 { F::N } else { 0 });
                 let rises = F::first(if self.upper[k] > 0.0 { F::N } else { 0 });
                 first = first.max(F::select(falls, below, first)).max(F::select(rises, above, first));

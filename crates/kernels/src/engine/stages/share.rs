@@ -1,22 +1,22 @@
 //! Pixels of an item share the second vertices of their paths.
 //!
-//! A path's first diffuse or glossy vertex x (after any mirrors and glass) is a *member*; where the ray that it casts meets a
-//! diffuse surface, that point y with the light L that leaves it is a *suffix*. Every member i of a group (one item, the same
-//! number of vertices before) could have cast a ray to every suffix j, with the density per area p_ij = q_i pdf_i cos_y / d^2, so
-//! all of them are one estimate by the balance heuristic (Veach 1997), visibility V included:
+//! A path's first diffuse or glossy vertex x (after any mirrors and glass) is a *member*; where the ray that it casts
+//! meets a diffuse surface, that point y with the light L that leaves it is a *suffix*. Every member i of a group (one
+//! item, the same number of vertices before) could have cast a ray to every suffix j, with the density per area p_ij =
+//! q_i pdf_i cos_y / d^2, so all of them are one estimate by the balance heuristic (Veach 1997), visibility V included:
 //!
 //! pixel i gets  w_i f_ij cos_x cos_y / d^2 V_ij L_j / sum_k q_k p_kj V_kj,
 //!
-//! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is counted does not
-//! depend on who has found it. Every segment that counts is tested, so no sample is below zero and no light comes through a wall. Spheres
-//! and the boxes under the tree's root, as far as they can be between ([`super::shaft`]), are tested over lanes, for a whole group at once;
-//! where many segments have to be traced through the
-//! tree, the suffix is shared by half of the group only, the finder's. To test a sixteenth of the segments and correct what was wrong by
-//! sixteen times as much was a fifth to a half faster, and made pixels below zero and dots along edges.
-//! A suffix is always seen by the member that has found it.
+//! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is
+//! counted does not depend on who has found it. Every segment that counts is tested, so no sample is below zero and no
+//! light comes through a wall. Spheres and the boxes under the tree's root, as far as they can be between
+//! ([`super::shaft`]), are tested over lanes, for a whole group at once; where many segments have to be traced through
+//! the tree, the suffix is shared by half of the group only, the finder's. To test a sixteenth of the segments and
+//! correct what was wrong by sixteen times as much was a fifth to a half faster, and made pixels below zero and dots
+//! along edges. A suffix is always seen by the member that has found it.
 //!
-//! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and glass behind x
-//! and the light that the ray itself meets stay with the path's own pixel.
+//! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and
+//! glass behind x and the light that the ray itself meets stay with the path's own pixel.
 
 use super::materials::{Bsdf, Packed};
 use super::reach::Slabs;
@@ -31,12 +31,14 @@ use crate::scene::{NONE, Scene};
 
 /// Where more segments to a suffix than this have to be traced through the tree, it is shared by fewer members.
 const MOST_TRACED: u32 = 32;
-/// Those are every so many of the group's. With 16 and 4 instead of 32 and 2 the error of a matt mesh was half as large again, for four
-/// fifths of the time; blurred by 1.5 pixels it was the same. To trace all of them took half as long again.
+/// Those are every so many of the group's. With 16 and 4 instead of 32 and 2 the error of a matt mesh was half as large
+/// again, for four fifths of the time; blurred by 1.5 pixels it was the same. To trace all of them took half as long
+/// again.
 const CLASSES: u32 = 2;
 
-/// Where no more boxes than this are left of the tree's second level, segments that pass none of them are not traced. What the tree is
-/// asked about does not change the picture. With 16 the time was the same, with all 64 what the tree saves went into the boxes.
+/// Where no more boxes than this are left of the tree's second level, segments that pass none of them are not traced.
+/// What the tree is asked about does not change the picture. With 16 the time was the same, with all 64 what the tree
+/// saves went into the boxes.
 const MOST_BOXES: u32 = 6;
 
 /// Adds the lanes of the mask to the members.
@@ -217,7 +219,8 @@ impl Segments {
         }
     }
 
-    /// Of the members with a bit set in the mask those whose segments pass one of the boxes that are left of the tree's second level.
+    /// Of the members with a bit set in the mask those whose segments pass one of the boxes that are left of the tree's
+    /// second level.
     #[inline(always)]
     fn passing<F: Lanes>(&self, boxes: &SecondBoxes, left: u64, members: &Members, group: Group, mask: u64) -> u64 {
         let mut passing = 0;
@@ -294,9 +297,9 @@ fn places(mut mask: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Finds out for the suffixes from `next` on who shares them and from whom spheres hide them, and fills `batch.segments` with the segments
-/// that the tree is to be asked about; gives the suffix to go on with. The tag of a segment, in `slot`, is its suffix times 64 plus its
-/// member's place in the group.
+/// Finds out for the suffixes from `next` on who shares them and from whom spheres hide them, and fills
+/// `batch.segments` with the segments that the tree is to be asked about; gives the suffix to go on with. The tag of a
+/// segment, in `slot`, is its suffix times 64 plus its member's place in the group.
 #[inline(always)]
 pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
     let (members, suffixes, rays) = (&batch.members, &batch.suffixes, &mut batch.segments);

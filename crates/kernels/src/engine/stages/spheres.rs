@@ -1,7 +1,8 @@
 //! Rays against the spheres that every ray tests, over lanes (see `scene::sphere` for the two forms of the quadratic).
 //!
-//! A ray that leaves a sphere is known to start on it, so that its roots there are exactly 0 and the other end of the chord: no epsilon, and
-//! no self-intersection. Large spheres have gamma = 0 then; of small ones half the chord is as long as the way to its middle.
+//! A ray that leaves a sphere is known to start on it, so that its roots there are exactly 0 and the other end of the
+//! chord: no epsilon, and no self-intersection. Large spheres have gamma = 0 then; of small ones half the chord is as
+//! long as the way to its middle.
 
 use crate::engine::batch::Batch;
 use crate::lanes::{Bits, Lanes, Mask};
@@ -133,8 +134,8 @@ pub fn blocked<F: Lanes>(spheres: &SphereTable, ray: &Ray<F>, t_max: F, target: 
     occluded
 }
 
-/// Whether a large sphere blocks the way up to `t_max`: no square root and no division, only the signs of the quadratic at both ends of
-/// the segment and, where both are outside, at its vertex.
+/// Whether a large sphere blocks the way up to `t_max`: no square root and no division, only the signs of the quadratic
+/// at both ends of the segment and, where both are outside, at its vertex.
 #[inline(always)]
 pub fn large_blocks<F: Lanes>(s: &LargeSphere, ray: &Ray<F>, t_max: F) -> F::M {
     let zero = F::splat(0.0);

@@ -11,8 +11,9 @@ use crate::scene::{NONE, Scene};
 pub struct Surface<F: Lanes> {
     /// The point, on the surface to a few ulp.
     pub p: V3<F>,
-    /// Where rays of diffuse and glossy scattering start: on low-poly smooth meshes a point of the smooth surface that the
-    /// triangle stands for (Hanika: Hacking the Shadow Terminator, Ray Tracing Gems II, 2021), else `p`; offset by `offset`.
+    /// Where rays of diffuse and glossy scattering start: on low-poly smooth meshes a point of the smooth surface that
+    /// the triangle stands for (Hanika: Hacking the Shadow Terminator, Ray Tracing Gems II, 2021), else `p`; offset by
+    /// `offset`.
     pub start: V3<F>,
     /// Geometric normal, unit, on the side the ray came from.
     pub ng: V3<F>,
@@ -32,7 +33,8 @@ pub struct Surface<F: Lanes> {
     pub material: F::U,
     /// Light + 1, or 0.
     pub light: F::U,
-    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the instance.
+    /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the
+    /// instance.
     pub body: F::U,
 }
 
@@ -171,8 +173,8 @@ impl<F: Lanes> AxisOrder<F> {
     }
 }
 
-/// Barycentric coordinates of the ray in the triangle: the edge functions of the watertight test (Woop, Benthin, Wald 2013) with
-/// the shear along the ray's largest axis, clamped into the triangle.
+/// Barycentric coordinates of the ray in the triangle: the edge functions of the watertight test (Woop, Benthin, Wald
+/// 2013) with the shear along the ray's largest axis, clamped into the triangle.
 #[inline(always)]
 fn barycentrics<F: Lanes>(origin: V3<F>, direction: V3<F>, corners: [V3<F>; 3]) -> [F; 3] {
     let c = F::splat;
@@ -236,8 +238,9 @@ fn on_triangles<F: Lanes>(
     let n = V3::select(mirrored, edge_normal.neg(), edge_normal).normalise();
     let outside = n.dot(direction).lt(zero);
     let ng = V3::select(outside, n, n.neg());
-    // All of it along the normal, whatever its direction: a ray that starts on the edge of two coplanar triangles must not meet the
-    // other one, whose distance is wrong by its vertices' coordinates, not by those across the plane (which may be zero).
+    // All of it along the normal, whatever its direction: a ray that starts on the edge of two coplanar triangles must
+    // not meet the other one, whose distance is wrong by its vertices' coordinates, not by those across the plane
+    // (which may be zero).
     let mut offset = error.0 + error.1 + error.2;
     if let Some(offsets) = scene.accel.as_deref().and_then(Accel::coplanar_offsets) {
         offset = offset.max(F::gather(offsets, triangle));
@@ -264,8 +267,9 @@ fn on_triangles<F: Lanes>(
             let turned = unit.dot(ng).lt(zero);
             let facing = V3::select(turned, unit.neg(), unit);
             ns = V3::select(smooth, facing, ng);
-            // Hanika 2021: from p up to the tangent plane of each vertex that it lies below, weighted by the barycentrics. A vertex
-            // normal counts on the viewer's side; where the surface is hollow seen from there, nothing moves.
+            // Hanika 2021: from p up to the tangent plane of each vertex that it lies below, weighted by the
+            // barycentrics. A vertex normal counts on the viewer's side; where the surface is hollow seen from there,
+            // nothing moves.
             let mut moved = p;
             for k in 0..3 {
                 let facing = V3::select(turned, normal[k].neg(), normal[k]);
@@ -339,8 +343,8 @@ impl<F: Lanes> Placement<F> {
     fn determinant(&self) -> F {
         self.rows[0].dot(self.rows[1].cross(self.rows[2]))
     }
-    /// The unit normal in render space: by the transpose of the inverse, which is the matrix of cofactors up to a factor (whose sign
-    /// does not matter: the caller turns normals to the viewer's side).
+    /// The unit normal in render space: by the transpose of the inverse, which is the matrix of cofactors up to a
+    /// factor (whose sign does not matter: the caller turns normals to the viewer's side).
     #[inline(always)]
     fn normal(&self, n: V3<F>) -> V3<F> {
         let [a, b, c] = self.rows;

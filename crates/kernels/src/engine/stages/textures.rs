@@ -1,4 +1,5 @@
-//! Texture look-up over lanes: mapping, wrap, then the nearest texel or the four around, decoded from sRGB before they are mixed.
+//! Texture look-up over lanes: mapping, wrap, then the nearest texel or the four around, decoded from sRGB before they
+//! are mixed.
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;

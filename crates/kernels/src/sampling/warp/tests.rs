@@ -1,4 +1,5 @@
-//! Every warp: unit length, its inverse in `f64`, and counts against its density (Pearson's chi-square, 5 % for all together).
+//! Every warp: unit length, its inverse in `f64`, and counts against its density (Pearson's chi-square, 5 % for all
+//! together).
 
 use super::*;
 use crate::lanes::ArrayF;
@@ -20,7 +21,8 @@ fn turns(y: f64, x: f64) -> f64 {
     libm::atan2(y, x).rem_euclid(TAU) / TAU
 }
 
-/// A warp with what undoes it: the point's two numbers, both uniform in [0, 1) when its density is what its comment says.
+/// A warp with what undoes it: the point's two numbers, both uniform in [0, 1) when its density is what its comment
+/// says.
 struct Warp {
     name: String,
     forward: Box<dyn Fn(S, S) -> [f64; 3]>,

@@ -70,7 +70,8 @@ impl MaterialKind for Conductor {
 
 /// The conductors' rows, and 1 - E of each by the cosine.
 pub struct ConductorTable {
-    /// alpha; 1 where Fresnel's equations hold, else 0; n or tint; k; F_avg of the former; E_avg; 1 / (pi (1 - E_avg)), or 0.
+    /// alpha; 1 where Fresnel's equations hold, else 0; n or tint; k; F_avg of the former; E_avg; 1 / (pi (1 - E_avg)),
+    /// or 0.
     pub rows: Table<13>,
     /// 1 - E at the cosines (k / (STEPS - 1))^2, [`ggx::STEPS`] for each conductor.
     pub losses: Vec<f32>,

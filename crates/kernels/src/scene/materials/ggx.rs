@@ -1,5 +1,5 @@
-//! What a rough surface without loss reflects at once: E of GGX with Smith's height-correlated shadowing and masking (Heitz 2014), by
-//! alpha and cosine.
+//! What a rough surface without loss reflects at once: E of GGX with Smith's height-correlated shadowing and masking
+//! (Heitz 2014), by alpha and cosine.
 
 use std::sync::LazyLock;
 

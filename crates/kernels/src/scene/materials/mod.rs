@@ -1,7 +1,7 @@
 //! Materials in linear RGB: one file each, one line each in the registry below, and their look-up tables.
 //!
-//! What a material is made of is told by its `Row`, what others want to know of it by its [`Traits`]: nobody else has a `match` on kinds
-//! of material. How the lobes scatter over lanes stands in `engine/stages/materials`.
+//! What a material is made of is told by its `Row`, what others want to know of it by its [`Traits`]: nobody else has a
+//! `match` on kinds of material. How the lobes scatter over lanes stands in `engine/stages/materials`.
 
 mod blinn_phong;
 mod conductor;
@@ -108,7 +108,8 @@ pub enum Lobe {
     BlinnPhongConserving = 4,
     /// None: it shines.
     Emitter = 5,
-    /// Specular reflection by Fresnel's equations or the F82-tint model. Parameters: alpha, place in the table of conductors.
+    /// Specular reflection by Fresnel's equations or the F82-tint model. Parameters: alpha, place in the table of
+    /// conductors.
     SmoothConductor = 6,
     /// GGX with these. Parameters: as before.
     Conductor = 7,
@@ -191,7 +192,8 @@ pub struct MaterialTable {
 }
 
 impl MaterialTable {
-    /// Of the materials, in their order. `first_pattern`: how many textures there are, behind which patterns are numbered.
+    /// Of the materials, in their order. `first_pattern`: how many textures there are, behind which patterns are
+    /// numbered.
     pub fn new(materials: &[Material], first_pattern: u32) -> Self {
         let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
         let conductors =

@@ -11,7 +11,8 @@ use tracer_reference::{Smoothing, render};
 /// Pixels along a tile's side.
 const TILE: u32 = 8;
 
-/// Renderings of the engine with independent seeds. Samples within one are stratified, so only whole renderings tell the variance.
+/// Renderings of the engine with independent seeds. Samples within one are stratified, so only whole renderings tell
+/// the variance.
 const SEEDS: u32 = 32;
 
 /// Scenes that are compared in all: together they fail by chance once in a hundred.
@@ -47,7 +48,8 @@ impl Renderings {
         Renderings((first_seed..first_seed + SEEDS).map(|seed| film(scene, samples, seed)).collect())
     }
 
-    /// Mean of a channel over a rectangle. However the pixels of one rendering hang together, the renderings tell its variance.
+    /// Mean of a channel over a rectangle. However the pixels of one rendering hang together, the renderings tell its
+    /// variance.
     fn estimate(&self, rectangle: Rectangle, channel: usize) -> Estimate {
         let mean =
             |film: &Film| pixels(rectangle).map(|(x, y)| film.radiance(x, y)[channel]).sum::<f64>() / area(rectangle);
@@ -55,8 +57,9 @@ impl Renderings {
     }
 }
 
-/// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all tiles of all
-/// scenes together (Šidák), and the means of the channels within three standard errors. With all that is on by default.
+/// Asserts that engine and reference agree: every tile of 8x8 pixels and channel by Welch's test, strict enough for all
+/// tiles of all scenes together (Šidák), and the means of the channels within three standard errors. With all that is
+/// on by default.
 pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     let scene = super::compiled(desc);
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
@@ -71,8 +74,8 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     assert_agree(name, scene.size, SCENES, &|r, c| engine.estimate(r, c), &theirs);
 }
 
-/// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture. `scenes`: how many
-/// are compared so in all.
+/// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture.
+/// `scenes`: how many are compared so in all.
 pub fn assert_sharing_is_unbiased(name: &str, desc: &SceneDesc, scenes: usize) {
     assert_shared_is_alone(name, desc, scenes);
 }
@@ -91,8 +94,8 @@ fn assert_shared_is_alone(name: &str, desc: &SceneDesc, scenes: usize) {
     assert_agree(name, size, scenes, &|r, c| shared.estimate(r, c), &|r, c| alone.estimate(r, c));
 }
 
-/// Asserts that rays which photons guide, and glint chains, change no picture: by all that is on with `render.caustics: Photons`, and by
-/// paths alone, with so many samples.
+/// Asserts that rays which photons guide, and glint chains, change no picture: by all that is on with `render.caustics:
+/// Photons`, and by paths alone, with so many samples.
 pub fn assert_guiding_is_unbiased(name: &str, desc: &SceneDesc, plain: u32, scenes: usize) {
     let rendered = |caustics: Caustics, samples: u32, first_seed: u32| {
         let mut desc = desc.clone();
@@ -160,8 +163,8 @@ fn assert_agree(
     assert!(faults.is_empty(), "{name} differs:\n{}", faults.join("\n"));
 }
 
-/// Compares, allowing for the rounding of `f32` where there is no noise to hide it: a picture of 10 operations per vertex and 10
-/// vertices is right to 100 * 2^-24 = 6e-6 of its value.
+/// Compares, allowing for the rounding of `f32` where there is no noise to hide it: a picture of 10 operations per
+/// vertex and 10 vertices is right to 100 * 2^-24 = 6e-6 of its value.
 fn agree(ours: &Estimate, theirs: &Estimate) -> tracer_reference::statistics::Comparison {
     let rounding = 6e-6 * theirs.mean;
     let rounded = Estimate { mean: theirs.mean, variance: theirs.variance + rounding * rounding, ..*theirs };

@@ -130,8 +130,10 @@ impl Mesh {
             binary.extend(bytes);
         }
         let mut json = format!(
-            "{{\"asset\":{{\"version\":\"2.0\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0}}],\"meshes\":\
-             [{{\"primitives\":[{{\"attributes\":{{{}}},\"indices\":{}}}]}}],\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":\
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0}}],\
+             \"meshes\":\
+             [{{\"primitives\":[{{\"attributes\":{{{}}},\"indices\":{}}}]}}],\
+             \"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":\
              [{{\"byteLength\":{}}}]}}",
             attributes.join(","),
             attributes.len(),
@@ -191,7 +193,8 @@ fn normalised(p: [f64; 3]) -> [f64; 3] {
     p.map(|x| x / length)
 }
 
-/// An icosahedron whose triangles are cut into four `cuts` times, on the unit sphere, with its normals: 20 * 4^cuts triangles.
+/// An icosahedron whose triangles are cut into four `cuts` times, on the unit sphere, with its normals: 20 * 4^cuts
+/// triangles.
 pub fn icosphere(cuts: u32) -> Mesh {
     let phi = (1.0 + 5f64.sqrt()) / 2.0;
     let mut positions: Vec<[f64; 3]> = Vec::new();
@@ -243,7 +246,8 @@ pub fn icosphere(cuts: u32) -> Mesh {
     Mesh { normals: positions.clone(), positions, uvs: Vec::new(), triangles }
 }
 
-/// A torus about the y axis, large radius 1, small radius `tube`, with normals and texture coordinates (its seam is doubled).
+/// A torus about the y axis, large radius 1, small radius `tube`, with normals and texture coordinates (its seam is
+/// doubled).
 pub fn torus(tube: f64, around: usize, across: usize) -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=around {

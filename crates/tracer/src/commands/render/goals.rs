@@ -7,7 +7,8 @@ use scene_format::SceneDesc;
 use std::time::{Duration, Instant};
 use tracer_core::{Crop, Film};
 
-/// The most samples where a goal is given on the command line and nothing else is said: the scene's own number is not for that.
+/// The most samples where a goal is given on the command line and nothing else is said: the scene's own number is not
+/// for that.
 const MOST: u32 = 1_000_000;
 
 /// Seconds that a pixel takes to be developed, and to be written to each file: a guess on the long side.
@@ -38,8 +39,8 @@ pub fn goals(desc: &SceneDesc, crop: Crop, outputs: usize, started: Instant) -> 
     Goals { noise: desc.render.noise.as_ref().map(|goal| goal.value), until }
 }
 
-/// Says what became of the goals. Where one of them ended the rendering, the scene asks for the samples that the film has: so the report names a
-/// command that makes the picture anew.
+/// Says what became of the goals. Where one of them ended the rendering, the scene asks for the samples that the film
+/// has: so the report names a command that makes the picture anew.
 pub fn end(desc: &mut SceneDesc, film: &Film, interrupted: bool, shell: &Shell) {
     let (fewest, most) = film.samples().into_inner();
     let asked = desc.render.samples.value;

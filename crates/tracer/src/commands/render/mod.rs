@@ -279,7 +279,8 @@ fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failu
     let needed = memory::of_film(crop, &desc.render, layers, denoise) + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
-            "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by --crop",
+            "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by \
+             --crop",
             crop.width,
             crop.height,
             memory::human(needed),

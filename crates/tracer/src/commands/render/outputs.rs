@@ -24,7 +24,8 @@ pub(super) fn name(place: &Place) -> String {
     }
 }
 
-/// The same options with the picture's name, if there is none: the scene's own with the extension of a picture, beside it.
+/// The same options with the picture's name, if there is none: the scene's own with the extension of a picture, beside
+/// it.
 ///
 /// # Errors
 /// Where the scene has no name, or something that is no picture has that one.

@@ -15,7 +15,8 @@ use tracer_core::{Crop, Film, Note, Part, Split};
 /// The extension of a part.
 pub const EXTENSION: &str = "tracer";
 
-/// The same options with the part's name, if there is none: beside the scene, with its number, so that `ls` has them in order.
+/// The same options with the part's name, if there is none: beside the scene, with its number, so that `ls` has them in
+/// order.
 pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
     let mut args = args.clone();
     let Some([k, n]) = args.part.filter(|_| args.output.is_empty()) else { return Ok(args) };
@@ -68,7 +69,8 @@ pub(super) fn part(args: &RenderArgs, desc: &SceneDesc, crop: Crop) -> Result<Op
     for (name, is_set) in [("noise", render.noise.is_some()), ("time", render.time.is_some())] {
         if is_set {
             return Err(Failure::wrong(format!(
-                "the scene's `render.{name}` is a goal for the whole picture, which a part does not know; all parts need one number of \
+                "the scene's `render.{name}` is a goal for the whole picture, which a part does not know; all parts \
+                 need one number of \
                  samples: --set render.{name}=None --samples N"
             )));
         }
@@ -85,7 +87,8 @@ pub(super) fn part(args: &RenderArgs, desc: &SceneDesc, crop: Crop) -> Result<Op
         let (by_samples, by_rows) = (most(Split::Samples), most(Split::Rows));
         let asked = if args.split.is_none() { String::new() } else { format!(" --split {}", split_name(split)) };
         Failure::wrong(format!(
-            "--part {k}/{n}{asked}: there are {by_samples} parts by samples, {by_rows} by rows of 16 pixels, and no more"
+            "--part {k}/{n}{asked}: there are {by_samples} parts by samples, {by_rows} by rows of 16 pixels, and no \
+             more"
         ))
     })
 }

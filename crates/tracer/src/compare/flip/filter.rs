@@ -77,8 +77,8 @@ impl Sum {
 }
 
 impl Kernel {
-    /// A Gaussian as wide as the eye's edge detector, its first derivative and its second. The Gaussian sums to 1, of the others
-    /// the positive weights do and the negative ones sum to -1.
+    /// A Gaussian as wide as the eye's edge detector, its first derivative and its second. The Gaussian sums to 1, of
+    /// the others the positive weights do and the negative ones sum to -1.
     pub fn of_features() -> [Kernel; 3] {
         // Peak to trough of the detector, in degrees: two standard deviations.
         const WIDTH: f64 = 0.082;

@@ -1,10 +1,10 @@
-//! FLIP: what a person sees who flips between two pictures (Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild:
-//! "FLIP: A Difference Evaluator for Alternating Images", HPG 2020), for pictures of display values.
+//! FLIP: what a person sees who flips between two pictures (Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström,
+//! Fairchild: "FLIP: A Difference Evaluator for Alternating Images", HPG 2020), for pictures of display values.
 //!
-//! Colours: both pictures are blurred as the eye does at a distance, per opponent channel (section 4.1), and compared in a
-//! perceptually even space (4.2). Features: edges and points of the luminance, found by derivatives of a Gaussian (4.3), make the
-//! colour difference larger where they differ (4.4). Nothing deviates from the paper; borders repeat their pixels, as the authors'
-//! program does.
+//! Colours: both pictures are blurred as the eye does at a distance, per opponent channel (section 4.1), and compared
+//! in a perceptually even space (4.2). Features: edges and points of the luminance, found by derivatives of a Gaussian
+//! (4.3), make the colour difference larger where they differ (4.4). Nothing deviates from the paper; borders repeat
+//! their pixels, as the authors' program does.
 
 mod colour;
 mod filter;
@@ -13,7 +13,8 @@ use colour::{Lab, Opponent};
 use filter::{Gaussian, Kernel, Plane, Sum};
 use rayon::prelude::*;
 
-/// Pixels per degree of the eye's angle: a 4K display of 0.7 m width, 0.7 m away (the paper's, and everybody's, choice).
+/// Pixels per degree of the eye's angle: a 4K display of 0.7 m width, 0.7 m away (the paper's, and everybody's,
+/// choice).
 pub const PIXELS_PER_DEGREE: f32 = 67.020_64;
 
 /// FLIP of each pixel, 0 (equal) to 1. Both pictures are display values in 0..=1, three a pixel, `width` pixels a row.

@@ -20,9 +20,9 @@ fn equal_pictures_have_none() {
     assert_eq!(one([0.2, 0.7, 0.4], [0.2, 0.7, 0.4]), 0.0);
 }
 
-/// White against black: HyAB is 100, and between green and blue it is 308.3 (L 87.73 and 32.30, the rest chroma under the Hunt
-/// effect): 100^0.7 = 25.12 lies above the knee at 0.4 * 308.3^0.7 = 22.09, a tenth of the way to the end, so that the result is
-/// 0.95 + 0.05 * 0.0914.
+/// White against black: HyAB is 100, and between green and blue it is 308.3 (L 87.73 and 32.30, the rest chroma under
+/// the Hunt effect): 100^0.7 = 25.12 lies above the knee at 0.4 * 308.3^0.7 = 22.09, a tenth of the way to the end, so
+/// that the result is 0.95 + 0.05 * 0.0914.
 #[test]
 fn white_against_black_by_hand() {
     let largest = colour::largest_difference().powf(QC);
@@ -59,8 +59,8 @@ fn a_firefly_is_seen_where_it_is() {
     assert_eq!(map[0], 0.0);
 }
 
-/// The authors' own program (version 1.2, at the same pixels per degree) gives these numbers for these pictures of 8 bits. It works
-/// in f32 with another order of sums; the tolerance is that of a few thousand roundings.
+/// The authors' own program (version 1.2, at the same pixels per degree) gives these numbers for these pictures of 8
+/// bits. It works in f32 with another order of sums; the tolerance is that of a few thousand roundings.
 #[test]
 fn numbers_of_the_authors_program() {
     let check = |reference: &[f32], test: &[f32], mean: f32, max: f32| {

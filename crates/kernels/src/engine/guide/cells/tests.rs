@@ -59,8 +59,8 @@ fn cells_are_found_by_halving() {
     }
 }
 
-/// A cell's strength is its flux over its width squared and the unit: that of a floor of 20000 photons in a unit square, where the finest
-/// cells lie by chance on either side of one that is full.
+/// A cell's strength is its flux over its width squared and the unit: that of a floor of 20000 photons in a unit
+/// square, where the finest cells lie by chance on either side of one that is full.
 #[test]
 fn strength_is_irradiance() {
     let cells = Cells::new(1, &photons(), 20_000.0);

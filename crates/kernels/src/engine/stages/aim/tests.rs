@@ -5,7 +5,8 @@ use crate::sampling::blocks::{Block, ITEM_PIXELS, Item};
 
 type One = ArrayF<1>;
 
-/// Casters: two spheres whose cones overlap, one half below the horizon, one that the point is in, one very small and one behind.
+/// Casters: two spheres whose cones overlap, one half below the horizon, one that the point is in, one very small and
+/// one behind.
 fn casters() -> SphereRows {
     let list: [([f32; 3], f32); 6] = [
         ([0.5, 0.3, 0.0], 0.2),
@@ -53,10 +54,11 @@ fn over_directions(mut f: impl FnMut([f32; 3], f64)) {
     }
 }
 
-/// Something is always aimed at here, so the density integrates to the chance to aim: the least without photons, all of it where their light
-/// is strong. The cells of 4e-5 that a cone's border cuts are right or wrong by half at random. Without photons: borders of some 6 in all,
-/// cells 0.006 wide, a thousand of them, and a density of 0.25 at most. With: the sixteenth part of each cone's border weighs 0.9 / 8 over
-/// a solid angle of 0.01 at least, which is a density of 12 in 8 cones of a circumference of 0.4 each, 530 cells.
+/// Something is always aimed at here, so the density integrates to the chance to aim: the least without photons, all of
+/// it where their light is strong. The cells of 4e-5 that a cone's border cuts are right or wrong by half at random.
+/// Without photons: borders of some 6 in all, cells 0.006 wide, a thousand of them, and a density of 0.25 at most.
+/// With: the sixteenth part of each cone's border weighs 0.9 / 8 over a solid angle of 0.01 at least, which is a
+/// density of 12 in 8 cones of a circumference of 0.4 each, 530 cells.
 #[test]
 fn densities_integrate_to_the_chance_to_aim() {
     for (flux, expected, most, cut) in [(0.0, LEAST_CHANCE, 0.25, 1000.0), (1e6, 1.0, 12.0, 530.0)] {
@@ -68,7 +70,8 @@ fn densities_integrate_to_the_chance_to_aim() {
     }
 }
 
-/// Members that all lie at one point: directions come with the density that is reckoned with, and count what the balance heuristic says.
+/// Members that all lie at one point: directions come with the density that is reckoned with, and count what the
+/// balance heuristic says.
 #[test]
 fn directions_have_the_density_that_is_reckoned_with() {
     for flux in [0.0, 1e6] {
@@ -100,8 +103,8 @@ fn directions_have_the_density_that_is_reckoned_with() {
                 squares += 1.0 / (a * a);
             }
         }
-        // The mean of 1/density over all members is the area that may be aimed at. Stratified points spread less than independent ones, whose
-        // standard error this is.
+        // The mean of 1/density over all members is the area that may be aimed at. Stratified points spread less than
+        // independent ones, whose standard error this is.
         let (mean, variance) = (area / members, (squares / members - (area / members).powi(2)) / members);
         let mut expected = 0.0;
         over_directions(|w, area| expected += if density_of(&guide, w) > 0.0 && w[1] > 0.0 { area } else { 0.0 });

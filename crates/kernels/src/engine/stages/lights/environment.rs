@@ -36,8 +36,8 @@ pub fn sample<F: Lanes>(environment: &Environment, u: F, v: F) -> LightSample<F>
     }
 }
 
-/// The density of [`sample`] in solid angle and the radiance, where a direction leaves the scene. The density may be zero where there is hardly
-/// any light.
+/// The density of [`sample`] in solid angle and the radiance, where a direction leaves the scene. The density may be
+/// zero where there is hardly any light.
 #[inline(always)]
 pub fn pdf_and_radiance<F: Lanes>(environment: &Environment, direction: V3<F>) -> (F, V3<F>) {
     let c = F::splat;
@@ -74,8 +74,8 @@ fn axes<F: Lanes>(environment: &Environment) -> [V3<F>; 3] {
     [V3::splat(right), V3::splat(up), V3::splat(front)]
 }
 
-/// The cell of `count` whose chance a number in [0, 1) falls to, how far it lies in it, and its chance. `table`: from `first` on the chances of
-/// all before each, and one.
+/// The cell of `count` whose chance a number in [0, 1) falls to, how far it lies in it, and its chance. `table`: from
+/// `first` on the chances of all before each, and one.
 #[inline(always)]
 fn find<F: Lanes>(table: &[f32], first: F::U, count: u32, x: F) -> (F::U, F, F) {
     // The last one that begins at or before x: by halves.
@@ -190,8 +190,9 @@ mod tests {
         }
     }
 
-    /// The density of directions is one in all and is that of the sample; what is sampled sums to the light from all directions; and directions
-    /// fall where the density says (chi-square over octants of longitude and eighths of height; Sidak over the skies).
+    /// The density of directions is one in all and is that of the sample; what is sampled sums to the light from all
+    /// directions; and directions fall where the density says (chi-square over octants of longitude and eighths of
+    /// height; Sidak over the skies).
     #[test]
     fn directions_come_with_their_density() {
         let skies = skies();

@@ -41,7 +41,8 @@ impl<F: Lanes> Row<F> {
         !(self.flags & F::U::splat(bit)).eq(F::U::splat(0))
     }
 
-    /// The point of the light for two random numbers, uniform: of a triangle the half of the square beyond its long side is folded back.
+    /// The point of the light for two random numbers, uniform: of a triangle the half of the square beyond its long
+    /// side is folded back.
     #[inline(always)]
     fn point(&self, u: F, v: F) -> V3<F> {
         let one = F::splat(1.0);
@@ -122,8 +123,8 @@ mod tests {
         2.0 * turn.abs()
     }
 
-    /// One over the density is on average the solid angle under which a light is seen; directions go to the light; the density of what they meet
-    /// is the same; and only the front shines.
+    /// One over the density is on average the solid angle under which a light is seen; directions go to the light; the
+    /// density of what they meet is the same; and only the front shines.
     #[test]
     fn samples_cover_the_light() {
         let mut random = Random::new(3);

@@ -1,8 +1,9 @@
 //! Lights: which one, a direction to it, and the density of a direction that met one.
 //!
-//! Radiance is in the engine's unit, per solid angle and projected area. Densities are in solid angle at the receiver. A light shines alike in all
-//! directions, from its front: outwards, or the side of its normal; from its back, too, where it has two sides. A sample of a light that does
-//! not shine to the receiver has radiance zero. A picture of all directions ([`environment`]) is a light without a number, infinitely far away.
+//! Radiance is in the engine's unit, per solid angle and projected area. Densities are in solid angle at the receiver.
+//! A light shines alike in all directions, from its front: outwards, or the side of its normal; from its back, too,
+//! where it has two sides. A sample of a light that does not shine to the receiver has radiance zero. A picture of all
+//! directions ([`environment`]) is a light without a number, infinitely far away.
 
 mod environment;
 mod flat;

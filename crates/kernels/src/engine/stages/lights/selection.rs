@@ -18,10 +18,10 @@ pub struct Choice<F: Lanes> {
 /// How likely the picture of all directions is chosen where there are other lights, too.
 pub const ENVIRONMENT: f32 = 0.5;
 
-/// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over squared distance
-/// times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting, 2018). Unlike there the way that lights face counts only for single ones, and distance and cosine are rather those of the
-/// middle than bounds ([`Node::importance`]).
+/// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over
+/// squared distance times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many
+/// Lights with Adaptive Tree Splitting, 2018). Unlike there the way that lights face counts only for single ones, and
+/// distance and cosine are rather those of the middle than bounds ([`Node::importance`]).
 #[inline(always)]
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
     let one = F::splat(1.0);
@@ -141,8 +141,8 @@ struct Node<F: Lanes> {
     around: F,
 }
 
-/// Lights in a sphere of radius r whose middle is d away send as if they were sqrt(d^2 + r^2 / 10) away. A bound on the distance would be
-/// d - r; this, [`LEAST_HEIGHT`] and [`LightTable::FEW`] were found by trial (docs/noise.md).
+/// Lights in a sphere of radius r whose middle is d away send as if they were sqrt(d^2 + r^2 / 10) away. A bound on the
+/// distance would be d - r; this, [`LEAST_HEIGHT`] and [`LightTable::FEW`] were found by trial (docs/noise.md).
 const SPREAD: f32 = 0.1;
 /// Lights in a sphere whose highest point is h above the horizon are taken to be this part of h above it at least.
 const LEAST_HEIGHT: f32 = 0.25;
@@ -177,8 +177,8 @@ impl<F: Lanes> Node<F> {
         }
     }
 
-    /// How much of its face a light with one side turns to the receiver: its cosine there, seen from its middle; above zero wherever the
-    /// receiver is in front of it. One for others.
+    /// How much of its face a light with one side turns to the receiver: its cosine there, seen from its middle; above
+    /// zero wherever the receiver is in front of it. One for others.
     #[inline(always)]
     fn facing(&self, receiver: Receiver<F>) -> F {
         let from = receiver.p.sub(self.center);
@@ -188,8 +188,9 @@ impl<F: Lanes> Node<F> {
         (cos + self.around).min(F::splat(1.0))
     }
 
-    /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine there: of few lights
-    /// a bound, of many one rather of their middle, never zero while some of the sphere is above the horizon.
+    /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine
+    /// there: of few lights a bound, of many one rather of their middle, never zero while some of the sphere is above
+    /// the horizon.
     #[inline(always)]
     fn importance(&self, receiver: Receiver<F>) -> F {
         let (r, zero) = (self.radius, F::splat(0.0));

@@ -7,8 +7,8 @@ use crate::math::V3;
 use crate::sampling::warp;
 use crate::scene::LightTable;
 
-/// 1 - cos of the half angle under which a sphere is seen from squared distance d2, without cancellation; 2 (all directions) from
-/// within. Uniform in solid angle: the density of a direction is 1 / (2 pi times this).
+/// 1 - cos of the half angle under which a sphere is seen from squared distance d2, without cancellation; 2 (all
+/// directions) from within. Uniform in solid angle: the density of a direction is 1 / (2 pi times this).
 #[inline(always)]
 fn one_minus_cos<F: Lanes>(d2: F, r2: F) -> F {
     let one = F::splat(1.0);

@@ -61,7 +61,8 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     LightTable::new(&lights, &spheres, None)
 }
 
-/// Distances of a point from the centre of a light of radius 1: far, near, just outside, on it, just within, at its centre.
+/// Distances of a point from the centre of a light of radius 1: far, near, just outside, on it, just within, at its
+/// centre.
 const DISTANCES: [f64; 9] = [1000.0, 30.0, 3.0, 1.1, 1.001, 1.0, 0.999, 0.5, 0.0];
 
 /// The solid angle that a sphere of radius 1 covers at this distance.
@@ -84,8 +85,8 @@ fn densities_integrate_to_one() {
             let p = (center + distance * random.direction()).as_vec3();
             let v = V3::<S>::splat(p.to_array());
             let density = scalar(pdf(&lights, <S as Lanes>::U::splat(0), facing_up(v), &met()));
-            // Where the point really is, after rounding. Close to the surface the solid angle grows with a square root of the
-            // distance to it: rounding of the point (1e-7) then moves it by up to sqrt(2e-7) = 5e-4.
+            // Where the point really is, after rounding. Close to the surface the solid angle grows with a square root
+            // of the distance to it: rounding of the point (1e-7) then moves it by up to sqrt(2e-7) = 5e-4.
             let at = (p.as_dvec3() - center.as_vec3().as_dvec3()).length();
             let near = (at - 1.0).abs() < 1e-5;
             if near {
@@ -132,7 +133,8 @@ fn samples_meet_the_light() {
     }
 }
 
-/// Uniform in the cone (1 - cos to the axis over its largest value, and the angle about the axis), 5 % for all distances together.
+/// Uniform in the cone (1 - cos to the axis over its largest value, and the angle about the axis), 5 % for all
+/// distances together.
 #[test]
 fn directions_are_uniform_in_the_cone() {
     let level = sidak(0.05, DISTANCES.len());
@@ -160,7 +162,8 @@ fn directions_are_uniform_in_the_cone() {
     }
 }
 
-/// Lights are chosen as their probabilities say, from near, from afar and from between them; the probabilities sum to one.
+/// Lights are chosen as their probabilities say, from near, from afar and from between them; the probabilities sum to
+/// one.
 #[test]
 fn lights_are_chosen_as_their_probabilities_say() {
     let place = |k: u32| DVec3::new(f64::from(k % 5), f64::from(k * k % 7), f64::from(k / 5));
@@ -191,7 +194,8 @@ fn lights_are_chosen_as_their_probabilities_say() {
     }
 }
 
-/// The density of a direction to one of several lights is that of the light times that of the direction to it, however it is asked for.
+/// The density of a direction to one of several lights is that of the light times that of the direction to it, however
+/// it is asked for.
 #[test]
 fn densities_hold_the_choice_of_the_light() {
     let lights = [(DVec3::ZERO, 0.5, 1.0), (DVec3::X * 3.0, 0.2, 4.0), (DVec3::Y * 2.0, 1.0, 0.5)];
@@ -246,7 +250,8 @@ fn lights_behind_are_not_chosen() {
     assert!(chance(1, -9.51) > 0.0 && chance(1, -10.4) > 0.5);
 }
 
-/// Lights in clouds through which the horizon goes: each that shows above it can be chosen, however many below it are in its nodes.
+/// Lights in clouds through which the horizon goes: each that shows above it can be chosen, however many below it are
+/// in its nodes.
 #[test]
 fn lights_that_show_are_in_reach() {
     let mut random = Random::new(8);
@@ -293,7 +298,8 @@ fn many_lights_are_all_found() {
             choose::<S>(&table, p, number(&mut random), number(&mut random)).light.store(&mut out);
             seen[out[0] as usize] = true;
         }
-        // 20 n choices among n lights that are alike leave n e^-20 = 2e-5 of them unseen; among those spread out the far ones are rare.
+        // 20 n choices among n lights that are alike leave n e^-20 = 2e-5 of them unseen; among those spread out the
+        // far ones are rare.
         assert!(depth == 10 || seen.iter().all(|&s| s));
     }
 }

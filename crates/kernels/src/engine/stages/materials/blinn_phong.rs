@@ -1,4 +1,5 @@
-//! The Blinn-Phong lobe over lanes, by the report's formula or energy conserving (Ashikhmin and Shirley 2000, without Fresnel's factor).
+//! The Blinn-Phong lobe over lanes, by the report's formula or energy conserving (Ashikhmin and Shirley 2000, without
+//! Fresnel's factor).
 
 use crate::lanes::Lanes;
 use crate::math::{V3, exp, ln1p};

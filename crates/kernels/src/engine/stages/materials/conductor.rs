@@ -1,5 +1,6 @@
-//! The lobes of metals over lanes: GGX with Smith's height-correlated shadowing and masking (Walter et al. 2007; Heitz 2014), and what is
-//! reflected several times (Kulla and Conty 2017), a Lambert-like lobe that is sampled with the probability 1 - E(mu_o).
+//! The lobes of metals over lanes: GGX with Smith's height-correlated shadowing and masking (Walter et al. 2007; Heitz
+//! 2014), and what is reflected several times (Kulla and Conty 2017), a Lambert-like lobe that is sampled with the
+//! probability 1 - E(mu_o).
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, sincos_turns};
@@ -108,7 +109,8 @@ impl<F: Lanes> Conductor<F> {
         let d = alpha2 * c(FRAC_1_PI) / (spread * spread);
         let root_o = ((one - alpha2) * cos_o).fma(cos_o, alpha2).sqrt();
         let root_i = ((one - alpha2) * cos_i).fma(cos_i, alpha2).sqrt();
-        // D G2 / (4 cos_i cos_o), and D G1(o) / (4 cos_o), the density of the half vector's visible normals over 4 wo.h.
+        // D G2 / (4 cos_i cos_o), and D G1(o) / (4 cos_o), the density of the half vector's visible normals over 4
+        // wo.h.
         let once = d * c(0.5) / cos_o.fma(root_i, cos_i * root_o);
         let visible = d * c(0.5) / (cos_o + root_o);
         let mut f = self.fresnel(h2.sqrt() * c(0.5)).scale(once);
@@ -128,8 +130,8 @@ impl<F: Lanes> Conductor<F> {
         (V3::select(above, f, V3::grey(zero)), F::select(above, pdf, zero))
     }
 
-    /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or cosine-weighted where `lobe` is
-    /// below the probability of that.
+    /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or
+    /// cosine-weighted where `lobe` is below the probability of that.
     #[inline(always)]
     pub fn sample(&self, table: &ConductorTable, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> V3<F> {
         let zero = F::splat(0.0);
@@ -181,8 +183,8 @@ impl<F: Lanes> Conductor<F> {
     }
 }
 
-/// The shading normal, raised towards the viewer where he would see it from behind or nearly so, which interpolated ones are along
-/// outlines: else there would be black dots.
+/// The shading normal, raised towards the viewer where he would see it from behind or nearly so, which interpolated
+/// ones are along outlines: else there would be black dots.
 #[inline(always)]
 fn seen<F: Lanes>(ns: V3<F>, wo: V3<F>) -> V3<F> {
     let c = F::splat;

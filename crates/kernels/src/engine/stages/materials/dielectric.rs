@@ -37,8 +37,9 @@ impl<F: Lanes> Dielectric<F> {
         // n_incident / n_transmitted.
         let eta = F::select(s.outside, one / ior, ior);
         if s.smooth.any() {
-            // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the latter decides:
-            // else rays that entered close to the outline of a low-poly body run round under its surface for ever, and its rim is dark.
+            // From within, where the interpolated normal reflects totally but the triangle's own lets light out, the
+            // latter decides: else rays that entered close to the outline of a low-poly body run round under its
+            // surface for ever, and its rim is dark.
             let cos_g = wo.dot(s.ng);
             let total = one.le(refract(wo, normal, eta).sin2_t);
             let caught = s.smooth & !s.outside & total & refract(wo, s.ng, eta).sin2_t.lt(one);

@@ -1,15 +1,20 @@
 //! Scattering over lanes.
 //!
 //! The contract:
-//! - wo points to where light goes, wi to where it comes from, both unit and away from the surface, in render space; the shading normal `ns`
-//!   is on the viewer's side. Which side a lobe takes light from is for [`Bsdf::reaches`] to say: callers take |cos|.
-//! - `f` is per steradian and has no cosine; densities are per unit of solid angle of wi. A weight is f |cos| / density.
-//! - Lanes are told apart by flags, a mask each, as pbrt's `BxdfFlags`: `diffuse` (DIFFUSE only: f does not depend on directions), `glossy`
-//!   (GLOSSY, beside DIFFUSE or not), `mirror` (SPECULAR and REFLECTION) and `transparent` (SPECULAR, REFLECTION and TRANSMISSION).
-//!   A lane has one of them, or none where nothing is scattered. Specular lobes are sampled only: their f and density are zero.
-//! - No sample: density 0. Radiance that is refracted is scaled by (n_i / n_t)^2 (Veach 1997, 5.2), which is kept apart as `eta2`.
+//! - wo points to where light goes, wi to where it comes from, both unit and away from the surface, in render space;
+//!   the shading normal `ns` is on the viewer's side. Which side a lobe takes light from is for [`Bsdf::reaches`] to
+//!   say: callers take |cos|.
+//! - `f` is per steradian and has no cosine; densities are per unit of solid angle of wi. A weight is f |cos| /
+//!   density.
+//! - Lanes are told apart by flags, a mask each, as pbrt's `BxdfFlags`: `diffuse` (DIFFUSE only: f does not depend on
+//!   directions), `glossy` (GLOSSY, beside DIFFUSE or not), `mirror` (SPECULAR and REFLECTION) and `transparent`
+//!   (SPECULAR, REFLECTION and TRANSMISSION). A lane has one of them, or none where nothing is scattered. Specular
+//!   lobes are sampled only: their f and density are zero.
+//! - No sample: density 0. Radiance that is refracted is scaled by (n_i / n_t)^2 (Veach 1997, 5.2), which is kept apart
+//!   as `eta2`.
 //!
-//! A lobe is a file here. Which material has which is in its row ([`crate::scene::materials`]); nobody outside of this room asks for a kind.
+//! A lobe is a file here. Which material has which is in its row ([`crate::scene::materials`]); nobody outside of this
+//! room asks for a kind.
 
 mod blinn_phong;
 mod conductor;
@@ -133,8 +138,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         bsdf
     }
 
-    /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none. Light passes from one
-    /// body into the other, and takes on the colour of both.
+    /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none.
+    /// Light passes from one body into the other, and takes on the colour of both.
     #[inline(always)]
     pub fn touch(&mut self, table: &MaterialTable, behind: F::U) {
         let none = F::U::splat(0);
@@ -168,8 +173,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         self.glossy = F::M::from_bits(0);
     }
 
-    /// Rough lanes that light from a direction with this cosine to the shading normal gets through: from above, since none of these lobes
-    /// transmits.
+    /// Rough lanes that light from a direction with this cosine to the shading normal gets through: from above, since
+    /// none of these lobes transmits.
     #[inline(always)]
     pub fn reaches(&self, cos_i: F) -> F::M {
         F::splat(0.0).lt(cos_i)
@@ -205,8 +210,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         Conductor::new(table, place.to_int(), self.color)
     }
 
-    /// Rough lanes whose f is their colour times a number: only those columns hold ([`Bsdf::pack`]). Metals' is another colour at every
-    /// angle; they share and aim nothing, and what light paths bring to them is left to paths.
+    /// Rough lanes whose f is their colour times a number: only those columns hold ([`Bsdf::pack`]). Metals' is another
+    /// colour at every angle; they share and aim nothing, and what light paths bring to them is left to paths.
     #[inline(always)]
     pub fn packs(&self) -> F::M {
         self.diffuse | self.blinn_phong
@@ -234,7 +239,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         lobes
     }
 
-    /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the rough lanes that wi reaches; `cos_i` is ns.wi.
+    /// f and the density with which [`Bsdf::sample_rough`] takes wi, for the rough lanes that wi reaches; `cos_i` is
+    /// ns.wi.
     #[inline(always)]
     pub fn evaluate(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>, cos_i: F) -> (V3<F>, F) {
         let lobes = self.lobes(ns, wo, wi, cos_i);
@@ -254,8 +260,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         (V3::select(metal, of_metal, f), F::select(metal, metal_pdf, pdf))
     }
 
-    /// A direction for the rough lanes: cosine-weighted, or of the glossy lobe. The weight and the density are those of both lobes
-    /// together.
+    /// A direction for the rough lanes: cosine-weighted, or of the glossy lobe. The weight and the density are those of
+    /// both lobes together.
     #[inline(always)]
     pub fn sample_rough(&self, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> RoughSample<F> {
         let c = F::splat;

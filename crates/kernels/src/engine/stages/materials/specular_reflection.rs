@@ -4,9 +4,9 @@ use crate::engine::stages::surface::Surface;
 use crate::lanes::{Lanes, Mask};
 use crate::math::V3;
 
-/// wo reflected in the shading normal, bent so that it leaves the geometric surface: where it would start inside, the reflected
-/// direction is raised to just above the surface (the bend-normal rule of Keller et al., The Iray Light Transport Simulation
-/// and Rendering System, 2017, A.3). Gives the direction and the normal that makes it.
+/// wo reflected in the shading normal, bent so that it leaves the geometric surface: where it would start inside, the
+/// reflected direction is raised to just above the surface (the bend-normal rule of Keller et al., The Iray Light
+/// Transport Simulation and Rendering System, 2017, A.3). Gives the direction and the normal that makes it.
 #[inline(always)]
 pub fn reflect_bent<F: Lanes>(s: &Surface<F>, wo: V3<F>) -> (V3<F>, V3<F>) {
     let c = F::splat;

@@ -1,5 +1,6 @@
-//! Each material against its formula in `f64`: value, density, samples (Pearson's chi-square), reciprocity, and what it reflects in
-//! all; the dielectric against Snell and Fresnel; both on smooth surfaces against the side that they must leave to.
+//! Each material against its formula in `f64`: value, density, samples (Pearson's chi-square), reciprocity, and what it
+//! reflects in all; the dielectric against Snell and Fresnel; both on smooth surfaces against the side that they must
+//! leave to.
 
 use super::*;
 use crate::lanes::ArrayF;
@@ -125,7 +126,8 @@ fn values_are_those_of_the_formula_and_reciprocal() {
                 let f = vector(f);
                 let expected = material.f(vector(n), vector(wo), vector(wi));
                 // cos^2 of the half vector is right to 2e-7, as 1 - sin^2 is: the lobe cos^alpha = (cos^2)^(alpha/2) to
-                // alpha/2 cos^(alpha - 2) 2e-7. Where the lobe counts its logarithm is at most 30, and right to 1e-6: 3e-5.
+                // alpha/2 cos^(alpha - 2) 2e-7. Where the lobe counts its logarithm is at most 30, and right to 1e-6:
+                // 3e-5.
                 let h = (vector(wo) + vector(wi)).normalize();
                 let cos_h = h.dot(vector(n)).max(3e-4);
                 let lobe_error = material.glossy.map_or(0.0, |(alpha, s)| {
@@ -168,8 +170,9 @@ fn sampled_densities_and_weights_are_the_evaluated_ones() {
     }
 }
 
-/// Directions wi by their half vector with wo, which keeps cells round at grazing angles: t = 1 - cos of its angle to the normal in
-/// steps that grow with it, and the angle about the normal, 0 towards wo. dwi = 4 (wo.h) dh (Walter et al. 2007, eq. 14).
+/// Directions wi by their half vector with wo, which keeps cells round at grazing angles: t = 1 - cos of its angle to
+/// the normal in steps that grow with it, and the angle about the normal, 0 towards wo. dwi = 4 (wo.h) dh (Walter et
+/// al. 2007, eq. 14).
 struct Cells {
     wo: DVec3,
     towards: DVec3,
@@ -199,7 +202,8 @@ impl Cells {
         SECTORS * ring + ((turn * SECTORS as f64) as usize).min(SECTORS - 1)
     }
 
-    /// The integral of a density in wi over the part of each cell where wi is above the surface. For each t that part is
+    /// The integral of a density in wi over the part of each cell where wi is above the surface. For each t that part
+    /// is
     /// |angle| < limit, so the midpoint rule meets no jump.
     fn integrate(&self, density: impl Fn(DVec3) -> f64) -> Vec<f64> {
         let n = normal();
@@ -234,8 +238,8 @@ impl Cells {
     }
 }
 
-/// Counts of sampled directions against the integral of the evaluated density; failed samples are a cell of their own. 5 % for all
-/// materials and angles together (Šidák).
+/// Counts of sampled directions against the integral of the evaluated density; failed samples are a cell of their own.
+/// 5 % for all materials and angles together (Šidák).
 #[test]
 fn samples_have_the_evaluated_density() {
     const SAMPLES: u32 = 20_000;
@@ -364,8 +368,8 @@ fn fresnel_is_the_closed_form() {
     }
 }
 
-/// The dielectric reflects when the random number is below Fresnel's reflectance, else refracts by Snell's law, from both sides, up to
-/// grazing and total reflection.
+/// The dielectric reflects when the random number is below Fresnel's reflectance, else refracts by Snell's law, from
+/// both sides, up to grazing and total reflection.
 #[test]
 fn dielectric_obeys_snell_and_fresnel() {
     let n = normal();
@@ -418,7 +422,8 @@ fn bent(random: &mut Random) -> (DVec3, DVec3, DVec3) {
     }
 }
 
-/// Mirrors on smooth meshes reflect away from the surface, whatever the normals, and as the shading normal says wherever that can be.
+/// Mirrors on smooth meshes reflect away from the surface, whatever the normals, and as the shading normal says
+/// wherever that can be.
 #[test]
 fn mirrored_directions_leave_the_surface() {
     let mut random = Random::new(5);

@@ -1,4 +1,5 @@
-//! Textures that are reckoned, over lanes: from a surface to the pattern's coordinates, from there to t by one file a pattern, and to mix(a, b, t).
+//! Textures that are reckoned, over lanes: from a surface to the pattern's coordinates, from there to t by one file a
+//! pattern, and to mix(a, b, t).
 
 mod checkerboard;
 mod dots;
@@ -15,8 +16,8 @@ use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
 use crate::scene::{PatternTable, STRIDE, pattern_kind as kind};
 
-/// The colour of pattern `id` at a surface, in the lanes of the mask; anything elsewhere. A call, since all stages that meet materials look up
-/// their colours.
+/// The colour of pattern `id` at a surface, in the lanes of the mask; anything elsewhere. A call, since all stages that
+/// meet materials look up their colours.
 #[inline(always)]
 pub fn pattern_color<F: Lanes>(table: &PatternTable, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
     F::apart(Lookup { table, id, at: At { p: s.p, u: s.u, v: s.v, body: s.body }, mask })

@@ -26,7 +26,8 @@ pub static PERMUTATION: [u32; 256] = [
     222, 114, 67, 29, 24, 72, 243, 141, 128, 195, 78, 66, 215, 61, 156, 180,
 ];
 
-/// sum g^i n(l^i p) / sum g^i over octaves i, |n| for n in the lanes of `unsigned`; from -1 to 1. `parameters`: how many octaves, l, g.
+/// sum g^i n(l^i p) / sum g^i over octaves i, |n| for n in the lanes of `unsigned`; from -1 to 1. `parameters`: how
+/// many octaves, l, g.
 #[inline(always)]
 pub fn octaves<F: Lanes>(p: V3<F>, parameters: V3<F>, unsigned: F::M, mask: F::M) -> F {
     let V3(count, lacunarity, gain) = parameters;

@@ -1,9 +1,10 @@
-//! Cells about one point in each unit cube (Worley: A Cellular Texture Basis Function, 1996), whose place in it is by PCG3D (Jarzynski, Olano:
-//! Hash Functions for GPU Rendering, 2020).
+//! Cells about one point in each unit cube (Worley: A Cellular Texture Basis Function, 1996), whose place in it is by
+//! PCG3D (Jarzynski, Olano: Hash Functions for GPU Rendering, 2020).
 //!
-//! Points of cubes that do not touch the one that is looked up are at least 1 away, so the 27 about it are enough where what is asked for is
-//! nearer. Where it is not, the next 98 are looked at, too. Points of those beyond are at least 2 away, the nearest at most sqrt(3), the second
-//! nearest at most 2.06, for which every cube about would have to have its point in its farthest corner.
+//! Points of cubes that do not touch the one that is looked up are at least 1 away, so the 27 about it are enough where
+//! what is asked for is nearer. Where it is not, the next 98 are looked at, too. Points of those beyond are at least 2
+//! away, the nearest at most sqrt(3), the second nearest at most 2.06, for which every cube about would have to have
+//! its point in its farthest corner.
 
 use super::whole;
 use crate::engine::stages::textures::floor;
@@ -46,7 +47,8 @@ pub fn t<F: Lanes>(p: V3<F>, which: F, jitter: F, mask: F::M) -> F {
     F::select(of_cells, number, F::select(of_borders, between, first).min(one))
 }
 
-/// Looks at the points of the cubes that are so many steps away along some axis; with the first step at the cube's own, too.
+/// Looks at the points of the cubes that are so many steps away along some axis; with the first step at the cube's own,
+/// too.
 #[inline(always)]
 fn look<F: Lanes>(found: &mut Found<F>, cube: [F::U; 3], rest: V3<F>, jitter: F, reach: i32) {
     for z in -reach..reach + 1 {

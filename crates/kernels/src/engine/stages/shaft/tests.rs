@@ -65,7 +65,8 @@ fn segment(batch: &Batch, i: usize, y: [f32; 3]) -> (V3<One>, V3<One>, One) {
     (start, to.scale(One::splat(1.0) / distance), distance)
 }
 
-/// Whatever box a segment passes, the shaft meets; of those that none passes it leaves out most; and so for any number of lanes.
+/// Whatever box a segment passes, the shaft meets; of those that none passes it leaves out most; and so for any number
+/// of lanes.
 #[test]
 fn a_shaft_meets_all_that_its_segments_pass() {
     let mut random = Random::new(5);
@@ -130,8 +131,8 @@ fn large(random: &mut Random) -> (LargeSphere, impl Fn([f32; 3]) -> f64 + use<>)
     (large, f)
 }
 
-/// A large sphere that is left out blocks no segment, neither by the test over lanes nor in double precision: members before it,
-/// behind it, in it and on it.
+/// A large sphere that is left out blocks no segment, neither by the test over lanes nor in double precision: members
+/// before it, behind it, in it and on it.
 #[test]
 fn large_spheres_that_are_left_out_block_nothing() {
     let mut random = Random::new(7);

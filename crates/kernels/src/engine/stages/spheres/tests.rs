@@ -53,9 +53,10 @@ fn occluded(table: &SphereTable, batch: &mut Batch, o: Vec3, d: Vec3, t_max: f64
     batch.shadows.occluded[0] == 1
 }
 
-/// Rays from anywhere at small spheres, in units of 2^-24 and with g the way to the centre: the centre is rounded twice, sqrt(3) together;
-/// g by |g| sqrt(3) / 2; the middle by 2 |g| more, and half the chord, h, by r / h of what the first two say and as much again of r for the
-/// sum of squares. All of it is less than (4 + 4 |g|) r / h, and t is rounded itself. Grazing rays, h below a tenth of r, are left out.
+/// Rays from anywhere at small spheres, in units of 2^-24 and with g the way to the centre: the centre is rounded
+/// twice, sqrt(3) together; g by |g| sqrt(3) / 2; the middle by 2 |g| more, and half the chord, h, by r / h of what the
+/// first two say and as much again of r for the sum of squares. All of it is less than (4 + 4 |g|) r / h, and t is
+/// rounded itself. Grazing rays, h below a tenth of r, are left out.
 #[test]
 fn small_spheres_are_hit_where_double_precision_says() {
     let (mut random, mut batch) = (Random::new(1), Batch::new());
@@ -92,8 +93,8 @@ fn small_spheres_are_hit_where_double_precision_says() {
     assert!(hits > 20_000 && within > 5000, "{hits} {within}");
 }
 
-/// A ray that leaves a small sphere meets it at the other end of its chord or not at all, however flat it leaves; and the chord is found as the
-/// way out is.
+/// A ray that leaves a small sphere meets it at the other end of its chord or not at all, however flat it leaves; and
+/// the chord is found as the way out is.
 #[test]
 fn small_spheres_do_not_meet_the_rays_that_leave_them() {
     let (mut random, mut batch) = (Random::new(2), Batch::new());
@@ -105,8 +106,9 @@ fn small_spheres_do_not_meet_the_rays_that_leave_them() {
         let slope = 10f64.powf(-4.0 * point(&mut random).x.abs());
         let outwards = random.bits() & 1 == 0;
         let d = unit(n.cross(random.direction()).normalize() + if outwards { slope } else { -slope } * n);
-        // The centre is off by sqrt(3) of 2^-24, the start by half of that from the sphere, products of numbers below an eighth by little more:
-        // which side is closer than this cannot be told, and the middle of the chord is known to as much.
+        // The centre is off by sqrt(3) of 2^-24, the start by half of that from the sphere, products of numbers below
+        // an eighth by little more: which side is closer than this cannot be told, and the middle of the chord is known
+        // to as much.
         let rise = d.as_dvec3().dot(n);
         if rise.abs() < 4.0 * ULP / radius {
             continue;

@@ -1,4 +1,5 @@
-//! Metals: the value against the formulas in `f64`, reciprocity, the sampled density (Pearson's chi-square), its integral, the furnace.
+//! Metals: the value against the formulas in `f64`, reciprocity, the sampled density (Pearson's chi-square), its
+//! integral, the furnace.
 
 use super::super::Bsdf;
 use super::super::tests::{ANGLES, lanes, normal, number, scalar, vector, viewer};
@@ -27,8 +28,8 @@ fn bsdf(table: &MaterialTable) -> Bsdf<'_, S> {
 
 const ALPHAS: [f64; 7] = [1e-3, 0.01, 0.04, 0.1, 0.25, 0.6, 1.0];
 
-/// Cells of directions by their half vector with wo: squared sine of its angle to the normal, eight sectors about the normal.
-/// dwi = 4 (wo.h) dh (Walter et al. 2007, eq. 14).
+/// Cells of directions by their half vector with wo: squared sine of its angle to the normal, eight sectors about the
+/// normal. dwi = 4 (wo.h) dh (Walter et al. 2007, eq. 14).
 struct Cells {
     wo: DVec3,
     frame: [DVec3; 3],
@@ -43,7 +44,8 @@ impl Cells {
         let n = normal();
         let across = wo - wo.dot(n) * n;
         let x = if across.length() > 1e-9 { across.normalize() } else { n.any_orthonormal_vector() };
-        // The quantiles of D cos, tan^2 = alpha^2 u / (1 - u), and from the last of them on steps that grow with the sine.
+        // The quantiles of D cos, tan^2 = alpha^2 u / (1 - u), and from the last of them on steps that grow with the
+        // sine.
         let sin2 = |u: f64| alpha * alpha * u / (1.0 - u + alpha * alpha * u);
         let mut bounds: Vec<f64> = (0..16).map(|k| sin2(f64::from(k) / 16.0)).collect();
         let least = sin2(15.0 / 16.0);
@@ -122,8 +124,8 @@ fn values_are_those_of_the_formula_and_reciprocal() {
                 let wi = lanes(wi);
                 let f = vector(white.evaluate(n, wo, wi, n.dot(wi)).0).x;
                 let expected = once(alpha, vector(n), vector(wo), vector(wi));
-                // The half vector is right to 2e-7 over |wo + wi|, and D changes by at most 2/alpha times the change of its sine;
-                // cosines are right to 1e-7.
+                // The half vector is right to 2e-7 over |wo + wi|, and D changes by at most 2/alpha times the change of
+                // its sine; cosines are right to 1e-7.
                 let cos = vector(n).dot(vector(wi)).min(vector(n).dot(vector(wo)));
                 let length = (vector(wo) + vector(wi)).length();
                 let allowed = 1e-5 + 2e-6 / (alpha * length) + 1e-6 / cos;
@@ -139,8 +141,8 @@ fn values_are_those_of_the_formula_and_reciprocal() {
     }
 }
 
-/// Counts of sampled directions against the integral of the evaluated density, which is one but for the samples below the horizon; and
-/// each sample's density and weight are the evaluated ones. 5 % for all together (Šidák).
+/// Counts of sampled directions against the integral of the evaluated density, which is one but for the samples below
+/// the horizon; and each sample's density and weight are the evaluated ones. 5 % for all together (Šidák).
 #[test]
 fn samples_have_the_evaluated_density() {
     const SAMPLES: u32 = 20_000;
@@ -181,7 +183,8 @@ fn samples_have_the_evaluated_density() {
     }
 }
 
-/// A white metal reflects all that it gets, to what its table is good for, and never more; by one reflection alone it loses some.
+/// A white metal reflects all that it gets, to what its table is good for, and never more; by one reflection alone it
+/// loses some.
 #[test]
 fn furnace() {
     let mut random = Random::new(4);
