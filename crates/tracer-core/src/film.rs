@@ -10,6 +10,7 @@ mod file;
 mod halves;
 mod layers;
 mod merge;
+mod missed;
 mod pack;
 mod part;
 mod record;
@@ -20,6 +21,7 @@ pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
 use halves::TileHalf;
 pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
+pub(crate) use layers::is_hit;
 use layers::{FilmLayer, TileLayers};
 pub use merge::{Gap, Gaps, MergeError, faults};
 pub use part::{Part, Split};
@@ -31,7 +33,7 @@ use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
 use std::ops::Range;
-use tracer_kernels::layers::{Kept, LayerSet};
+use tracer_kernels::layers::{Kept, Layer, LayerSet};
 use tracer_kernels::level::Level;
 use tracer_kernels::report::{Costs, Counters, Statistics};
 
@@ -97,6 +99,8 @@ pub(crate) struct Tile {
     layers: Option<Box<TileLayers>>,
     /// The second half of the samples, where halves are kept.
     half: Option<Box<TileHalf>>,
+    /// Where the layer `alpha` is kept and something is seen behind everything: its radiance.
+    missed: Option<Box<Sums>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -193,10 +197,10 @@ impl Tile {
     }
 
     /// Bytes of memory that a tile takes.
-    fn bytes(clamped: bool, light_paths: bool, kept: Kept, half: usize) -> usize {
+    fn bytes(clamped: bool, light_paths: bool, kept: Kept, half: usize, missed: bool) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
         let optional = of(clamped, size_of::<Taken>()) + of(light_paths, size_of::<Splats>());
-        size_of::<Tile>() + optional + TileLayers::bytes(kept) + half
+        size_of::<Tile>() + optional + TileLayers::bytes(kept) + half + of(missed, size_of::<Sums>())
     }
 }
 
@@ -385,7 +389,8 @@ impl Film {
         let of_layers = |tile: &Tile| if tile.layers.is_some() { kept } else { Kept::default() };
         let of_tile = |tile: &Tile| {
             let half = tile.half.as_ref().map_or(0, |half| half.bytes());
-            Tile::bytes(tile.taken.is_some(), tile.splats.is_some(), of_layers(tile), half)
+            let [taken, splats, missed] = [tile.taken.is_some(), tile.splats.is_some(), tile.missed.is_some()];
+            Tile::bytes(taken, splats, of_layers(tile), half, missed)
         };
         self.tiles.iter().map(of_tile).sum()
     }
@@ -395,7 +400,8 @@ impl Film {
     pub fn bytes_of(crop: Crop, clamped: bool, light_paths: bool, layers: LayerSet, halves: bool) -> u64 {
         let tiles = |first: u32, length: u32| u64::from((first + length).div_ceil(TILE) - first / TILE);
         let half = if halves { TileHalf::most_bytes(light_paths) } else { 0 };
-        let of_tile = Tile::bytes(clamped, light_paths, layers.kept(), half);
+        let alpha = layers.iter().any(|layer| layer == Layer::Alpha);
+        let of_tile = Tile::bytes(clamped, light_paths, layers.kept(), half, alpha);
         tiles(crop.x, crop.width) * tiles(crop.y, crop.height) * of_tile as u64
     }
 

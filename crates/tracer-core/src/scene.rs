@@ -1,6 +1,6 @@
 //! A compiled scene: what is rendered, and what programs want to know of it beside.
 
-use crate::develop::Look;
+use crate::develop::{Backdrop, Look};
 use scene_format::{Diagnostic, desc};
 use std::ops::{Deref, DerefMut};
 use std::path::PathBuf;
@@ -66,6 +66,21 @@ pub fn layer_set(words: &[desc::Layer]) -> LayerSet {
     words.iter().map(|word| of_word(*word)).collect()
 }
 
+/// The layers of the film: those that the scene asks for, and the one that tells what a backdrop is seen through.
+pub fn film_layers(output: &desc::Output) -> LayerSet {
+    let alpha = (backdrop(output) != Backdrop::Background).then_some(Layer::Alpha);
+    layer_set(&output.layers).iter().chain(alpha).collect()
+}
+
+/// What the picture has behind everything.
+pub(crate) fn backdrop(output: &desc::Output) -> Backdrop {
+    match &output.backdrop {
+        _ if output.alpha => Backdrop::Clear,
+        Some(color) => Backdrop::Color(color.value),
+        None => Backdrop::Background,
+    }
+}
+
 /// One line a layer: its word and itself.
 macro_rules! words {
     ($($Word:ident),+) => {
@@ -80,4 +95,4 @@ macro_rules! words {
     };
 }
 
-words!(Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance);
+words!(Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance, Alpha);

@@ -64,9 +64,12 @@ pub fn run(root: &Path, options: &Options) -> anyhow::Result<usize> {
             let [gain, trimmed, edges, textures] = measured.gains;
             let [before, after] = measured.errors;
             let (integrator, energy) = (if plain { "Path" } else { "Full" }, measured.energy);
+            // There may be no edges, or no textures.
+            let [edges, textures] =
+                [edges, textures].map(|gain| if gain.is_nan() { "none".to_owned() } else { format!("{gain:.2}") });
             println!(
-                "| {name} | {integrator} | {before:.5} | {after:.5} | **{gain:.2}** | {trimmed:.2} | {edges:.2} | \
-                 {textures:.2} | {energy:.3} |"
+                "| {name} | {integrator} | {before:.5} | {after:.5} | **{gain:.2}** | {trimmed:.2} | {edges} | \
+                 {textures} | {energy:.3} |"
             );
             gains.push(gain);
             worse += usize::from(gain < 1.0);

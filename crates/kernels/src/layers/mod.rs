@@ -7,6 +7,7 @@
 //! Samples lie where the pixel's filter has them, so their plain mean is the filtered one, as it is of the picture.
 
 mod albedo;
+mod alpha;
 mod depth;
 mod emission;
 mod material_id;
@@ -182,6 +183,8 @@ layers! {
     MaterialId: material_id::MaterialId,
     /// See [`variance`].
     Variance: variance::Variance,
+    /// See [`alpha`].
+    Alpha: alpha::Alpha,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.

@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use scene_format::desc::ToneMap;
 use serde::Deserialize;
 use std::sync::Arc;
-use tracer_core::{Layer, LayerSet, Look};
+use tracer_core::{Backdrop, Layer, LayerSet, Look};
 
 /// The tone maps, as the page names them.
 const TONES: [(&str, ToneMap); 3] = [("none", ToneMap::None), ("filmic", ToneMap::Filmic), ("agx", ToneMap::AgX)];
@@ -40,7 +40,7 @@ impl AskedLook {
                 None => return wrong("there is no such tone map"),
             },
         };
-        Ok(Look { exposure, tone_map })
+        Ok(Look { exposure, tone_map, ..scene })
     }
 }
 
@@ -115,7 +115,11 @@ pub async fn frame(app: &Arc<App>, asked: AskedFrame) -> Response {
         },
     };
     let Some(frame) = frame else { return refused(StatusCode::CONFLICT, "there is no picture yet") };
-    let scene_look = stage.as_ref().map_or(Look::default(), |stage| stage.scene.look);
+    let mut scene_look = stage.as_ref().map_or(Look::default(), |stage| stage.scene.look);
+    // A page has nothing to lay the picture over.
+    if scene_look.backdrop == Backdrop::Clear {
+        scene_look.backdrop = Backdrop::Background;
+    }
     let look = match (AskedLook { exposure: asked.exposure, tone: asked.tone }).look(scene_look) {
         Ok(look) => look,
         Err((status, why)) => return refused(status, &why),

@@ -1,5 +1,8 @@
 //! What is written beside the picture.
 
+use super::Color;
+use crate::diagnostic::Spanned;
+use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
 scene_struct! {
@@ -7,6 +10,12 @@ scene_struct! {
     pub struct Output as "Output", "the output" {
         /// Layers that EXR files get beside the picture: what camera rays hit first. The picture is the same with and without them.
         layers: Vec<Layer> = Vec::new();
+        /// Leaves the background out, to lay the picture over another one: PNG and EXR files say how much of each pixel is covered. It still
+        /// lights the scene, and shows in mirrors and through glass.
+        alpha: bool = false;
+        /// A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still
+        /// lights the scene, and shows in mirrors and through glass.
+        backdrop: Option<Spanned<Color>> = None => Rule::share();
     }
 }
 
@@ -39,6 +48,8 @@ scene_words! {
         /// Estimated variance of the pixel's mean luminance, in the square of W/(sr m^2), were its samples independent: how noisy it
         /// still is. Zero below two samples.
         Variance,
+        /// The share of the pixel's samples that hit something, mirrors and glass included: 0 where the background is seen, between at edges.
+        Alpha,
     }
 }
 
@@ -46,6 +57,6 @@ scene_words! {
 #[allow(clippy::derivable_impls)]
 impl Default for Output {
     fn default() -> Self {
-        Output { layers: Vec::new() }
+        Output { layers: Vec::new(), alpha: false, backdrop: None }
     }
 }

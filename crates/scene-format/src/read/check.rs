@@ -2,7 +2,7 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, MaterialRef, Object, Scene, VERSION, Vec3};
+use crate::desc::{Camera, MaterialRef, Object, Output, Scene, VERSION, Vec3};
 use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
@@ -59,6 +59,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.path.pop();
     }
     let mut scene = scene?;
+    reader.output(&scene.output);
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
     if camera.is_none_or(|camera| !camera.holds_damage()) {
         reader.camera(&scene.camera, root.syntax());
@@ -147,6 +148,19 @@ impl Reader<'_> {
                 self.report(Diagnostic::error(codes::TOO_MUCH, object.span, message).expected("fewer copies"));
                 return;
             }
+        }
+    }
+
+    /// A picture is laid over another one, or has a colour behind everything.
+    fn output(&mut self, output: &Output) {
+        if let Some(backdrop) = output.backdrop.as_ref().filter(|_| output.alpha) {
+            self.path = vec![Step::Field("output"), Step::Field("backdrop")];
+            let message = "the output has both `alpha: true` and `backdrop`";
+            let fault = Diagnostic::error(codes::EXACTLY_ONE, backdrop.span, message);
+            self.report(
+                fault.expected("one of them: nothing behind everything, or a colour").hint("remove one of the two"),
+            );
+            self.path.clear();
         }
     }
 

@@ -16,7 +16,8 @@ mod radiances;
 mod textures;
 mod unmeant;
 
-use crate::scene::{CompileTimes, Scene};
+use crate::develop::Look;
+use crate::scene::{CompileTimes, Scene, backdrop, film_layers};
 use curved::Curved;
 pub use files::check_files;
 use glam::{DAffine3, DVec3};
@@ -173,7 +174,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
         noise: desc.render.noise.as_ref().map(|goal| goal.value),
         time: desc.render.time.as_ref().map(|seconds| seconds.value),
-        layers: crate::layer_set(&desc.output.layers),
+        layers: film_layers(&desc.output),
         radiance_unit,
         background,
         spheres,
@@ -199,7 +200,11 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
     };
     Ok(Scene {
         rendered,
-        look: crate::develop::Look { exposure: desc.effects.exposure.value, tone_map: desc.effects.tone_map },
+        look: Look {
+            exposure: desc.effects.exposure.value,
+            tone_map: desc.effects.tone_map,
+            backdrop: backdrop(&desc.output),
+        },
         files: files.into_iter().collect(),
         warnings: diagnostics,
         times: CompileTimes { assets, tables: tables_seconds, tree },

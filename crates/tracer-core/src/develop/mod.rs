@@ -22,6 +22,21 @@ pub struct Look {
     pub exposure: f64,
     /// Curve from exposed radiance to display.
     pub tone_map: ToneMap,
+    /// What is behind everything.
+    pub backdrop: Backdrop,
+}
+
+/// What a picture has behind everything. All but the first need the film's layer `alpha`; without it the background
+/// stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Backdrop {
+    /// What the camera sees there.
+    #[default]
+    Background,
+    /// Nothing: the picture is to be laid over another one.
+    Clear,
+    /// A colour of the display, linear RGB in 0..=1, whatever exposure and tone map do to the rest: paper stays white.
+    Color([f64; 3]),
 }
 
 /// A picture: linear radiance for EXR, HDR and PFM, display values for PNG. Row 0 is the top; three numbers a pixel.
@@ -31,10 +46,14 @@ pub struct Image {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Exposed radiance, linear, not clipped.
+    /// Exposed radiance, linear, not clipped. Where `alpha` is there without what is seen behind everything: it is
+    /// premultiplied, as EXR files have it.
     pub linear: Vec<f32>,
-    /// Tone-mapped and sRGB-encoded, in 0..=1.
+    /// Tone-mapped and sRGB-encoded, in 0..=1. Where `alpha` is there the colour of what covers a pixel, as PNG files
+    /// have it: not multiplied.
     pub display: Vec<f32>,
+    /// How much of each pixel is covered, 0 to 1; where the look asks for [`Backdrop::Clear`].
+    pub alpha: Option<Vec<f32>>,
     /// The film's layers, as they are: not developed.
     pub layers: Vec<LayerImage>,
 }
@@ -60,6 +79,7 @@ pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image 
 fn developed(film: &Film, look: &Look, radiance: impl Fn(u32, u32) -> [f64; 3] + Sync) -> Image {
     let Crop { x, y, width, height } = film.crop();
     let gain = libm::exp2(look.exposure);
+    let backdrop = if film.has_alpha() { look.backdrop } else { Backdrop::Background };
     let encoder = &*ENCODER;
     let mut linear = vec![0.0; 3 * width as usize * height as usize];
     let mut display = vec![0.0; linear.len()];
@@ -70,21 +90,47 @@ fn developed(film: &Film, look: &Look, radiance: impl Fn(u32, u32) -> [f64; 3] +
         let pixels = linear.as_chunks_mut::<3>().0.iter_mut().zip(display.as_chunks_mut::<3>().0);
         for (px, (linear, display)) in (x..x + width).zip(pixels) {
             let [r, g, b] = radiance(px, py);
-            let exposed = [r * gain, g * gain, b * gain];
-            let mapped = match look.tone_map {
-                ToneMap::None => exposed,
-                ToneMap::Filmic => filmic(exposed),
-                ToneMap::AgX => agx(exposed),
+            let mut exposed = [r * gain, g * gain, b * gain];
+            let shown = match backdrop {
+                Backdrop::Background => mapped(look.tone_map, exposed),
+                Backdrop::Clear | Backdrop::Color(_) => {
+                    let (alpha, behind) = (film.alpha(px, py), film.background(px, py));
+                    // Rounded, it may be less than none.
+                    let foreground = [0, 1, 2].map(|c| (exposed[c] - behind[c] * gain).max(0.0));
+                    let color = mapped(look.tone_map, foreground.map(|x| if alpha > 0.0 { x / alpha } else { 0.0 }));
+                    match backdrop {
+                        Backdrop::Color(paper) => {
+                            exposed = [0, 1, 2].map(|c| foreground[c] + (1.0 - alpha) * paper[c]);
+                            [0, 1, 2].map(|c| alpha * color[c].clamp(0.0, 1.0) + (1.0 - alpha) * paper[c])
+                        }
+                        _ => {
+                            exposed = foreground;
+                            color
+                        }
+                    }
+                }
             };
             for (to, from) in linear.iter_mut().zip(exposed) {
                 // What is beyond the range of f32 is its largest number: files and what reads them want finite ones.
                 *to = from.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
             }
-            for (to, from) in display.iter_mut().zip(mapped) {
+            for (to, from) in display.iter_mut().zip(shown) {
                 *to = encoder.encode(from.clamp(0.0, 1.0));
             }
         }
     });
     let layers = film.layers().iter().filter_map(|layer| film.layer(layer)).collect();
-    Image { width, height, linear, display, layers }
+    let alpha_of = |k: u32| film.alpha(x + k % width, y + k / width) as f32;
+    let alpha = (backdrop == Backdrop::Clear).then(|| (0..width * height).into_par_iter().map(alpha_of).collect());
+    Image { width, height, linear, display, alpha, layers }
+}
+
+/// The display's linear colour of exposed radiance.
+#[inline(always)]
+fn mapped(tone_map: ToneMap, exposed: [f64; 3]) -> [f64; 3] {
+    match tone_map {
+        ToneMap::None => exposed,
+        ToneMap::Filmic => filmic(exposed),
+        ToneMap::AgX => agx(exposed),
+    }
 }

@@ -162,6 +162,7 @@ fn painter<'a>(
         observer,
         statistics: options.statistics,
         limit: film.clamp.map(|limit| f64::from(limit) / engine.scene.radiance_unit),
+        alpha: film.has_alpha(),
         lamps: film.place_of_lamps(),
         until: None,
         done: AtomicU64::new(if film.is_begun() { film.camera_samples() } else { 0 }),

@@ -21,7 +21,7 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
-    /// What camera rays of either half have met of lamps, where they have.
+    /// What camera rays of either half have met of lamps, and of the background, where they have.
     lamps: Option<Box<[Sums; 2]>>,
 }
 
@@ -145,6 +145,27 @@ impl Tile {
         }
     }
 
+    /// Adds samples of a half whose camera rays have hit nothing, as those of [`Tile::add`]; where halves are kept. All that
+    /// they have is the background.
+    pub(crate) fn add_background(
+        &mut self,
+        of: usize,
+        [red, green, blue]: [&[f32]; 3],
+        is_hit: impl Fn(usize) -> bool,
+        pixels: &[[u8; 2]],
+    ) {
+        let Some(half) = &mut self.half else { return };
+        for &[k, pixel] in pixels {
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
+            let sample = [red[k], green[k], blue[k]];
+            if is_hit(k) || sample == [0.0; 3] || !counts(sample) {
+                continue;
+            }
+            let lamps = half.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
+            lamps[of].add(pixel, sample.map(fixed));
+        }
+    }
+
     /// Adds what a light path of the second half has brought, as [`Tile::splat`] gives it; where halves are kept.
     pub(crate) fn splat_half(&mut self, pixel: usize, added: [i128; 3]) {
         let Some(half) = &mut self.half else { return };
@@ -182,8 +203,8 @@ impl Film {
         })
     }
 
-    /// What lamps that are seen, not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film
-    /// has the layer `emission`, else zero. It is clamped where samples are.
+    /// What lamps and the background, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where
+    /// the film has the layer `emission`, else zero. It is clamped where samples are.
     pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);

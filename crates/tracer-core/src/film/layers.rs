@@ -81,6 +81,11 @@ impl TileLayers {
         TileLayers { hits: [0; PIXELS], sums, nearest }
     }
 
+    /// How many samples of a pixel have hit something.
+    pub fn hits_of(&self, pixel: usize) -> u32 {
+        self.hits[pixel]
+    }
+
     /// Appends it to a tile's record.
     pub fn record(&self, out: &mut Vec<u8>) {
         pack(|k| self.hits[k].into(), out);
@@ -124,6 +129,12 @@ impl TileLayers {
     }
 }
 
+/// Whether the camera ray of a sample of the block whose first item this is has hit something.
+#[inline(always)]
+pub(crate) fn is_hit(samples: &LayerSamples, first: usize, k: usize) -> bool {
+    samples.hits[first + k / ITEM_PIXELS] >> (k % ITEM_PIXELS) & 1 != 0
+}
+
 impl Tile {
     /// Adds what the camera rays of the block whose first item this is hit first; `pixels` are those of [`Tile::add`].
     #[inline]
@@ -135,7 +146,7 @@ impl Tile {
         let slots = slots_of_block(first);
         let pixels = || pixels.iter().map(|&[k, pixel]| (usize::from(k), usize::from(pixel)));
         for (k, pixel) in pixels() {
-            layers.hits[pixel] += (samples.hits[first + k / ITEM_PIXELS] >> (k % ITEM_PIXELS) & 1) as u32;
+            layers.hits[pixel] += u32::from(is_hit(samples, first, k));
         }
         for (sums, column) in layers.sums.iter_mut().zip(&samples.sums) {
             let column = &column[slots.clone()];

@@ -361,6 +361,9 @@ impl Tile {
         if let (Some(half), Some(from)) = (&mut self.half, &other.half) {
             half.merge(from);
         }
+        if let Some(from) = &other.missed {
+            add_sums(self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
+        }
     }
 }
 

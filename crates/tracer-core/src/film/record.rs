@@ -15,7 +15,8 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     let mut out = Vec::with_capacity(8192);
     out.extend((place as u32).to_le_bytes());
     out.extend([0; 4]);
-    let parts = [tile.taken.is_some(), tile.splats.is_some(), tile.layers.is_some(), tile.half.is_some()];
+    let [taken, splats] = [tile.taken.is_some(), tile.splats.is_some()];
+    let parts = [taken, splats, tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some()];
     out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
     let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
     sums(&tile.sums, &mut out);
@@ -34,6 +35,9 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     }
     if let Some(half) = &tile.half {
         half.record(&mut out);
+    }
+    if let Some(missed) = &tile.missed {
+        sums(missed, &mut out);
     }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
@@ -77,5 +81,10 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile)
     if flags & 8 != 0 {
         tile.half = Some(TileHalf::read(from, &tile.samples)?);
     }
-    (flags < 16 && from.is_empty()).then_some(())
+    if flags & 16 != 0 {
+        let mut missed = Box::new(Sums::zeroed());
+        sums(&mut missed, from)?;
+        tile.missed = Some(missed);
+    }
+    (flags < 32 && from.is_empty()).then_some(())
 }

@@ -354,7 +354,7 @@ fn flat_picture(radiance: f64, exposure: f64, tone_map: ToneMap) -> Image {
     let desc = scene(8, vec![], vec![sphere([0.0, 0.0, 90.0], 1.0, diffuse([0.5; 3]))])
         .camera([0.0; 3], [0.0, 0.0, -1.0], 40.0)
         .background([radiance; 3]);
-    develop(&film(&compiled(&desc), 1, 0), &Look { exposure, tone_map })
+    develop(&film(&compiled(&desc), 1, 0), &Look { exposure, tone_map, ..Look::default() })
 }
 
 #[test]

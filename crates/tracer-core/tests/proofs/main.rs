@@ -7,6 +7,7 @@
 
 mod aimed;
 mod analytic;
+mod backdrop;
 mod caustics;
 mod clamp;
 mod compiling;

@@ -64,17 +64,17 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf], set: &[String]) -> Result<
 }
 
 /// Hash of the scene but for what may change: samples, what develops the film, what finds the hits; and but for its
-/// layers, which are named where they differ.
+/// layers, that of the backdrop among them, which are named where they differ.
 fn hash_of_film(desc: &mut SceneDesc) -> String {
     let render = desc.render.clone();
     let effects = desc.effects.clone();
-    let layers = take(&mut desc.output.layers);
+    let output = take(&mut desc.output);
     desc.render.samples = 1.into();
     (desc.render.noise, desc.render.time) = (None, None);
     desc.render.acceleration = Acceleration::Bvh;
     (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
     let hash = hash_hex(desc);
-    (desc.render, desc.effects, desc.output.layers) = (render, effects, layers);
+    (desc.render, desc.effects, desc.output) = (render, effects, output);
     hash
 }
 

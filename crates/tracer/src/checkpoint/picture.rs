@@ -2,9 +2,9 @@
 
 use crate::write::{Provenance, Setting};
 use scene_format::SceneDesc;
-use scene_format::desc::ToneMap;
+use scene_format::desc::{Output, ToneMap};
 use std::path::Path;
-use tracer_core::{Crop, Film, LayerSet, Look, Note};
+use tracer_core::{Backdrop, Crop, Film, LayerSet, Look, Note};
 
 /// How the names of these notes begin.
 const NOTE: &str = "picture.";
@@ -24,6 +24,7 @@ pub fn picture_notes(desc: &SceneDesc, set: &[String]) -> Vec<Note> {
         note("max_bounces", desc.render.max_bounces.value.to_string()),
         note("exposure", desc.effects.exposure.value.to_string()),
         note("tone_map", format!("{:?}", desc.effects.tone_map)),
+        note("backdrop", backdrop_note(&desc.output)),
         note("layers", tracer_core::layer_set(&desc.output.layers).names().collect::<Vec<_>>().join(",")),
     ];
     notes.extend(set.iter().map(|set| note("set", set.clone())));
@@ -45,12 +46,33 @@ pub fn picture_layers(notes: &[Note]) -> Option<LayerSet> {
     Some(names.split(',').filter_map(LayerSet::by_name).collect())
 }
 
+/// What is behind everything, as a note.
+fn backdrop_note(output: &Output) -> String {
+    match &output.backdrop {
+        _ if output.alpha => "clear".to_owned(),
+        Some(color) => color.value.map(|x| x.to_string()).join(" "),
+        None => String::new(),
+    }
+}
+
+/// The same of a note.
+fn backdrop(note: &str) -> Option<Backdrop> {
+    match note {
+        "" => Some(Backdrop::Background),
+        "clear" => Some(Backdrop::Clear),
+        color => {
+            let numbers: Option<Vec<f64>> = color.split(' ').map(|x| x.parse().ok()).collect();
+            Some(Backdrop::Color(numbers?.try_into().ok()?))
+        }
+    }
+}
+
 /// How the film is developed; `None` where the notes do not tell.
 pub fn look(notes: &[Note]) -> Option<Look> {
     let exposure = first(notes, "exposure").parse().ok().filter(|stops: &f64| stops.is_finite())?;
     let tone_map = first(notes, "tone_map");
     let tone_map = TONE_MAPS.into_iter().find(|of| format!("{of:?}") == tone_map)?;
-    Some(Look { exposure, tone_map })
+    Some(Look { exposure, tone_map, backdrop: backdrop(first(notes, "backdrop"))? })
 }
 
 /// What picture files tell of themselves: of a picture that was denoised that, too.

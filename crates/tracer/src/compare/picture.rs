@@ -101,12 +101,18 @@ fn decode(bytes: &[u8]) -> Result<Picture, String> {
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
     let picture: DynamicImage = reader.decode().map_err(|error| error.to_string())?;
-    let picture = picture.into_rgb32f();
-    let (width, height) = picture.dimensions();
+    let (width, height) = (picture.width(), picture.height());
     if width == 0 || height == 0 {
         return Err("it has no pixels".to_owned());
     }
-    Ok(Picture { width, height, kind, values: picture.into_raw() })
+    let values = if kind == Kind::Display && picture.color().has_alpha() {
+        // As seen before black, so that what covers less is another picture.
+        let pixels = picture.into_rgba32f();
+        pixels.as_raw().as_chunks::<4>().0.iter().flat_map(|&[r, g, b, a]| [r * a, g * a, b * a]).collect()
+    } else {
+        picture.into_rgb32f().into_raw()
+    };
+    Ok(Picture { width, height, kind, values })
 }
 
 /// Most pixels along a side.

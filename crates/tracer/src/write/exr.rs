@@ -1,4 +1,4 @@
-//! OpenEXR: R, G, B and the channels of the picture's layers (`depth.Z`) in 32-bit floats, ZIP, in one part as readers
+//! OpenEXR: R, G, B, A where the picture has it, and the channels of the picture's layers (`depth.Z`) in 32-bit floats, ZIP, in one part as readers
 //! of channels by name expect it, with attributes that say what the picture was made from.
 
 use super::{Encoding, Provenance, WriteError};
@@ -17,6 +17,7 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
         AnyChannel::new(name, FlatSamples::F32(image.linear.iter().skip(c).step_by(3).copied().collect()))
     };
     let mut channels = vec![channel("R", 0), channel("G", 1), channel("B", 2)];
+    channels.extend(image.alpha.iter().map(|alpha| AnyChannel::new("A", FlatSamples::F32(alpha.clone()))));
     channels.extend(image.layers.iter().flat_map(channels_of));
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(channels));

@@ -1,4 +1,4 @@
-//! PNG: display values with an sRGB chunk, and what the picture was made from as text (iTXt, UTF-8).
+//! PNG: display values with an sRGB chunk, alpha beside them where the picture has it (not multiplied), and what the picture was made from as text (iTXt, UTF-8).
 
 use super::{Bits, Encoding, Provenance, WriteError};
 use png::text_metadata::ITXtChunk;
@@ -7,11 +7,20 @@ use rayon::prelude::*;
 use tracer_core::Image;
 
 pub(super) fn encode(image: &Image, bits: Bits, provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
+    let with_alpha;
+    let values = match &image.alpha {
+        None => &image.display,
+        Some(alpha) => {
+            let pixels = image.display.as_chunks::<3>().0.iter().zip(alpha);
+            with_alpha = pixels.flat_map(|(&[r, g, b], &alpha)| [r, g, b, alpha]).collect::<Vec<f32>>();
+            &with_alpha
+        }
+    };
     let pixels: Vec<u8> = match bits {
-        Bits::Eight => image.display.par_iter().map(|&x| code_value(x, 255.0) as u8).collect(),
+        Bits::Eight => values.par_iter().map(|&x| code_value(x, 255.0) as u8).collect(),
         // PNG is big-endian.
         Bits::Sixteen => {
-            image.display.par_iter().map(|&x| code_value(x, 65535.0).to_be_bytes()).collect::<Vec<_>>().into_flattened()
+            values.par_iter().map(|&x| code_value(x, 65535.0).to_be_bytes()).collect::<Vec<_>>().into_flattened()
         }
     };
     encode_pixels(image, bits, provenance, &pixels)
@@ -20,7 +29,7 @@ pub(super) fn encode(image: &Image, bits: Bits, provenance: &Provenance) -> Resu
 
 fn encode_pixels(image: &Image, bits: Bits, provenance: &Provenance, pixels: &[u8]) -> Result<Vec<u8>, EncodingError> {
     let mut info = Info::with_size(image.width, image.height);
-    info.color_type = ColorType::Rgb;
+    info.color_type = if image.alpha.is_some() { ColorType::Rgba } else { ColorType::Rgb };
     info.bit_depth = match bits {
         Bits::Eight => BitDepth::Eight,
         Bits::Sixteen => BitDepth::Sixteen,

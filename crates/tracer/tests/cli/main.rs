@@ -1,5 +1,6 @@
 //! The program `tracer`, run as a person runs it: exit codes, messages, files.
 
+mod alpha;
 mod checkpoint;
 mod commands;
 mod compare;

@@ -65,14 +65,14 @@ pub const PROOFS: &[Proof] = &[
         Always,
         "scenes that must look the same, in exact pairs; four minutes",
         &[],
-        &["cargo test --locked -p xtask --test pairs"],
+        &["cargo test --locked --workspace --test pairs"],
     ),
     proof(
         "random-scenes",
         Always,
         "twenty random scenes against the truth; a minute",
         &[],
-        &["cargo test --locked -p xtask --test truth"],
+        &["cargo test --locked --workspace --test truth"],
     ),
     proof(
         "pairs-long",

@@ -115,6 +115,7 @@ fn png(picture: &Rgb8, name: &str) -> Result<Vec<u8>, WriteError> {
         height: picture.height,
         linear: display.clone(),
         display,
+        alpha: None,
         layers: Vec::new(),
     };
     let settings = vec![Setting { name: "golden", value: name.to_owned() }];

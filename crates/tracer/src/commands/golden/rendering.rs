@@ -123,11 +123,17 @@ pub fn make(case: &Case, settings: &Settings, threads: usize, level: Level) -> R
         return Err(NoPicture::Wrong { what, files });
     }
     let image = develop(&film, &scene.look);
-    let shown = image.layers.first().filter(|_| settings.shows == Shows::Layer);
+    let asked = tracer_core::layer_set(&desc.output.layers);
+    let mut layers = image.layers.iter().filter(|layer| asked.names().any(|name| name == layer.name));
+    let shown = layers.next().filter(|_| settings.shows == Shows::Layer);
     let rgb = match shown {
         Some(layer) => codes(layer),
         // As the program writes files: in single precision a value just below a half is rounded up.
-        None => image.display.iter().map(|&x| (f64::from(x) * 255.0 + 0.5) as u8).collect(),
+        None => {
+            // What is to be laid over another picture is seen before black.
+            let over = |k: usize| image.alpha.as_ref().map_or(1.0, |alpha| f64::from(alpha[k / 3]));
+            image.display.iter().enumerate().map(|(k, &x)| (f64::from(x) * over(k) * 255.0 + 0.5) as u8).collect()
+        }
     };
     let measured = watch.measured(&film, &scene, image.linear);
     let stamp = stamp(&desc, &files);

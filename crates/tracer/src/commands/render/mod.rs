@@ -271,7 +271,7 @@ fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failu
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let layers = tracer_core::layer_set(&desc.output.layers);
+    let layers = tracer_core::film_layers(&desc.output);
     let layers = if denoise { denoising::with_guides(layers) } else { layers };
     // As numbers, as channels and as bytes.
     let of_denoising = if denoise { denoising::BYTES_PER_PIXEL } else { 0 };

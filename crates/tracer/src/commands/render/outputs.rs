@@ -143,6 +143,14 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
             exr_beside(outputs, args)
         ));
     }
+    let clear = |output: &&Output| matches!(output.encoding, Encoding::Hdr | Encoding::Pfm);
+    if desc.output.alpha
+        && let Some(without) = outputs.iter().find(clear)
+        && shell.verbosity > Verbosity::Quiet
+    {
+        let name = without.encoding.name();
+        shell.say(&format!("warning: {name} files hold no alpha: the background is black there; PNG and EXR hold it"));
+    }
 }
 
 /// The checkpoints that the command line names.

@@ -1,0 +1,54 @@
+//! What camera rays see behind everything, summed by itself, so that a picture can be laid over another one. It is
+//! kept where the film has the layer `alpha`, which tells how much of a pixel that is.
+
+use super::exact::{Sums, fixed};
+use super::layers::is_hit;
+use super::{Film, Tile, counts};
+use bytemuck::Zeroable;
+use tracer_kernels::layers::{Layer, LayerSamples};
+
+impl Tile {
+    /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
+    /// all that they have is the background.
+    pub(crate) fn add_missed(
+        &mut self,
+        [red, green, blue]: [&[f32]; 3],
+        layers: &LayerSamples,
+        first: usize,
+        pixels: &[[u8; 2]],
+    ) {
+        for &[k, pixel] in pixels {
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
+            let sample = [red[k], green[k], blue[k]];
+            if is_hit(layers, first, k) || sample == [0.0; 3] || !counts(sample) {
+                continue;
+            }
+            self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample.map(fixed));
+        }
+    }
+}
+
+impl Film {
+    /// Whether it keeps what is seen behind everything by itself: it has the layer `alpha`.
+    pub fn has_alpha(&self) -> bool {
+        self.layers.iter().any(|of| of.layer == Layer::Alpha)
+    }
+
+    /// The part of a pixel's radiance ([`Film::radiance`]) that is the background, seen by camera rays that hit
+    /// nothing, linear RGB. Black where the film does not have the layer `alpha`.
+    pub fn background(&self, x: u32, y: u32) -> [f64; 3] {
+        let (tile, pixel) = self.place(x, y);
+        let mean = |missed: &Sums| missed.mean(pixel, tile.samples[pixel]).map(|x| x * self.unit);
+        tile.missed.as_deref().map_or([0.0; 3], mean)
+    }
+
+    /// The share of a pixel's samples that hit something, 0 to 1; one where the film does not have the layer `alpha`.
+    pub fn alpha(&self, x: u32, y: u32) -> f64 {
+        if !self.has_alpha() {
+            return 1.0;
+        }
+        let (tile, pixel) = self.place(x, y);
+        let hits = tile.layers.as_ref().map_or(0, |layers| layers.hits_of(pixel));
+        f64::from(hits) / f64::from(tile.samples[pixel].max(1))
+    }
+}

@@ -1,0 +1,89 @@
+//! What is seen behind everything, by itself.
+
+use crate::support::describe::*;
+use crate::support::{compiled, film};
+use scene_format::SceneDesc;
+use scene_format::desc::{Output, PixelFilter, ToneMap};
+use tracer_core::{Backdrop, Film, Look, develop, srgb_encode};
+
+const BACKGROUND: [f64; 3] = [0.25, 1.0, 3.0];
+
+/// Balls of glass, mirror and matt, in focus and out of it, before a background that also lights them.
+fn balls() -> SceneDesc {
+    let objects = vec![
+        sphere([-1.2, 0.0, 0.0], 0.8, glass(1.5)),
+        sphere([0.6, 0.3, 1.5], 0.5, mirror([0.9; 3])),
+        sphere([1.0, -0.6, -2.0], 0.9, diffuse([0.8, 0.3, 0.1])),
+    ];
+    let mut desc = scene(48, vec![light([0.0, 4.0, 2.0], 0.5, [30.0; 3])], objects)
+        .background(BACKGROUND)
+        .camera([0.0, 0.0, 6.0], [0.0; 3], 40.0)
+        .lens(0.3, 6.0)
+        .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() });
+    desc.output = Output { alpha: true, ..Output::default() };
+    desc
+}
+
+fn pixels(film: &Film) -> impl Iterator<Item = (u32, u32)> + use<> {
+    let [width, height] = film.size();
+    (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+}
+
+/// Under a background of one colour it is that colour times the share of the samples that miss, in every pixel; clamped
+/// samples, too. The sums are exact, so only single precision's rounding of the colour is between.
+#[test]
+fn a_background_of_one_colour_is_the_share_that_misses() {
+    let mut clamped = balls();
+    clamped.render.clamp = Some(1.5.into());
+    for (desc, scale) in [(balls(), 1.0), (clamped, 0.5)] {
+        let film = film(&compiled(&desc), 9, 3);
+        let (mut covered, mut clear, mut part) = (0, 0, 0);
+        for (x, y) in pixels(&film) {
+            let (alpha, behind, radiance) = (film.alpha(x, y), film.background(x, y), film.radiance(x, y));
+            for c in 0..3 {
+                let expected = (1.0 - alpha) * scale * BACKGROUND[c];
+                assert!((behind[c] - expected).abs() <= 1e-6 * BACKGROUND[c], "{behind:?} {alpha} at ({x}, {y})");
+                assert!(radiance[c] >= behind[c] - 1e-12, "({x}, {y})");
+            }
+            match alpha {
+                0.0 => clear += 1,
+                1.0 => covered += 1,
+                _ => part += 1,
+            }
+        }
+        assert!(covered > 200 && clear > 200 && part > 200, "{covered} {clear} {part}");
+    }
+    // Who does not ask for it has all of the picture, and pays nothing.
+    let mut plain = balls();
+    plain.output = Output::default();
+    let (plain, with) = (film(&compiled(&plain), 9, 3), film(&compiled(&balls()), 9, 3));
+    for (x, y) in pixels(&plain) {
+        assert_eq!((plain.alpha(x, y), plain.background(x, y)), (1.0, [0.0; 3]));
+        assert_eq!(plain.radiance(x, y), with.radiance(x, y));
+    }
+    assert!(plain.bytes() < with.bytes());
+}
+
+/// Foreground and background are the picture; over paper it is as if laid there by hand.
+#[test]
+fn laid_over_something() {
+    let film = film(&compiled(&balls()), 9, 3);
+    let look = |backdrop| Look { exposure: -0.7, tone_map: ToneMap::AgX, backdrop };
+    let paper = [0.9, 0.8, 0.1];
+    let whole = develop(&film, &look(Backdrop::Background));
+    let [clear, laid] = [Backdrop::Clear, Backdrop::Color(paper)].map(|backdrop| develop(&film, &look(backdrop)));
+    assert_eq!((&whole.alpha, &laid.alpha), (&None, &None));
+    let alpha = clear.alpha.as_ref().expect("it is clear");
+    let decoded = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
+    for k in 0..clear.linear.len() {
+        let (alpha, background) = (alpha[k / 3], BACKGROUND[k % 3] as f32 * (-0.7_f32).exp2());
+        let sum = clear.linear[k] + (1.0 - alpha) * background;
+        assert!((sum - whole.linear[k]).abs() <= 1e-5 * whole.linear[k], "{k}");
+        let over = alpha * decoded(clear.display[k]) + (1.0 - alpha) * paper[k % 3] as f32;
+        let shown = srgb_encode(f64::from(over)) as f32;
+        assert!((shown - laid.display[k]).abs() < 1e-4, "{k}: {shown} {}", laid.display[k]);
+        if alpha == 0.0 {
+            assert_eq!((clear.linear[k], clear.display[k]), (0.0, 0.0));
+        }
+    }
+}
