@@ -9,8 +9,10 @@ mod hints;
 mod include;
 mod materials;
 mod part;
+mod pattern_fields;
 mod pick;
 mod repeat;
+mod shape_fields;
 mod told;
 mod value;
 mod variant;
@@ -18,12 +20,13 @@ mod vars;
 mod vector;
 
 pub(crate) use check::scene;
+pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
 pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
-use told::SHOWN;
+use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, plain, shortened};
 pub(crate) use value::{expected, hex_color, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
@@ -375,10 +378,16 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
         if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
-            fault.hint = format!("write `{mended}`");
+            fault.hint = format!("write `{}`", shortened(&mended));
             fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
             self.report(fault);
             return meant;
+        }
+        if let Some((hint, mended)) = pattern_fields::of_mapping(name, value, item, def) {
+            fault.hint = hint;
+            fault.edit = mended.map(|replacement| Edit { span: elsewhere::whole_field(key, value), replacement });
+            self.report(fault);
+            return None;
         }
         if let Some(of_light) = hints::strength(name, def) {
             fault.hint = of_light.to_owned();
@@ -389,7 +398,7 @@ impl<'r> Reader<'r> {
         let quoted = key.lexeme().starts_with(['"', '\'']);
         let meant = meant(name, item, def);
         // A word of other programs is no typo of ours: `dof` is no `fov`.
-        let of_others = field_of_others(name, def).filter(|_| synonym(name, def).is_none());
+        let of_others = field_of_others(name, def, item.syntax()).filter(|_| synonym(name, def).is_none());
         let meant = meant.filter(|_| of_others.is_none());
         fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
@@ -552,14 +561,6 @@ impl<'r> Reader<'r> {
     }
 }
 
-/// `this sphere` from `a sphere`; `the camera` stays.
-fn article_free(noun: &str) -> String {
-    match noun.split_once(' ') {
-        Some(("a" | "an", rest)) => format!("this {rest}"),
-        _ => noun.to_owned(),
-    }
-}
-
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
 }
@@ -572,27 +573,6 @@ fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'st
         return Some(field);
     }
     suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
-}
-
-fn field_list(def: &'static StructDef) -> String {
-    let names: Vec<&str> = names(def).collect();
-    match names.as_slice() {
-        [only] => format!("the field `{only}`"),
-        names => format!("one of {}", suggest::list(names)),
-    }
-}
-
-/// `center: .., radius: ..`: the fields that must be written, or the first one.
-fn field_words(def: &'static StructDef) -> String {
-    if def.name == "Scene" {
-        return "objects: [..]".to_owned();
-    }
-    let mut words: Vec<String> =
-        def.fields.iter().filter(|field| field.default.is_none()).map(|field| format!("{}: ..", field.name)).collect();
-    if words.is_empty() {
-        words.extend(def.fields.first().map(|field| format!("{}: ..", field.name)));
-    }
-    words.join(", ")
 }
 
 fn is_plain(key: &str) -> bool {

@@ -96,6 +96,9 @@ impl Reader<'_> {
         if item.is_damaged() && item.children().count() <= 1 || item.kind() == Kind::List && item.holds_damage() {
             return None;
         }
+        if self.mapping_elsewhere(item, def) {
+            return None;
+        }
         let mut fault = Diagnostic::error(
             codes::WRONG_TYPE,
             item.head(),
@@ -130,10 +133,14 @@ impl Reader<'_> {
                         Some(Edit { span: Span { end: start, ..item.span() }, replacement: (*only).to_owned() });
                 } else if lexeme.starts_with('{') {
                     let syntax = item.syntax();
-                    fault.hint = syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned();
+                    fault.hint = match syntax {
+                        Syntax::Ron => format!("write `{only}(..)`"),
+                        syntax => syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned(),
+                    };
                     let replacement = match syntax {
                         Syntax::Json => format!("{{ \"{only}\": {lexeme} }}"),
-                        Syntax::Ron | Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
+                        Syntax::Ron => format!("{only}({})", lexeme.trim_matches(['{', '}'])),
+                        Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
                     };
                     fault.edit = Some(Edit { span: item.span(), replacement });
                 } else {
@@ -157,7 +164,7 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(
             codes::UNKNOWN_VARIANT,
             span,
-            format!("`{}` is not a kind of {}", super::shortened(name), def.noun),
+            format!("`{}` is not a kind of {}", super::shortened(name), def.noun.trim_start_matches("kind of ")),
         )
         .expected(choices(def, syntax));
         let quoted = syntax != Syntax::Ron && span.end - span.start == name.len() as u32 + 2;
