@@ -7,7 +7,6 @@
 mod extrude;
 mod lathe;
 mod outline;
-mod path;
 mod polygon;
 
 use super::data::MeshData;

@@ -8,6 +8,7 @@ mod elsewhere;
 mod hints;
 mod include;
 mod materials;
+mod outlines;
 mod part;
 mod pattern_fields;
 mod pick;

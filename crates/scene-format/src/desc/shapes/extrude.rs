@@ -6,6 +6,7 @@ use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
+use crate::path::{Ends, Piece, Point, crossing, distinct, extent, pieces, shown};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
@@ -46,6 +47,38 @@ impl ShapeWords for Extrude {
 /// Rings of points (x, y), each of three or more.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Outline(pub Vec<Vec<[f64; 2]>>);
+
+/// Curves are cut into pieces that turn by so much at most: 128 go round.
+const STEP: f64 = std::f64::consts::TAU / 128.0;
+
+impl Extrude {
+    /// Which sides of its outline cross, and where, if any do.
+    pub fn crossing(&self) -> Option<String> {
+        let rings = &self.outline.value.0;
+        let size = rings.iter().map(|ring| extent(ring)).fold(0.0, f64::max);
+        let (mut sides, mut of): (Vec<[Point; 2]>, Vec<usize>) = (Vec::new(), Vec::new());
+        for (number, ring) in rings.iter().enumerate() {
+            let points: Vec<Point> = distinct(ring, size, true).into_iter().map(|k| ring[k]).collect();
+            if points.len() < 3 {
+                return None;
+            }
+            let cut: Vec<Piece> = pieces(&points, Ends::Joined, self.curve == Curve::CatmullRom, STEP);
+            of.extend(cut.iter().map(|_| number));
+            sides.extend(cut.iter().map(|piece| [piece.from, piece.to]));
+        }
+        let found = crossing(&sides)?;
+        let name = |ring: usize| match ring {
+            0 => "the outline of the extrude".to_owned(),
+            hole => format!("hole {hole} of the extrude"),
+        };
+        let [first, second] = found.sides.map(|side| of[side]);
+        // Holes are told to cross what they are in.
+        let whose = if first == second { "itself".to_owned() } else { name(first) };
+        let [a, b] = found.sides.map(|side| sides[side].map(|end| shown(&end)).join(" to "));
+        let (who, at) = (name(second), shown(&found.at));
+        Some(format!("{who} crosses {whose} at {at}: the side from {a} crosses that from {b}"))
+    }
+}
 
 /// A point of a ring.
 static POINT: FieldDef = FieldDef {
