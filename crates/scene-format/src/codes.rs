@@ -396,7 +396,7 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes and meshes can.
+    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes and meshes can.
     ///
     /// ```text
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])

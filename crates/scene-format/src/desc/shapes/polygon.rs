@@ -12,10 +12,13 @@ use crate::tree::Item;
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is where they go round counter-clockwise.
-    /// Texture coordinates go from 0 to 1 over the square around it, as of a rectangle that faces the same way.
+    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is the side from which they go round
+    /// counter-clockwise; an `Emissive` one shines to that side, and the back is seen as the front is. Seen from the front, u grows to the right and v
+    /// upwards, as on a `Rectangle` that faces the same way: right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. The square around
+    /// it that has the same middle has coordinates from 0 to 1. It is open: it has no inside.
     pub struct Polygon as "Polygon", "a polygon" {
-        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners.
+        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners. A corner that
+        /// repeats the last one, or at the end the first, is left out.
         points: Spanned<Corners> => Rule::point();
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
