@@ -356,12 +356,6 @@ pub(crate) fn command_line(name: &str, def: &'static StructDef) -> Option<&'stat
         "denoise" | "denoiser" | "denoising" | "denoised" => {
             "that is an option of the command line, not of the scene: tracer render scene.ron --denoise"
         }
-        "noise" | "noise_goal" | "noise_threshold" | "target_noise" => {
-            "that is an option of the command line, not of the scene: tracer render scene.ron --noise 2%"
-        }
-        "time" | "time_limit" | "max_time" => {
-            "that is an option of the command line, not of the scene: tracer render scene.ron --time 30s"
-        }
         "threads" | "thread_count" | "num_threads" | "jobs" => {
             "that is an option of the command line, not of the scene: tracer render scene.ron --threads 4"
         }

@@ -230,7 +230,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
-        let object = match random.below(12) {
+        let mut object = match random.below(12) {
             10 => Object::Extrude(Box::new(Extrude {
                 outline: Outline(
                     (0..1 + random.below(3))
@@ -344,6 +344,18 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 name: name(random),
             }),
         };
+        // What crosses itself is no outline; three points do not, joined by straight lines.
+        match &mut object {
+            Object::Extrude(extrude) if extrude.crossing().is_some() => {
+                extrude.outline.value.0.truncate(1);
+                extrude.outline.value.0[0].truncate(3);
+                extrude.curve = Curve::Linear;
+            }
+            Object::Polygon(polygon) if polygon.points.value.crossing().is_some() => {
+                polygon.points.value.0.truncate(3);
+            }
+            _ => {}
+        }
         objects.push(object.into());
     }
     grouped(random, &mut objects);
