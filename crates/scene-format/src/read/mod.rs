@@ -36,7 +36,7 @@ pub(crate) use vars::{Vars, is_expression};
 use crate::codes;
 use crate::desc::{ITEMS, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
-use crate::schema::{FieldDef, StructDef, Type};
+use crate::schema::{self, FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
@@ -226,18 +226,7 @@ impl<'r> Reader<'r> {
                         let slot = def.fields.iter().position(|field| field.name == bare)?;
                         fields.set(slot, only);
                     }
-                    (Some(first), ..) => {
-                        self.report(
-                            Diagnostic::error(
-                                codes::MISSING_NAME,
-                                first.head(),
-                                format!("the values of {} are written with their names", def.noun),
-                            )
-                            .expected(field_list(def))
-                            .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
-                        );
-                        return None;
-                    }
+                    (Some(first), second, _) => return self.without_names(first, second.is_none(), def),
                 }
             }
             _ => {
@@ -301,6 +290,21 @@ impl<'r> Reader<'r> {
             self.missing_fields(item, def, &fields);
         }
         Some(fields)
+    }
+
+    /// Reports that values have no names; the first of them, and whether it is the only one.
+    fn without_names<T>(&mut self, first: Item<'_, '_>, only: bool, def: &'static StructDef) -> Option<T> {
+        let message = format!("the values of {} are written with their names", def.noun);
+        let mut fault = Diagnostic::error(codes::MISSING_NAME, first.head(), message).expected(field_list(def));
+        let field = def.fields.first();
+        // `Uv(8)`: what fits the first field is most probably that.
+        let fits = only && field.is_some_and(|field| schema::fits(first, &field.kind));
+        let name = field.map_or("name", |field| field.name);
+        let mended = format!("{name}: {}", if fits { first.lexeme() } else { "value" });
+        fault.hint = format!("write `{}`", shortened(&mended));
+        fault.edit = fits.then(|| Edit { span: first.span(), replacement: mended });
+        self.report(fault);
+        None
     }
 
     fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {

@@ -12,6 +12,20 @@ use std::f64::consts::TAU;
 const MOST_POINTS: usize = 200_000;
 
 impl Reader<'_> {
+    /// How much has been told.
+    pub(crate) fn told(&self) -> usize {
+        self.sink.diagnostics.len()
+    }
+
+    /// Leaves the first of the faults that were told since then, where so many are all there are and all have this code.
+    pub(crate) fn once(&mut self, since: usize, code: codes::Code, count: usize) {
+        let told = self.sink.diagnostics.get(since..).unwrap_or_default();
+        if told.len() == count && told.iter().all(|fault| fault.code == code) {
+            self.sink.diagnostics.truncate(since + 1);
+            self.sink.errors -= count - 1;
+        }
+    }
+
     /// Tells of outlines that cross themselves, and of curves that come too near to the axis that they turn about.
     pub(super) fn outlines(&mut self, scene: &Scene) {
         let (mut points, mut told) = (0, HashSet::new());

@@ -1,7 +1,7 @@
 //! Fields that patterns and their mappings have in other programs, and how they are said here.
 
 use super::elsewhere::{Fields, numbers};
-use super::{Reader, describe, shortened};
+use super::{Reader, describe};
 use crate::codes;
 use crate::desc::is_texture;
 use crate::diagnostic::{Diagnostic, Edit};
@@ -112,10 +112,10 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
 impl Reader<'_> {
     /// The word of a texture where its brackets are missing, small or of another program: reports it, and says that it did.
     pub(crate) fn texture_elsewhere(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
-        let word = item.lexeme();
+        let word = &*item.text();
         let same = def.variants.iter().find(|variant| variant.name.eq_ignore_ascii_case(word)).map(|found| found.name);
         let kind = same.or_else(|| super::hints::kind_elsewhere(word, def));
-        let message = format!("a colour cannot be the word `{}`", shortened(word));
+        let message = format!("a colour cannot be {}", describe(item));
         let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
         if let Some(kind) = kind {
             let mended = match (kind, item.syntax()) {

@@ -164,7 +164,7 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(
             codes::UNKNOWN_VARIANT,
             span,
-            format!("`{}` is not a kind of {}", super::shortened(name), def.noun.trim_start_matches("kind of ")),
+            format!("`{}` is not a kind of {}", super::shortened(name), of_kind(def)),
         )
         .expected(choices(def, syntax));
         let quoted = syntax != Syntax::Ron && span.end - span.start == name.len() as u32 + 2;
@@ -192,8 +192,8 @@ impl Reader<'_> {
 
     fn quoted_variant<T>(&mut self, item: Item<'_, '_>, name: &str, def: &'static EnumDef) -> Option<T> {
         let known = suggest::nearest(name, def.variants.iter().map(|variant| variant.name));
-        let Some(word) = known else { return self.no_variant(item, def) };
-        let message = format!("the kind of {} is written without quotes", def.noun);
+        let Some(word) = known.or_else(|| kind_elsewhere(name, def)) else { return self.no_variant(item, def) };
+        let message = format!("the kind of {} is written without quotes", of_kind(def));
         let mut fault =
             Diagnostic::error(codes::WRONG_TYPE, item.span(), message).expected(choices(def, item.syntax()));
         let unit = def.variant(word).is_some_and(|variant| matches!(variant.content, Content::Unit));
@@ -321,6 +321,11 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// What a choice is a choice of kinds of: the noun `kind of noise` says it itself.
+fn of_kind(def: &'static EnumDef) -> &'static str {
+    def.noun.strip_prefix("kind of ").unwrap_or(def.noun)
 }
 
 /// How a variant is written, where what stands in brackets does not fit it.

@@ -154,7 +154,8 @@ impl Words for Albedo {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         // `rgb(..)` and `red`: a colour, if not ours; `wood` may be a texture.
         let bare = item.kind() == Kind::Word && item.lexeme().starts_with(char::is_lowercase);
-        if bare && reader.texture_elsewhere(item, &PatternWords::DEF) {
+        let named = item.kind() == Kind::Text && !item.text().starts_with(['#', '=']);
+        if (bare || named) && reader.texture_elsewhere(item, &PatternWords::DEF) {
             return None;
         }
         if bare || item.name().is_some_and(|name| !is_texture(name) && is_color(name)) {
