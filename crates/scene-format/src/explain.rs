@@ -84,7 +84,11 @@ pub fn explain_word(word: &str) -> Option<String> {
     let pieces = pieces(&reference);
     let word = word.trim();
     let mut out = String::new();
-    for piece in pieces.iter().filter(|piece| called(piece.name).eq_ignore_ascii_case(word)) {
+    // Choices first: `Object` is what is to be seen before it is a mapping.
+    let is_it = |piece: &&Piece<'_>| called(piece.name).eq_ignore_ascii_case(word);
+    let choices = pieces.iter().filter(|piece| piece.of.is_none());
+    let found = choices.chain(pieces.iter().filter(|piece| piece.of.is_some())).filter(is_it);
+    for piece in found {
         let of = piece.of.map_or(String::new(), |of| format!(", a kind of {}", called(of)));
         let apart = if out.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{apart}{}{of}", called(piece.name));
@@ -171,6 +175,7 @@ mod tests {
         assert!(explain_word("radus").is_none() && explain_word("").is_none());
         let material = explain_word("Material").expect("a word");
         assert!(material.contains("Kinds:\n  Diffuse: ") && material.contains("\n  Emissive: "), "{material}");
+        assert!(explain_word("Object").expect("a word").starts_with("Object\n"));
         let albedo = explain_word("albedo").expect("a word");
         assert!(albedo.contains("a kind of Layer") && albedo.contains("albedo of Diffuse: "), "{albedo}");
         assert!(explain_word("Mapping").is_some_and(|text| text.starts_with("Mapping\n")));

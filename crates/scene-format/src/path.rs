@@ -229,7 +229,7 @@ pub struct Crossing {
 }
 
 /// Pairs of sides that are looked at, at most: a fraction of a second.
-const MOST_PAIRS: usize = 4_000_000;
+const MOST_PAIRS: usize = 2_000_000;
 
 /// The first two sides that cross within both of them; `None` also where there are too many to tell soon. Sides that only touch do not cross.
 pub fn crossing(sides: &[[Point; 2]]) -> Option<Crossing> {

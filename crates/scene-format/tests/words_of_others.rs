@@ -88,6 +88,7 @@ fn fields_of_patterns() {
         ("Marble(scale: 4)", "write `mapping: Object(scale: 4)`: so many cells"),
         ("Wood(scale: (1, 2, 3))", "write `mapping: Object(scale: (1, 2, 3))`"),
         ("Checkerboard(scale: 8)", "write `mapping: Uv(scale: 8)`: so many along each side"),
+        ("Texture(file: \"a.png\", scale: (2, 1))", "write `mapping: Uv(scale: (2, 1))`"),
         ("Wood(scale: 3, mapping: World())", "it belongs to its `mapping`: Object(scale: 3)"),
         ("Voronoi(size: 0.1)", "one over the size of a cell"),
         ("Noise(offset: (1, 2, 3))", "write `mapping: Object(offset: (1, 2, 3))`"),
@@ -235,6 +236,40 @@ fn fields_of_the_scene_and_of_the_camera() {
         ("direction: (0, 0, -1)", "`look_at`"),
     ];
     check(&of_camera, |field| scene("", field, ""));
+}
+
+#[test]
+fn fields_of_patterns_in_toml_and_json() {
+    let hints = |text: &str, syntax: Syntax| match load_str("scene", text, syntax, Path::new(""), &[]) {
+        Err(LoadError::Invalid { diagnostics, .. }) => diagnostics.into_iter().map(|fault| fault.hint).collect(),
+        _ => Vec::new(),
+    };
+    let cases = [
+        ("\"wood\"", "write { Wood = {} }", "write { \"Wood\": {} }"),
+        (
+            "{ Marble = { scale = 4 } }",
+            "write `mapping = { Object = { scale = 4 } }`: so many cells along a unit of length",
+            "write `\"mapping\": { \"Object\": { \"scale\": 4 } }`: so many cells along a unit of length",
+        ),
+        (
+            "{ Noise = { mapping = 10 } }",
+            "write { Object = { scale = 10 } }: so many cells along a unit of length",
+            "write { \"Object\": { \"scale\": 10 } }: so many cells along a unit of length",
+        ),
+    ];
+    for (albedo, in_toml, in_json) in cases {
+        let toml =
+            format!("background = 1\n[[objects]]\nBox = {{ material = {{ Diffuse = {{ albedo = {albedo} }} }} }}\n");
+        assert_eq!(hints(&toml, Syntax::Toml), [in_toml], "{toml}");
+        let mut albedo = albedo.to_owned();
+        for name in ["Marble", "scale", "Noise", "mapping"] {
+            albedo = albedo.replace(&format!("{name} = "), &format!("\"{name}\": "));
+        }
+        let json = format!(
+            r#"{{ "background": 1, "objects": [{{ "Box": {{ "material": {{ "Diffuse": {{ "albedo": {albedo} }} }} }} }}] }}"#
+        );
+        assert_eq!(hints(&json, Syntax::Json), [in_json], "{json}");
+    }
 }
 
 /// What hints tell to write is right.

@@ -8,8 +8,12 @@ use crate::path::shown;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-/// Points that are looked at in all outlines of a scene, at most; what is wrong with others is told when triangles are made of them.
-const MOST_POINTS: usize = 200_000;
+/// Sides that are looked at in all outlines of a scene, at most; what is wrong with others is told when triangles are made of them.
+const MOST_SIDES: usize = 200_000;
+/// About so many sides a curve has between two points.
+const SIDES_OF_A_SPAN: usize = 64;
+/// Curves are cut into sides that turn by so much at most.
+const STEP: f64 = TAU / 128.0;
 
 impl Reader<'_> {
     /// How much has been told.
@@ -28,18 +32,22 @@ impl Reader<'_> {
 
     /// Tells of outlines that cross themselves, and of curves that come too near to the axis that they turn about.
     pub(super) fn outlines(&mut self, scene: &Scene) {
-        let (mut points, mut told) = (0, HashSet::new());
+        let (mut sides, mut told) = (0, HashSet::new());
         for object in &scene.objects.0 {
-            let (written, count) = match &object.value {
-                Object::Lathe(lathe) => (lathe.profile.span, lathe.profile.value.0.len()),
-                Object::Extrude(extrude) => (extrude.outline.span, extrude.outline.value.0.iter().map(Vec::len).sum()),
-                Object::Polygon(polygon) => (polygon.points.span, polygon.points.value.0.len()),
+            let (written, count, curve): (_, usize, _) = match &object.value {
+                Object::Lathe(lathe) => (lathe.profile.span, lathe.profile.value.0.len(), lathe.curve),
+                Object::Extrude(extrude) => {
+                    let count = extrude.outline.value.0.iter().map(Vec::len).sum();
+                    (extrude.outline.span, count, extrude.curve)
+                }
+                Object::Polygon(polygon) => (polygon.points.span, polygon.points.value.0.len(), Curve::Linear),
                 _ => continue,
             };
-            points += count;
-            if points > MOST_POINTS {
-                return;
+            let count = if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count };
+            if sides + count > MOST_SIDES {
+                continue;
             }
+            sides += count;
             let at = if written == Span::NONE { object.span } else { written };
             let faults = match &object.value {
                 Object::Lathe(lathe) => of_lathe(lathe, at, &scene.materials),
@@ -82,7 +90,7 @@ fn of_lathe(lathe: &Lathe, at: Span, materials: &[crate::desc::NamedMaterial]) -
     }
     if turning.closed
         && is_glass(&lathe.material, materials)
-        && let Some(found) = turning.crossing(lathe.curve, TAU / f64::from(lathe.segments.value))
+        && let Some(found) = turning.crossing(lathe.curve, STEP)
     {
         let at_place = shown(&found.at);
         let [a, b] = found.sides;

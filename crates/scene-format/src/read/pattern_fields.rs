@@ -34,7 +34,8 @@ pub(super) fn of_mapping(
     item: Item<'_, '_>,
     def: &'static StructDef,
 ) -> Option<(String, Option<String>)> {
-    if !is_pattern(def) {
+    // Of pictures as well.
+    if !is_texture(def.name) || def.field("mapping").is_none() {
         return None;
     }
     let (kind, axes) = scaled_by(def);
