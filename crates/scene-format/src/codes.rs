@@ -396,16 +396,17 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes and meshes can.
+    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes and meshes can.
     ///
     /// ```text
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a `Polygon` do not lie
-    /// in one plane; or the path of a `Tube` turns straight back, or one of its balls lies within the next.
+    /// in one plane, or its sides cross; or the path of a `Tube` turns straight back, or one of its balls lies within the
+    /// next. Points that repeat the last one are left out before that.
     ///
-    /// ```text
+    /// ```ron
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])
     /// ```
     BAD_OUTLINE "E0545" "an outline that bounds no face";
@@ -520,6 +521,23 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// placements: Scatter(count: 1000, min: (0, 0, 0), max: (1, 0, 1), spacing: 0.5)
     /// ```
     FEWER_COPIES "W0311" "fewer copies than asked for";
+    /// The smooth curve through the points of a `Lathe` comes, between two of them, to less than half of their distance from the axis, or even to
+    /// the axis, where it is cut off: a stem thins to nothing. A curve swings out where long and short distances between points meet. Add a point
+    /// between the two.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Lathe(profile: [(0.2, 0), (0.05, 0.16), (0.05, 0.9), (0.2, 1)], curve: CatmullRom)])
+    /// ```
+    THIN_PROFILE "W0312" "a curve that comes too near to its axis";
+    /// The profile of a `Lathe` of glass crosses itself: what is inside of one part is outside of the other, and light is bent the wrong way there.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [Lathe(profile: [(0, 0), (1, 1), (1, 0), (0, 1)], material: Transparent(ior: 1.5))],
+    /// )
+    /// ```
+    CROSSED_GLASS "W0313" "glass whose profile crosses itself";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

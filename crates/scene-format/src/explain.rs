@@ -39,6 +39,7 @@ fn pieces(reference: &str) -> Vec<Piece<'_>> {
 fn row(line: &str) -> Option<[String; 4]> {
     let cells: Vec<String> = line.strip_prefix("| `")?.strip_suffix(" |")?.split(" | ").map(plain).collect();
     let [name, takes, default, means] = <[String; 4]>::try_from(cells).ok()?;
+    let takes = takes.replace("Words", "").replace("\\|", "|");
     Some([name.trim_end_matches('`').to_owned(), takes, default, means])
 }
 
@@ -69,7 +70,7 @@ pub fn words() -> Vec<String> {
     let reference = reference();
     let mut words: Vec<String> = Vec::new();
     for piece in pieces(&reference) {
-        words.push(piece.name.to_owned());
+        words.push(called(piece.name).to_owned());
         words.extend(piece.lines.iter().filter_map(|line| row(line)).map(|[name, ..]| name));
     }
     words.sort();
@@ -83,10 +84,14 @@ pub fn explain_word(word: &str) -> Option<String> {
     let pieces = pieces(&reference);
     let word = word.trim();
     let mut out = String::new();
-    for piece in pieces.iter().filter(|piece| piece.name.eq_ignore_ascii_case(word)) {
-        let of = piece.of.map_or(String::new(), |of| format!(", a kind of {}", of.trim_end_matches("Words")));
+    // Choices first: `Object` is what is to be seen before it is a mapping.
+    let is_it = |piece: &&Piece<'_>| called(piece.name).eq_ignore_ascii_case(word);
+    let choices = pieces.iter().filter(|piece| piece.of.is_none());
+    let found = choices.chain(pieces.iter().filter(|piece| piece.of.is_some())).filter(is_it);
+    for piece in found {
+        let of = piece.of.map_or(String::new(), |of| format!(", a kind of {}", called(of)));
         let apart = if out.is_empty() { "" } else { "\n" };
-        let _ = writeln!(out, "{apart}{}{of}", piece.name);
+        let _ = writeln!(out, "{apart}{}{of}", called(piece.name));
         let mut blank = true;
         for line in &piece.lines {
             let shown = match row(line) {
@@ -101,12 +106,19 @@ pub fn explain_word(word: &str) -> Option<String> {
         }
         out.truncate(out.trim_end().len());
         out.push('\n');
+        if piece.of.is_none() {
+            out += &kinds(piece.name, &pieces);
+        }
     }
-    if out.is_empty() {
+    // A field in small letters is no kind of that name: `albedo` and the layer `Albedo`.
+    if !pieces.iter().any(|piece| called(piece.name) == word) {
+        let mut apart = if out.is_empty() { "" } else { "\n" };
         for piece in &pieces {
             for [name, takes, default, means] in piece.lines.iter().filter_map(|line| row(line)) {
                 if name.eq_ignore_ascii_case(word) {
-                    let _ = writeln!(out, "{name} of {}: {takes}; {}.\n  {means}", piece.name, said(&default));
+                    let of = called(piece.name);
+                    let _ = writeln!(out, "{apart}{name} of {of}: {takes}; {}.\n  {means}", said(&default));
+                    apart = "";
                 }
             }
         }
@@ -114,8 +126,30 @@ pub fn explain_word(word: &str) -> Option<String> {
     (!out.is_empty()).then_some(out)
 }
 
+/// What a heading is called in scenes.
+fn called(heading: &str) -> &str {
+    heading.strip_suffix("Words").unwrap_or(heading)
+}
+
+/// The kinds of a choice, a line each: a name, and the first sentence of what is told of it.
+fn kinds(choice: &str, pieces: &[Piece<'_>]) -> String {
+    let mut out = String::new();
+    for kind in pieces.iter().filter(|piece| piece.of == Some(choice)) {
+        let text = kind.lines.iter().find(|line| !line.is_empty()).map_or(String::new(), |line| plain(line));
+        let first = text.split_inclusive(". ").next().unwrap_or("").trim_end();
+        let head = if out.is_empty() { "\nKinds:\n" } else { "" };
+        let _ = writeln!(out, "{head}  {}: {first}", kind.name);
+    }
+    if !out.is_empty() {
+        out += "`tracer explain` with a kind's name tells more.\n";
+    }
+    out
+}
+
 fn said(default: &str) -> String {
-    let default = default.trim_matches('`');
+    // Two pieces of code with words between them have no quotes around both.
+    let default = default.replace('`', "");
+    let default = default.as_str();
     if default == "see right" {
         return "may be left out".to_owned();
     }
@@ -139,6 +173,15 @@ mod tests {
         assert!(radius.contains("radius of Sphere: ") && radius.contains("radius of SphereLight: "), "{radius}");
         assert!(explain_word("Camera").expect("a word").contains("fov: "));
         assert!(explain_word("radus").is_none() && explain_word("").is_none());
+        let material = explain_word("Material").expect("a word");
+        assert!(material.contains("Kinds:\n  Diffuse: ") && material.contains("\n  Emissive: "), "{material}");
+        assert!(explain_word("Object").expect("a word").starts_with("Object\n"));
+        let albedo = explain_word("albedo").expect("a word");
+        assert!(albedo.contains("a kind of Layer") && albedo.contains("albedo of Diffuse: "), "{albedo}");
+        assert!(explain_word("Mapping").is_some_and(|text| text.starts_with("Mapping\n")));
+        let lathe = explain_word("Lathe").expect("a word");
+        assert!(lathe.contains("curve: Curve; default Linear, in TOML \"Linear\"."), "{lathe}");
+        assert!(lathe.contains("v grows from 0 at the first point to 1"), "{lathe}");
     }
 
     #[test]

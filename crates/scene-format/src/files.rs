@@ -2,6 +2,8 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use std::collections::HashSet;
+use std::fs::File;
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -11,6 +13,18 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Files that a scene includes, at most.
 pub(crate) const MOST_FILES: usize = 256;
+
+/// The bytes of a file; `None`: it has more than `most`. Of what is no regular file nobody knows the size before: no more than that is read.
+pub(crate) fn read(path: &Path, most: u64) -> std::io::Result<Option<Vec<u8>>> {
+    let file = File::open(path)?;
+    let size = file.metadata()?.len();
+    if size > most {
+        return Ok(None);
+    }
+    let mut bytes = Vec::with_capacity(size as usize);
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= most).then_some(bytes))
+}
 
 /// What a file that a scene names holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,6 +113,17 @@ pub(crate) fn joined(folder: &Path, name: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What never ends is read as far as is allowed.
+    #[cfg(unix)]
+    #[test]
+    fn files_are_read_up_to_a_limit() {
+        assert_eq!(read(Path::new("/dev/zero"), 1000).expect("can be read"), None);
+        assert_eq!(read(Path::new("/dev/null"), 1000).expect("can be read"), Some(Vec::new()));
+        let manifest = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
+        assert_eq!(read(manifest, 10).expect("can be read"), None);
+        assert!(read(manifest, 1 << 20).expect("can be read").is_some_and(|bytes| bytes.starts_with(b"[package]")));
+    }
 
     #[test]
     fn names_start_from_the_folder_of_the_file_that_they_stand_in() {

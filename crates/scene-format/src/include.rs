@@ -4,7 +4,7 @@
 //! What is wrong with a file, or with a circle of them, is told by the reader at the place that names it.
 
 use crate::diagnostic::{Diagnostic, Label, Severity, Source, Span};
-use crate::files::{MAX_FILE_BYTES, MOST_FILES, joined};
+use crate::files::{self, MAX_FILE_BYTES, MOST_FILES, joined};
 use crate::overrides::Override;
 use crate::syntax::{Sink, Syntax, parse, ron};
 use crate::tree::{Builder, Item, Kind, NOWHERE, Node, Root, Text, Tree};
@@ -139,7 +139,9 @@ impl Library {
         if self.bytes > MAX_FILE_BYTES {
             return Err(format!("all included files have more than {} GiB", MAX_FILE_BYTES >> 30));
         }
-        let bytes = std::fs::read(path).map_err(why)?;
+        let Some(bytes) = files::read(path, MAX_FILE_BYTES).map_err(why)? else {
+            return Err(format!("it has more than {} GiB", MAX_FILE_BYTES >> 30));
+        };
         String::from_utf8(bytes)
             .map_err(|error| format!("it is not UTF-8 at byte {}", error.utf8_error().valid_up_to()))
     }

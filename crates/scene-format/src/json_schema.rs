@@ -189,7 +189,7 @@ fn enum_schema(def: &'static EnumDef, definitions: &mut Map<String, Value>) -> M
         };
         choices.push(json!({
             "type": "object",
-            "description": prose(variant.doc),
+            "description": variant.prose(),
             "properties": { variant.name: content },
             "required": [variant.name],
             "additionalProperties": false,

@@ -63,6 +63,7 @@ mod json_schema;
 mod load;
 mod mend;
 mod overrides;
+pub mod path;
 mod print;
 mod read;
 mod reference;

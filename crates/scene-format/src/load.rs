@@ -65,11 +65,7 @@ pub fn load(path: &Path) -> Result<Loaded, LoadError> {
 pub fn load_with(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
     let io = |source| LoadError::Io { path: path.to_owned(), source };
     let name = path.display().to_string();
-    let size = std::fs::metadata(path).map_err(io)?.len();
-    if size > MAX_FILE_BYTES {
-        return Err(too_large(name));
-    }
-    let bytes = std::fs::read(path).map_err(io)?;
+    let Some(bytes) = files::read(path, MAX_FILE_BYTES).map_err(io)? else { return Err(too_large(name)) };
     let base_dir = path.parent().unwrap_or(Path::new("")).to_owned();
     load_bytes(&name, bytes, Syntax::from_path(path), &base_dir, overrides)
 }

@@ -8,7 +8,7 @@ use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::files::MOST_FILES;
-use crate::read::shortened;
+use crate::read::{command_line, shortened};
 use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax, ron, span};
@@ -341,6 +341,9 @@ impl Setter {
             if let Some(group) = group.filter(|_| def.name == "Scene") {
                 fault.did_you_mean(Some(&format!("{}.{name}", group.name)), str::to_owned);
             }
+            if let Some(option) = command_line(name, def) {
+                (fault.hint, fault.edit) = (option.to_owned(), None);
+            }
             return Err(fault);
         };
         if !matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Tuple) {
@@ -389,6 +392,9 @@ impl Setter {
                         .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
                         .expected(format!("one of {}", suggest::list(&words)));
                     fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
+                    if let Some(option) = command_line(name, def) {
+                        (fault.hint, fault.edit) = (option.to_owned(), None);
+                    }
                     return Err(fault);
                 };
                 names.push((step.start, step.end));

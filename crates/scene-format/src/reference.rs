@@ -292,7 +292,7 @@ fn choice(out: &mut String, def: &'static EnumDef, done: &mut Done) {
     let _ = write!(out, "\n## {}\n\n{}\n", title(def.name), prose(def.doc));
     debug_assert!(CHOICES.iter().any(|choice| choice.name == def.name), "{} is not among the choices", def.name);
     for variant in def.variants {
-        let _ = write!(out, "\n### {}\n\n{}\n", variant.name, prose(variant.doc));
+        let _ = write!(out, "\n### {}\n\n{}\n", variant.name, variant.prose());
         if let Some(words) = snippet(def.name, variant.name) {
             let _ = write!(out, "\n```ron\n{words}\n```\n");
         }

@@ -112,6 +112,23 @@ impl VariantDef {
     }
 }
 
+impl VariantDef {
+    /// All that is told of it: where its fields are a type of their own, what that says too, if it says more.
+    pub fn prose(&self) -> String {
+        let short = prose(self.doc);
+        match &self.content {
+            Content::Struct(def) if def.doc != self.doc => {
+                let long = prose(def.doc);
+                match long.starts_with(short.trim_end_matches('.')) {
+                    true => long,
+                    false => format!("{short}\n\n{long}"),
+                }
+            }
+            _ => short,
+        }
+    }
+}
+
 /// What stands in the brackets after a variant's name.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {

@@ -3,7 +3,7 @@
 mod common;
 
 use common::load;
-use scene_format::{Syntax, convert, hash};
+use scene_format::{LoadError, Syntax, convert, hash};
 
 /// `Repeat` says the same as its items written out, wherever a list stands, in both syntaxes; the converter keeps it with its comments.
 #[test]
@@ -50,4 +50,18 @@ fn a_million_items_are_read_in_time() {
             Sphere(center: ("=x", 0, "=z"), radius: "=0.2 + 0.2*random(x, z)")])])])"#;
     let scene = load(text, Syntax::Ron).expect("right").scene;
     assert_eq!(scene.objects.len(), 1_000_000);
+}
+
+/// A thousand times a thousand times a thousand is counted, not made.
+#[test]
+fn too_many_items_are_refused_at_once() {
+    let text = r#"Scene(background: 1, objects: [
+        Repeat(count: 1_000, items: [Repeat(count: 1000, index: "j", items: [Repeat(count: 1000, index: "k", items: [
+            Sphere(center: ("=i", "=j", "=k"), radius: 0.1)])])]),
+        Repeat(count: 1000000, items: [Repeat(count: 0, items: [Box()]), Box()])])"#;
+    let before = std::time::Instant::now();
+    let Err(LoadError::Invalid { diagnostics, .. }) = load(text, Syntax::Ron) else { panic!("too many") };
+    assert!(before.elapsed().as_secs_f64() < 1.0, "{:?}", before.elapsed());
+    let [only] = diagnostics.as_slice() else { panic!("{diagnostics:?}") };
+    assert_eq!((only.code.as_str(), only.message.as_str()), ("E0606", "repetitions make more than 10000000 items"));
 }

@@ -83,6 +83,126 @@ fn kinds_of_materials_and_textures() {
 }
 
 #[test]
+fn fields_of_patterns() {
+    let cases = [
+        ("Marble(scale: 4)", "write `mapping: Object(scale: 4)`: so many cells"),
+        ("Wood(scale: (1, 2, 3))", "write `mapping: Object(scale: (1, 2, 3))`"),
+        ("Checkerboard(scale: 8)", "write `mapping: Uv(scale: 8)`: so many along each side"),
+        ("Texture(file: \"a.png\", scale: (2, 1))", "write `mapping: Uv(scale: (2, 1))`"),
+        ("Wood(scale: 3, mapping: World())", "it belongs to its `mapping`: Object(scale: 3)"),
+        ("Voronoi(size: 0.1)", "one over the size of a cell"),
+        ("Noise(offset: (1, 2, 3))", "write `mapping: Object(offset: (1, 2, 3))`"),
+        ("Wood(rotation: 90)", "a pattern turns with its object"),
+        ("Lines(rotation: 45)", "write `mapping: Uv(rotation: 45)`"),
+        ("Noise(type: Perlin)", "did you mean `kind`?"),
+        ("Noise(detail: 3)", "did you mean `octaves`?"),
+        ("Noise(roughness: 0.5)", "did you mean `gain`?"),
+        ("Noise(turbulence: 1)", "`kind: Turbulence`"),
+        ("Noise(contrast: 2)", "for more contrast"),
+        ("Noise(seed: 2)", "another `offset`"),
+        ("Marble(turbulence: 1)", "did you mean `distortion`?"),
+        ("Marble(octaves: 3)", "how far it bends is `distortion`"),
+        ("Noise(color_map: [1])", "`a` to `b`"),
+        ("Wood(ramp: 1)", "`a` to `b`"),
+        ("Dots(color: 1)", "two colours: `a` and `b`"),
+        ("Wood(color1: (1, 0, 0))", "did you mean `a`?"),
+        ("Wood(color2: (1, 0, 0))", "did you mean `b`?"),
+        ("Voronoi(randomness: 1)", "did you mean `jitter`?"),
+        ("Noise(kind: \"perlin\")", "write Perlin"),
+        ("Noise(mapping: Object(10))", "write `scale: 10`"),
+        ("Lines(mapping: Uv((2, 3)))", "write `scale: (2, 3)`"),
+        ("\"wood\"", "write Wood()"),
+        ("Noise(mapping: 10)", "write Object(scale: 10): so many cells along a unit of length"),
+        ("Noise(mapping: (1, 2, 3))", "write Object(scale: (1, 2, 3))"),
+        ("Lines(mapping: 10)", "write Uv(scale: 10): so many along each side"),
+        ("wood", "write Wood()"),
+        ("perlin", "write Noise()"),
+        ("ramp", "write Gradient()"),
+        ("image", "write Texture(file: \"picture.png\")"),
+        ("color_map", "`a` and `b` of Gradient(..)"),
+    ];
+    check(&cases, |albedo| scene("", "", &format!("Box(size: 1, material: Diffuse(albedo: {albedo}))")));
+    let told = |albedo: &str| {
+        let errors = errors(&scene("", "", &format!("Box(size: 1, material: Diffuse(albedo: {albedo}))")));
+        errors.first().map(|fault| fault.message.clone()).unwrap_or_default()
+    };
+    assert_eq!(told("Voronoi(x: 1)"), "a pattern of cells has no field `x`");
+    assert_eq!(told("Noise(kind: Waves)"), "`Waves` is not a kind of noise");
+}
+
+#[test]
+fn fields_of_shapes() {
+    let outline = "outline: [[(0, 0), (1, 0), (0, 1)]]";
+    let cases = [
+        (format!("Extrude({outline}, height: 1)"), "did you mean `depth`?"),
+        (format!("Extrude({outline}, depth: 1, holes: [1])"), "holes are rings of the `outline`"),
+        (format!("Extrude({outline}, depth: 1, bevel: 0.1)"), "no bevels yet"),
+        (format!("Extrude({outline}, depth: 1, bezier: true)"), "its `curve`"),
+        ("Extrude(points: [(0, 0), (1, 0), (0, 1)], depth: 1)".to_owned(), "outline: [[(0, 0)"),
+        ("Extrude(points: [[(0, 0), (1, 0), (0, 1)]], depth: 1)".to_owned(), "did you mean `outline`?"),
+        ("Lathe(points: [(0, 0), (1, 1)])".to_owned(), "did you mean `profile`?"),
+        ("Lathe(profile: [(0, 0), (1, 1)], height: 1)".to_owned(), "its `profile`"),
+        ("Lathe(profile: [(0, 0), (1, 1)], angle: 180)".to_owned(), "all the way round"),
+        ("Lathe(profile: [(0, 0), (1, 1)], spline: 1)".to_owned(), "its `curve`"),
+        ("Lathe(profile: [(0, 0), (1, 1)], curve: cubic_spline)".to_owned(), "did you mean `CatmullRom`?"),
+        ("Lathe(profile: [(0, 0), (1, 1)], curve: linear_spline)".to_owned(), "did you mean `Linear`?"),
+        ("Lathe(profile: [(0, 0), (1, 1)], curve: Bezier)".to_owned(), "no control points"),
+        ("Lathe(profile: [(0, 0), (1, 1)], curve: \"cubic_spline\")".to_owned(), "write CatmullRom"),
+        ("Polygon(points: [(0, 0), (1, 0), (0, 1)])".to_owned(), ""),
+        ("Lathe(profile: [(0, 0, 0), (1, 1, 0)])".to_owned(), ""),
+        ("Extrude(outline: [[(0, 0, 0), (1, 0, 0), (0, 1, 0)]], depth: 1)".to_owned(), ""),
+        ("Polygon(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], holes: [1])".to_owned(), "Extrude(outline:"),
+        ("Cylinder(radius: 1, height: 2)".to_owned(), "`from: (0, 0, 0), to: (0, 2, 0)`"),
+        ("Box(width: 2)".to_owned(), "its `size`"),
+        ("Sphere(center: (0, 0, 0), radius: 1, height: 2)".to_owned(), ""),
+    ];
+    let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
+    check(&cases, |object| scene("", "", object));
+}
+
+#[test]
+fn shapes_in_braces() {
+    let cases = [
+        ("torus {}", "Mesh(file: \"shape.obj\")"),
+        ("torus { 1, 0.2 }", "Mesh(file: \"shape.obj\")"),
+        ("torus { major: 1, minor: 0.2, material: \"x\" }", "Mesh(file: \"shape.obj\")"),
+        ("prism { linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0> }", "write Extrude(outline:"),
+        ("prism {}", "write Extrude(outline:"),
+        ("sor {}", "write Lathe(profile:"),
+        ("lathe { profile: [(0, 0), (1, 1)] }", "write Lathe(profile:"),
+        ("sphere { center: (0, 0, 0), radius: 1 }", "write Sphere(center:"),
+    ];
+    check(&cases, |object| scene("", "", object));
+    // What there is is mended by one edit.
+    let text = scene("", "", "sphere { center: (0, 2, 0), radius: 1 }");
+    let edits: Vec<_> = errors(&text).into_iter().filter_map(|fault| fault.edit).collect();
+    let [edit] = edits.as_slice() else { panic!("{edits:?}") };
+    let mended =
+        format!("{}{}{}", &text[..edit.span.start as usize], edit.replacement, &text[edit.span.end as usize..]);
+    assert!(errors(&mended).is_empty(), "{mended}");
+}
+
+#[test]
+fn options_of_the_command_line() {
+    check(&[("denoise: true", "tracer render scene.ron --denoise")], |field| {
+        scene(&format!("render: Render({field}),"), "", "")
+    });
+    let text = scene("", "", "");
+    for (set, told) in [
+        ("render.denoise=true", "tracer render scene.ron --denoise"),
+        ("denoise=true", "tracer render scene.ron --denoise"),
+        ("render.threads=4", "tracer render scene.ron --threads 4"),
+    ] {
+        let sets = [scene_format::Override::from(set)];
+        let Err(LoadError::Invalid { diagnostics, .. }) = load_str("scene", &text, Syntax::Ron, Path::new(""), &sets)
+        else {
+            panic!("{set} is none");
+        };
+        assert!(diagnostics.len() == 1 && diagnostics[0].hint.contains(told), "{set}: {diagnostics:?}");
+    }
+}
+
+#[test]
 fn kinds_of_lights() {
     let cases = [
         ("EnvironmentMap(file: 1)", "`Environment(file: \"sky.hdr\")`"),
@@ -116,6 +236,40 @@ fn fields_of_the_scene_and_of_the_camera() {
         ("direction: (0, 0, -1)", "`look_at`"),
     ];
     check(&of_camera, |field| scene("", field, ""));
+}
+
+#[test]
+fn fields_of_patterns_in_toml_and_json() {
+    let hints = |text: &str, syntax: Syntax| match load_str("scene", text, syntax, Path::new(""), &[]) {
+        Err(LoadError::Invalid { diagnostics, .. }) => diagnostics.into_iter().map(|fault| fault.hint).collect(),
+        _ => Vec::new(),
+    };
+    let cases = [
+        ("\"wood\"", "write { Wood = {} }", "write { \"Wood\": {} }"),
+        (
+            "{ Marble = { scale = 4 } }",
+            "write `mapping = { Object = { scale = 4 } }`: so many cells along a unit of length",
+            "write `\"mapping\": { \"Object\": { \"scale\": 4 } }`: so many cells along a unit of length",
+        ),
+        (
+            "{ Noise = { mapping = 10 } }",
+            "write { Object = { scale = 10 } }: so many cells along a unit of length",
+            "write { \"Object\": { \"scale\": 10 } }: so many cells along a unit of length",
+        ),
+    ];
+    for (albedo, in_toml, in_json) in cases {
+        let toml =
+            format!("background = 1\n[[objects]]\nBox = {{ material = {{ Diffuse = {{ albedo = {albedo} }} }} }}\n");
+        assert_eq!(hints(&toml, Syntax::Toml), [in_toml], "{toml}");
+        let mut albedo = albedo.to_owned();
+        for name in ["Marble", "scale", "Noise", "mapping"] {
+            albedo = albedo.replace(&format!("{name} = "), &format!("\"{name}\": "));
+        }
+        let json = format!(
+            r#"{{ "background": 1, "objects": [{{ "Box": {{ "material": {{ "Diffuse": {{ "albedo": {albedo} }} }} }} }}] }}"#
+        );
+        assert_eq!(hints(&json, Syntax::Json), [in_json], "{json}");
+    }
 }
 
 /// What hints tell to write is right.

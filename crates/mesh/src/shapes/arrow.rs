@@ -4,11 +4,11 @@
 
 use super::axis::stand;
 use super::lathe::turned;
-use super::path::{Ends, Point, Point3, length, pieces, sub};
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
-use scene_format::desc::{Arrow, Curve};
+use scene_format::desc::Arrow;
 use scene_format::diagnostic::Span;
+use scene_format::path::{Ends, Point, Point3, length, pieces, sub};
 use scene_format::{Diagnostic, codes};
 use std::f64::consts::TAU;
 
@@ -59,7 +59,7 @@ impl Triangulated for Arrow {
         profile.dedup();
         let segments = self.segments.value;
         check_count(10 * u64::from(segments), "arrow", span, "fewer `segments`")?;
-        let outline = pieces(&profile, Ends::Open, Curve::Linear, TAU);
+        let outline = pieces(&profile, Ends::Open, false, TAU);
         Ok(stand(turned(&outline, segments, true), from, direction))
     }
 }

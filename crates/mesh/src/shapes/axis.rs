@@ -2,8 +2,8 @@
 
 #![expect(clippy::indexing_slicing, reason = "axes are numbered here")]
 
-use super::path::{Point3, dot, unit};
 use crate::data::MeshData;
+use scene_format::path::{Point3, dot, unit};
 
 /// Directions nearer to the y axis than this have (1, 0, 0) to their right: as of a `Disk` and a sphere's texture
 /// coordinates.

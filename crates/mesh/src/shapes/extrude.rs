@@ -3,16 +3,13 @@
 #![expect(clippy::indexing_slicing, reason = "rings and corners are numbered here")]
 
 use super::outline::{Fault, area, fill, square};
-use super::path::{Ends, Piece, Point, extent, length, pieces, smooth, sub};
 use super::{Triangulated, check_count};
 use crate::data::{MeshData, NO_INDEX};
-use scene_format::desc::Extrude;
+use scene_format::desc::{Curve, Extrude};
 use scene_format::diagnostic::Span;
+use scene_format::path::{Ends, Piece, Point, distinct, extent, length, pieces, smooth, sub};
 use scene_format::{Diagnostic, codes};
 use std::f64::consts::TAU;
-
-/// Points nearer than this share of the outline's size are one.
-const NEAR: f64 = 1e-12;
 
 /// Curves are cut into pieces that turn by so much at most: 128 go round.
 const STEP: f64 = TAU / 128.0;
@@ -32,16 +29,7 @@ impl Triangulated for Extrude {
         let size = written.iter().map(|ring| extent(ring)).fold(0.0, f64::max);
         let mut rings: Vec<Vec<Piece>> = Vec::with_capacity(written.len());
         for (k, ring) in written.iter().enumerate() {
-            let mut points: Vec<Point> = Vec::with_capacity(ring.len());
-            for &point in ring {
-                if points.last().is_none_or(|&last| length(sub(point, last)) > NEAR * size) {
-                    points.push(point);
-                }
-            }
-            // The first point may stand at the end again.
-            while points.len() > 1 && length(sub(points[0], points[points.len() - 1])) <= NEAR * size {
-                points.pop();
-            }
+            let mut points: Vec<Point> = distinct(ring, size, true).into_iter().map(|k| ring[k]).collect();
             if points.len() < 3 {
                 let message = format!("{} has no extent", name(k));
                 let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
@@ -51,7 +39,7 @@ impl Triangulated for Extrude {
             if (area(&points) < 0.0) == (k == 0) {
                 points[1..].reverse();
             }
-            rings.push(pieces(&points, Ends::Joined, self.curve, STEP));
+            rings.push(pieces(&points, Ends::Joined, self.curve == Curve::CatmullRom, STEP));
         }
         let corners: Vec<Vec<Point>> = rings.iter().map(|ring| ring.iter().map(|piece| piece.from).collect()).collect();
         let count = corners.iter().map(Vec::len).sum::<usize>() as u64;

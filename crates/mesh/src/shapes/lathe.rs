@@ -2,16 +2,13 @@
 
 #![expect(clippy::indexing_slicing, reason = "rings and corners are numbered here")]
 
-use super::path::{Ends, Piece, Point, extent, length, pieces, smooth, sub};
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
-use scene_format::desc::Lathe;
+use scene_format::desc::{Curve, Lathe};
 use scene_format::diagnostic::Span;
+use scene_format::path::{Piece, Point, length, pieces, smooth, sub};
 use scene_format::{Diagnostic, codes};
 use std::f64::consts::{PI, TAU};
-
-/// Points nearer than this share of the profile's size are one, and lie on the axis where they are so near to it.
-const NEAR: f64 = 1e-12;
 
 /// Tips whose sides turn by less than this from the axis to the other side are shaded as round: half of 40 degrees.
 const ROUND_TIP: f64 = 0.342_020_143_325_669;
@@ -22,10 +19,7 @@ impl Triangulated for Lathe {
     }
 
     fn is_closed(&self) -> bool {
-        match self.profile.value.0.as_slice() {
-            [first, .., last] => first == last || first[0] == 0.0 && last[0] == 0.0,
-            _ => false,
-        }
+        self.profile.value.turned().closed
     }
 
     fn way_to_close(&self) -> &'static str {
@@ -40,19 +34,8 @@ impl Triangulated for Lathe {
                     .expected("two points or more that are not the same, not all on the axis"),
             )
         };
-        let written = &self.profile.value.0;
-        let size = extent(written).max(written.iter().fold(0.0, |most, p| p[0].max(most)));
-        let mut points: Vec<Point> = Vec::with_capacity(written.len());
-        for &[r, y] in written {
-            let point = [if r <= NEAR * size { 0.0 } else { r }, y];
-            if points.last().is_none_or(|&last| length(sub(point, last)) > NEAR * size) {
-                points.push(point);
-            }
-        }
-        let joined = points.len() > 1 && points.first() == points.last() && points[0][0] > 0.0;
-        if joined {
-            points.pop();
-        }
+        let turning = self.profile.value.turned();
+        let (points, joined) = (&turning.points, turning.joined());
         if points.len() < if joined { 3 } else { 2 } {
             return Err(flat("the profile of the lathe has no extent"));
         }
@@ -60,8 +43,8 @@ impl Triangulated for Lathe {
             return Err(flat("the profile of the lathe lies on its axis"));
         }
         let segments = self.segments.value;
-        let ends = if joined { Ends::Joined } else { Ends::Mirrored };
-        let mut profile = pieces(&points, ends, self.curve, TAU / f64::from(segments));
+        let curved = self.curve == Curve::CatmullRom;
+        let mut profile = pieces(points, turning.ends, curved, TAU / f64::from(segments));
         for piece in &mut profile {
             // Where a curve would cross the axis.
             piece.from[0] = piece.from[0].max(0.0);
@@ -75,7 +58,7 @@ impl Triangulated for Lathe {
             at,
             "fewer points in the profile, or fewer `segments`",
         )?;
-        Ok(turned(&profile, segments, self.is_closed()))
+        Ok(turned(&profile, segments, turning.closed))
     }
 }
 

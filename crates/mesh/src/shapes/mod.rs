@@ -9,7 +9,6 @@ mod axis;
 mod extrude;
 mod lathe;
 mod outline;
-mod path;
 mod polygon;
 mod torus;
 mod tube;

@@ -8,7 +8,7 @@
 
 #![expect(clippy::indexing_slicing, reason = "faces and points are numbered by the triangulation")]
 
-use super::path::Point;
+use scene_format::path::Point;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 

@@ -4,10 +4,10 @@
 
 use super::Triangulated;
 use super::outline::{Fault, fill, square};
-use super::path::Point;
 use crate::data::MeshData;
 use scene_format::desc::{Polygon, Vec3};
 use scene_format::diagnostic::Span;
+use scene_format::path::Point;
 use scene_format::{Diagnostic, codes};
 
 /// Corners may lie so far off the plane, as a share of the polygon's size.
@@ -28,17 +28,16 @@ impl Triangulated for Polygon {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let at = if self.points.span == Span::NONE { span } else { self.points.span };
-        let corners = self.points.value.0.as_slice();
-        // The first corner may stand at the end again.
-        let corners = match corners {
-            [first, between @ .., last] if first == last && between.len() > 2 => &corners[..corners.len() - 1],
-            all => all,
+        let (corners, numbers) = self.points.value.distinct();
+        let flat = || match self.points.value.crossing() {
+            // Two halves that go round either way have no area together.
+            Some(message) => crossed(at, message),
+            None => {
+                let fault = Diagnostic::error(codes::NO_EXTENT, at, "the polygon has no extent");
+                Box::new(fault.expected("three points or more that are not on one line"))
+            }
         };
-        let flat = || {
-            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the polygon has no extent");
-            Box::new(fault.expected("three points or more that are not on one line"))
-        };
-        let Some(frame) = Frame::of(corners) else { return Err(flat()) };
+        let Some(frame) = Frame::of(&corners) else { return Err(flat()) };
         let places: Vec<Vec3> = corners.iter().map(|&p| frame.place(p)).collect();
         let plane: Vec<Point> = places.iter().map(|&[x, y, _]| [x, y]).collect();
         let (middle, size) = square(&plane);
@@ -53,24 +52,33 @@ impl Triangulated for Polygon {
         let triangles = fill(std::slice::from_ref(&plane)).map_err(|fault| {
             let message = match fault {
                 Fault::Flat | Fault::Outside(_) | Fault::WithinHole(_) => return flat(),
-                Fault::Crossing([a, b]) => {
+                Fault::Crossing([a, b]) => self.points.value.crossing().unwrap_or_else(|| {
+                    let [a, b] = [a, b].map(|k| numbers[k]);
                     format!("the polygon crosses itself: the side from points[{a}] and that from points[{b}]")
+                }),
+                Fault::Twice([a, b]) => {
+                    let [a, b] = [a, b].map(|k| numbers[k]);
+                    format!("the polygon touches itself: points[{a}] and points[{b}] are one")
                 }
-                Fault::Twice([a, b]) => format!("the polygon touches itself: points[{a}] and points[{b}] are one"),
                 Fault::Touching(a) => {
+                    let a = numbers[a];
                     format!("the polygon touches itself: the side from points[{a}] passes through another point")
                 }
             };
-            let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
-            Box::new(fault.expected("sides that do not meet but at the points"))
+            crossed(at, message)
         })?;
         Ok(MeshData {
-            positions: corners.to_vec(),
+            positions: corners,
             triangles,
             uvs: plane.iter().map(|p| [0, 1].map(|k| (0.5 + (p[k] - middle[k]) / size) as f32)).collect(),
             ..MeshData::default()
         })
     }
+}
+
+/// That sides meet.
+fn crossed(at: Span, message: String) -> Box<Diagnostic> {
+    Box::new(Diagnostic::error(codes::BAD_OUTLINE, at, message).expected("sides that do not meet but at the points"))
 }
 
 /// Right, up and normal of a face, and its first corner.

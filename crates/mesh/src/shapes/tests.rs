@@ -207,6 +207,22 @@ fn what_makes_no_lathe_is_told() {
     assert_eq!(told(&many, 4096), "E0606 the lathe would have 81911808 triangles");
 }
 
+/// A point that is off by rounding closes a profile as the same point does, and so does one that is nearly on the axis.
+#[test]
+fn what_is_nearly_closed_is_closed() {
+    let ring = [[1.0, 0.0], [2.0, 0.0], [1.5, 1.0], [1.0, 1e-14]];
+    let axis = [[1e-14, 0.0], [1.0, 0.5], [1e-15, 1.0]];
+    for profile in [&ring[..], &axis[..]] {
+        let lathe = lathe(profile, Curve::Linear, 16);
+        assert!(lathe.is_closed());
+        let mesh = made(&lathe);
+        assert_eq!(open_edges(&mesh), 0);
+        assert!(volume(&mesh) > 0.0);
+    }
+    let open = [[1.0, 0.0], [2.0, 0.0], [1.5, 1.0], [1.0, 1e-3]];
+    assert!(!lathe(&open, Curve::Linear, 16).is_closed());
+}
+
 fn extrude(rings: &[&[[f64; 2]]], depth: f64, curve: Curve) -> Extrude {
     Extrude {
         outline: Outline(rings.iter().map(|ring| ring.to_vec()).collect()).into(),
@@ -361,5 +377,23 @@ fn what_makes_no_polygon_is_told() {
         told(&crossing).starts_with("E0545 the polygon crosses itself: the side from points["),
         "{}",
         told(&crossing)
+    );
+    let bow_tie = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let expected = "E0545 the polygon crosses itself: the side from points[0] to points[1] crosses that from points[2] to points[3] at (0.5, 0.5, 0)";
+    assert_eq!(told(&bow_tie), expected);
+}
+
+/// As in an `Extrude` and a `Lathe`.
+#[test]
+fn points_that_repeat_the_last_are_dropped() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut repeated: Vec<[f64; 3]> = square.iter().flat_map(|&corner| [corner, corner]).collect();
+    repeated.push(square[0]);
+    assert_eq!(made(&polygon(&repeated)).positions, square);
+    let written = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+    let fault = polygon(&written).mesh(Span::NONE).expect_err("none");
+    assert!(
+        fault.message.contains("from points[0] to points[2] crosses that from points[3] to points[4]"),
+        "{fault:?}"
     );
 }

@@ -2,11 +2,11 @@
 
 use super::axis::stand;
 use super::lathe::turned;
-use super::path::Piece;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
 use scene_format::desc::Torus;
 use scene_format::diagnostic::Span;
+use scene_format::path::Piece;
 use scene_format::{Diagnostic, codes};
 use std::f64::consts::{PI, TAU};
 

@@ -11,16 +11,13 @@
 
 #![expect(clippy::indexing_slicing, reason = "rings and corners are numbered here")]
 
-use super::path::{Ends, Piece, Point3, dot, length, pieces, sub, turn, unit};
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
 use scene_format::desc::{Curve, Radii, Tube};
 use scene_format::diagnostic::Span;
+use scene_format::path::{Ends, Piece, Point3, distinct, dot, length, pieces, sub, turn, unit};
 use scene_format::{Diagnostic, codes};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Points nearer than this share of the path's size are one.
-const NEAR: f64 = 1e-12;
 
 /// The radius of smooth tubes changes by so much of the way at most: what is steeper is nearly a ball.
 const STEEPEST: f64 = 0.98;
@@ -52,7 +49,7 @@ impl Triangulated for Tube {
         check_turns(self, &points, at)?;
         let segments = self.segments.value;
         let ends = if self.closed { Ends::Joined } else { Ends::Open };
-        let pieces = pieces(&points, ends, self.curve, TAU / f64::from(segments));
+        let pieces = pieces(&points, ends, self.curve == Curve::CatmullRom, TAU / f64::from(segments));
         // An elbow, and each end, has rings of its own: half a turn of them at most.
         let elbows = if self.curve == Curve::Linear { points.len() } else { 2 };
         let rings = pieces.len() as u64 + elbows as u64 * u64::from(segments);
@@ -79,19 +76,10 @@ fn path(tube: &Tube, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnost
     }
     let size =
         [0, 1, 2].map(|axis| written.iter().fold(0.0, |most: f64, p| most.max((p[axis] - written[0][axis]).abs())));
-    let near = NEAR * size.into_iter().fold(0.0, f64::max);
-    let (mut points, mut radii): (Vec<Point3>, Vec<f64>) = (Vec::new(), Vec::new());
-    for (k, &point) in written.iter().enumerate() {
-        if points.last().is_none_or(|&last| length(sub(point, last)) > near) {
-            points.push(point);
-            radii.push(of(k));
-        }
-    }
-    // The first point may stand at the end again.
-    while tube.closed && points.len() > 1 && length(sub(points[0], points[points.len() - 1])) <= near {
-        points.pop();
-        radii.pop();
-    }
+    let size = size.into_iter().fold(0.0, f64::max);
+    // Of a closed path the first point may stand at the end again.
+    let kept = distinct(written, size, tube.closed);
+    let (points, radii): (Vec<Point3>, Vec<f64>) = kept.into_iter().map(|k| (written[k], of(k))).unzip();
     let count = points.len();
     for k in 1..if tube.closed { count + 1 } else { count } {
         let (one, other) = (k - 1, k % count);

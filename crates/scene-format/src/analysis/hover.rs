@@ -29,7 +29,7 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
         if let Some((variant, span)) = visit.variant
             && holds(span, byte)
         {
-            let mut markdown = format!("**{}**\n\n{}", variant.name, prose(variant.doc));
+            let mut markdown = format!("**{}**\n\n{}", variant.name, variant.prose());
             if let Content::Struct(def) = &variant.content {
                 fields(&mut markdown, def);
             }

@@ -98,6 +98,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     }
     reader.all_copies(&scene.objects.0);
     scene.materials = reader.materials.take();
+    reader.outlines(&scene);
     Some(scene)
 }
 

@@ -1,6 +1,7 @@
 //! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`, `RotateY(30)`.
 
 use super::Reader;
+use super::shape_fields::one_ring;
 use super::value::hex_color;
 use crate::codes;
 use crate::desc::is_texture;
@@ -59,7 +60,7 @@ fn rounded(value: f64) -> String {
 }
 
 /// The numbers within brackets as they are written; `None` where there is anything else.
-fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
+pub(super) fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
     let numbers: Option<Vec<&str>> =
         item.children().take(20).map(|child| child.number().map(|_| child.lexeme())).collect();
     numbers.filter(|numbers| !numbers.is_empty())
@@ -137,22 +138,33 @@ pub(super) fn number_elsewhere(item: Item<'_, '_>, at: &FieldDef) -> Option<Stri
     }
 }
 
+/// How fields are written in a syntax.
+pub(super) struct Fields(pub Syntax);
+
+impl Fields {
+    /// A name with what joins it to its value.
+    pub fn name(&self, field: &str) -> String {
+        match self.0 {
+            Syntax::Ron => format!("{field}: "),
+            Syntax::Toml => format!("{field} = "),
+            Syntax::Json => format!("\"{field}\": "),
+        }
+    }
+}
+
 /// A field that says by another quantity what one of ours says: ours, and what to write for both name and value.
 pub(super) fn field_elsewhere(
     name: &str,
     value: Item<'_, '_>,
     def: &'static StructDef,
 ) -> Option<(Option<&'static str>, String)> {
-    let name_of = |field: &str| match value.syntax() {
-        Syntax::Ron => format!("{field}: "),
-        Syntax::Toml => format!("{field} = "),
-        Syntax::Json => format!("\"{field}\": "),
-    };
+    let name_of = |field: &str| Fields(value.syntax()).name(field);
     let convert = |field: &'static str, by: fn(f64) -> f64| {
         let mended = value.number().map(|number| format!("{}{}", name_of(field), rounded(by(number))));
         def.field(field).and(mended).map(|mended| (Some(field), mended))
     };
     match name {
+        _ if let Some(mended) = one_ring(name, value, def) => Some((None, mended)),
         "diameter" => convert("radius", |d| d / 2.0),
         "radians" => convert("degrees", f64::to_degrees),
         "resolution" | "size" | "dimensions" if def.name == "Image" => {

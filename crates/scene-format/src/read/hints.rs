@@ -1,7 +1,9 @@
 //! What was meant by a word that is not there: the words of other programs, and the right place.
 
+use super::pattern_fields::of_pattern;
+use super::shape_fields::of_shape;
 use crate::desc::{Material, Object, Scene};
-use crate::schema::{EnumDef, StructDef, Type};
+use crate::schema::{EnumDef, FieldDef, StructDef, Type};
 use crate::syntax::Syntax;
 use crate::tree::Item;
 use std::borrow::Cow;
@@ -46,6 +48,13 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
             false => format!("`{name}` belongs to the scene itself, beside the other groups"),
         });
     }
+    // Of things width and height are their own, not the picture's.
+    if matches!(name, "width" | "height")
+        && def.name != "Scene"
+        && Scene::DEF.fields.iter().all(|field| !is_group(field, def))
+    {
+        return None;
+    }
     let group = Scene::DEF.fields.iter().find(
         |field| matches!(field.kind, Type::Struct(group) if group.name != def.name && group.field(name).is_some()),
     )?;
@@ -56,16 +65,21 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
     })
 }
 
+/// Whether this field of the scene has these fields.
+fn is_group(field: &FieldDef, def: &'static StructDef) -> bool {
+    matches!(field.kind, Type::Struct(group) if group.name == def.name)
+}
+
 /// What other programs call a field of ours.
 pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 23] = [
+    const SYNONYMS: &[(&str, &[&str])] = &[
         ("objects", &["children", "items", "members", "contents", "shapes"]),
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
         ("center", &["centre", "position", "pos", "origin"]),
         ("radius", &["r", "size"]),
         ("fov", &["field_of_view", "angle", "vfov"]),
-        ("width", &["w", "x"]),
+        ("width", &["w", "x", "thickness", "line_width"]),
         ("height", &["h", "y"]),
         ("samples", &["spp", "samples_per_pixel"]),
         ("max_bounces", &["max_depth", "depth", "bounces"]),
@@ -76,12 +90,27 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("degrees", &["angle", "deg"]),
         ("exponent", &["shininess", "alpha", "glossiness"]),
         ("transform", &["transforms"]),
-        ("points", &["vertices", "positions", "verts"]),
+        ("points", &["vertices", "positions", "verts", "corners", "outline", "profile"]),
         ("faces", &["indices", "triangles", "polygons"]),
         ("inner_radius", &["innerradius", "inner", "hole"]),
         ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
         ("caps", &["cap", "closed", "capped"]),
         ("from", &["p0", "start", "base_point", "bottom"]),
+        ("profile", &["points", "outline", "curve_points", "path", "shape", "polygon", "silhouette", "vertices"]),
+        ("outline", &["points", "profile", "shape", "path", "polygon", "rings", "contour", "contours", "vertices"]),
+        ("depth", &["height", "thickness", "length", "amount", "distance", "extrusion"]),
+        ("segments", &["sides", "resolution", "steps", "slices", "divisions", "subdivisions", "facets"]),
+        ("kind", &["type", "noise_type", "noisetype", "basis", "fractal", "fractal_type"]),
+        ("octaves", &["detail", "levels", "depth", "octave"]),
+        ("gain", &["roughness", "persistence", "persistance", "omega"]),
+        ("lacunarity", &["lambda", "frequency_multiplier"]),
+        ("distortion", &["turbulence", "turb", "warp", "wobble", "bend"]),
+        ("feature", &["type", "kind", "mode", "output"]),
+        ("jitter", &["randomness", "random"]),
+        ("a", &["color1", "colour1", "color_1", "color_a", "colour_a", "colora", "col1", "c1", "dark", "low", "even"]),
+        ("b", &["color2", "colour2", "color_2", "color_b", "colour_b", "colorb", "col2", "c2", "light", "high", "odd"]),
+        ("axis", &["direction", "dir"]),
+        ("along", &["direction", "axis", "orientation"]),
     ];
     let lower = name.to_ascii_lowercase();
     let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
@@ -90,7 +119,9 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
 
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
-    const SYNONYMS: [(&str, &[&str]); 15] = [
+    const SYNONYMS: &[(&str, &[&str])] = &[
+        ("Linear", &["linear_spline", "linearspline", "polyline", "straight", "lines", "polygon"]),
+        ("CatmullRom", &["cubic_spline", "cubicspline", "quadratic_spline", "spline", "smooth", "cubic", "natural"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
@@ -122,6 +153,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "object" => OBJECTS,
         "material" => MATERIALS,
         "texture" => TEXTURES,
+        "curve" => CURVES,
         "mapping" | "mapping of a solid texture" => MAPPINGS,
         "light" => LIGHTS,
         "transform" => TRANSFORMS,
@@ -212,6 +244,11 @@ const TEXTURES: Hints = &[
     (&["multiply", "scale", "mix", "math"], "textures cannot be reckoned with: change the picture"),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
 ];
+
+const CURVES: Hints = &[(
+    &["bezier", "bezier_spline", "bezierspline", "bspline", "b_spline", "nurbs", "hermite"],
+    "there are no control points: the curve goes through all points, so take points on it and `CatmullRom`",
+)];
 
 const MAPPINGS: Hints = &[
     (
@@ -310,9 +347,36 @@ pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static s
     }
 }
 
+/// What is said of options of the command line that are taken for fields of the scene.
+pub(crate) fn command_line(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    if def.name != "Scene" && Scene::DEF.fields.iter().all(|field| !is_group(field, def)) {
+        return None;
+    }
+    Some(match name {
+        "denoise" | "denoiser" | "denoising" | "denoised" => {
+            "that is an option of the command line, not of the scene: tracer render scene.ron --denoise"
+        }
+        "threads" | "thread_count" | "num_threads" | "jobs" => {
+            "that is an option of the command line, not of the scene: tracer render scene.ron --threads 4"
+        }
+        "crop" | "region" | "window" => {
+            "that is an option of the command line, not of the scene: tracer render scene.ron --crop X,Y,WIDTH,HEIGHT"
+        }
+        "checkpoint" => {
+            "that is an option of the command line, not of the scene: tracer render scene.ron --checkpoint FILE"
+        }
+        _ => return None,
+    })
+}
+
 /// How the language says what other programs have a field for, or what to do where it does not.
-pub(super) fn field_of_others(name: &str, def: &'static StructDef) -> Option<&'static str> {
+// Long: a table.
+pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
     let lower = name.to_ascii_lowercase();
+    let found = of_pattern(&lower, def).or_else(|| of_shape(&lower, def, syntax)).or_else(|| command_line(&lower, def));
+    if found.is_some() {
+        return found;
+    }
     let has = |field| def.field(field).is_some();
     let camera = def.name == "Camera" || def.name == "Scene";
     let surface = has("albedo") || has("material") || has("reflectance") || has("ior");

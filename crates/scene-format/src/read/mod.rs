@@ -8,9 +8,12 @@ mod elsewhere;
 mod hints;
 mod include;
 mod materials;
+mod outlines;
 mod part;
+mod pattern_fields;
 mod pick;
 mod repeat;
+mod shape_fields;
 mod told;
 mod value;
 mod variant;
@@ -18,12 +21,13 @@ mod vars;
 mod vector;
 
 pub(crate) use check::scene;
+pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
 pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
-use told::SHOWN;
+use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, plain, shortened};
 pub(crate) use value::{expected, hex_color, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
@@ -32,7 +36,7 @@ pub(crate) use vars::{Vars, is_expression};
 use crate::codes;
 use crate::desc::{ITEMS, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
-use crate::schema::{FieldDef, StructDef, Type};
+use crate::schema::{self, FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
@@ -222,18 +226,7 @@ impl<'r> Reader<'r> {
                         let slot = def.fields.iter().position(|field| field.name == bare)?;
                         fields.set(slot, only);
                     }
-                    (Some(first), ..) => {
-                        self.report(
-                            Diagnostic::error(
-                                codes::MISSING_NAME,
-                                first.head(),
-                                format!("the values of {} are written with their names", def.noun),
-                            )
-                            .expected(field_list(def))
-                            .hint(format!("write `{}: value`", def.fields.first().map_or("name", |f| f.name))),
-                        );
-                        return None;
-                    }
+                    (Some(first), second, _) => return self.without_names(first, second.is_none(), def),
                 }
             }
             _ => {
@@ -297,6 +290,21 @@ impl<'r> Reader<'r> {
             self.missing_fields(item, def, &fields);
         }
         Some(fields)
+    }
+
+    /// Reports that values have no names; the first of them, and whether it is the only one.
+    fn without_names<T>(&mut self, first: Item<'_, '_>, only: bool, def: &'static StructDef) -> Option<T> {
+        let message = format!("the values of {} are written with their names", def.noun);
+        let mut fault = Diagnostic::error(codes::MISSING_NAME, first.head(), message).expected(field_list(def));
+        let field = def.fields.first();
+        // `Uv(8)`: what fits the first field is most probably that.
+        let fits = only && field.is_some_and(|field| schema::fits(first, &field.kind));
+        let name = field.map_or("name", |field| field.name);
+        let mended = format!("{name}: {}", if fits { first.lexeme() } else { "value" });
+        fault.hint = format!("write `{}`", shortened(&mended));
+        fault.edit = fits.then(|| Edit { span: first.span(), replacement: mended });
+        self.report(fault);
+        None
     }
 
     fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {
@@ -375,10 +383,16 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
                 .expected(field_list(def));
         if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
-            fault.hint = format!("write `{mended}`");
+            fault.hint = format!("write `{}`", shortened(&mended));
             fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
             self.report(fault);
             return meant;
+        }
+        if let Some((hint, mended)) = pattern_fields::of_mapping(name, value, item, def) {
+            fault.hint = hint;
+            fault.edit = mended.map(|replacement| Edit { span: elsewhere::whole_field(key, value), replacement });
+            self.report(fault);
+            return None;
         }
         if let Some(of_light) = hints::strength(name, def) {
             fault.hint = of_light.to_owned();
@@ -389,7 +403,7 @@ impl<'r> Reader<'r> {
         let quoted = key.lexeme().starts_with(['"', '\'']);
         let meant = meant(name, item, def);
         // A word of other programs is no typo of ours: `dof` is no `fov`.
-        let of_others = field_of_others(name, def).filter(|_| synonym(name, def).is_none());
+        let of_others = field_of_others(name, def, item.syntax()).filter(|_| synonym(name, def).is_none());
         let meant = meant.filter(|_| of_others.is_none());
         fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
@@ -552,14 +566,6 @@ impl<'r> Reader<'r> {
     }
 }
 
-/// `this sphere` from `a sphere`; `the camera` stays.
-fn article_free(noun: &str) -> String {
-    match noun.split_once(' ') {
-        Some(("a" | "an", rest)) => format!("this {rest}"),
-        _ => noun.to_owned(),
-    }
-}
-
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
 }
@@ -572,27 +578,6 @@ fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'st
         return Some(field);
     }
     suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
-}
-
-fn field_list(def: &'static StructDef) -> String {
-    let names: Vec<&str> = names(def).collect();
-    match names.as_slice() {
-        [only] => format!("the field `{only}`"),
-        names => format!("one of {}", suggest::list(names)),
-    }
-}
-
-/// `center: .., radius: ..`: the fields that must be written, or the first one.
-fn field_words(def: &'static StructDef) -> String {
-    if def.name == "Scene" {
-        return "objects: [..]".to_owned();
-    }
-    let mut words: Vec<String> =
-        def.fields.iter().filter(|field| field.default.is_none()).map(|field| format!("{}: ..", field.name)).collect();
-    if words.is_empty() {
-        words.extend(def.fields.first().map(|field| format!("{}: ..", field.name)));
-    }
-    words.join(", ")
 }
 
 fn is_plain(key: &str) -> bool {

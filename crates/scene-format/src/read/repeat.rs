@@ -71,6 +71,16 @@ pub(crate) fn repeat_body<'t, 's>(item: Item<'t, 's>) -> Option<Item<'t, 's>> {
     }
 }
 
+/// How many items stand for one that is written, at least: as far as counts within it are numbers.
+fn made(item: Item<'_, '_>) -> u64 {
+    let Some(body) = repeat_body(item) else { return 1 };
+    let field = |name: &str| body.fields().find(|(key, _)| key.text() == name).map(|(_, value)| value);
+    let count = field("count").filter(|count| count.kind() == Kind::Integer).and_then(|count| count.number());
+    let (Some(count), Some(items)) = (count, field("items")) else { return 0 };
+    let each = items.children().map(made).fold(0, u64::saturating_add);
+    each.saturating_mul(count.max(0.0) as u64)
+}
+
 impl Reader<'_> {
     /// Reads the items of a `Repeat` as often as it says; `None` where it could not.
     pub(super) fn repeat<'t, 's>(
@@ -94,6 +104,15 @@ impl Reader<'_> {
         if self.vars.depth() >= MOST_NESTED {
             self.too_much(body, &format!("repetitions stand more than {MOST_NESTED} deep"));
             return None;
+        }
+        // Before any is made: a thousand times a thousand times a thousand would take its time.
+        if self.vars.depth() == 0 {
+            let each = items.children().map(made).fold(0, u64::saturating_add);
+            if each.saturating_mul(u64::from(count)) > MOST_ITEMS {
+                self.repeated = MOST_ITEMS + 1;
+                self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
+                return None;
+            }
         }
         for k in 0..count {
             let (errors, told) = (self.sink.errors, self.sink.diagnostics.len());

@@ -1,5 +1,8 @@
 //! Values and names in words, for messages.
 
+use super::names;
+use crate::schema::StructDef;
+use crate::suggest;
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 
@@ -53,4 +56,34 @@ pub(crate) fn plain(noun: &str) -> String {
     let words: Vec<String> =
         noun.split(' ').map(|word| if word.contains('_') { format!("`{word}`") } else { word.to_owned() }).collect();
     words.join(" ")
+}
+
+/// `this sphere` from `a sphere`; `the camera` stays.
+pub(super) fn article_free(noun: &str) -> String {
+    match noun.split_once(' ') {
+        Some(("a" | "an", rest)) => format!("this {rest}"),
+        _ => noun.to_owned(),
+    }
+}
+
+/// All fields, for what was expected.
+pub(super) fn field_list(def: &'static StructDef) -> String {
+    let names: Vec<&str> = names(def).collect();
+    match names.as_slice() {
+        [only] => format!("the field `{only}`"),
+        names => format!("one of {}", suggest::list(names)),
+    }
+}
+
+/// `center: .., radius: ..`: the fields that must be written, or the first one.
+pub(super) fn field_words(def: &'static StructDef) -> String {
+    if def.name == "Scene" {
+        return "objects: [..]".to_owned();
+    }
+    let mut words: Vec<String> =
+        def.fields.iter().filter(|field| field.default.is_none()).map(|field| format!("{}: ..", field.name)).collect();
+    if words.is_empty() {
+        words.extend(def.fields.first().map(|field| format!("{}: ..", field.name)));
+    }
+    words.join(", ")
 }

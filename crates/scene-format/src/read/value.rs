@@ -20,13 +20,24 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
     let words = expected(at);
     match item.syntax() {
         Syntax::Ron => words,
-        syntax => words
+        syntax => in_braces(&words, syntax)
             .replace("(x, y, z)", "[x, y, z]")
             .replace("(x, y)", "[x, y]")
             .replace("(r, g, b)", "[r, g, b]")
-            .replace("Texture(..)", &syntax.of_toml("{ Texture = .. }"))
             .replace("or None", &format!("or {}", none(syntax))),
     }
+}
+
+/// Kinds with brackets, `Texture(..)`, as TOML and JSON have them.
+fn in_braces(words: &str, syntax: Syntax) -> String {
+    let (mut out, mut rest) = (String::new(), words);
+    while let Some((head, after)) = rest.split_once("(..)") {
+        let name = head.rsplit(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or("");
+        out += &head[..head.len() - name.len()];
+        out += &syntax.of_toml(format!("{{ {name} = .. }}"));
+        rest = after;
+    }
+    out + rest
 }
 
 /// What a field takes, in the words of RON.
@@ -49,6 +60,9 @@ pub(crate) fn expected(at: &FieldDef) -> String {
                 at,
             );
         }
+        (Type::List(Type::Pair), _) => "a list of points: [(x, y), ..]".to_owned(),
+        (Type::List(Type::List(Type::Pair)), _) => "a list of rings of points: [[(x, y), ..], ..]".to_owned(),
+        (Type::List(Type::Vector), _) => "a list of points: [(x, y, z), ..]".to_owned(),
         (Type::List(_), _) => "a list: [a, b, c]".to_owned(),
         (Type::Optional(Type::Number), what) => {
             return format!("{}, or None", with_unit(format!("{what} {words}"), at));
@@ -58,9 +72,13 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Struct(def), _) => def.noun.to_owned(),
         (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
         (Type::Optional(&Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
-        (Type::OneOf([Type::Color, ..]) | Type::Optional(Type::OneOf([Type::Color, ..])), _) => {
+        (
+            Type::OneOf([Type::Color, Type::Enum(def)]) | Type::Optional(Type::OneOf([Type::Color, Type::Enum(def)])),
+            _,
+        ) => {
+            let choices = super::variant::choices(def, Syntax::Ron);
             return format!(
-                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or Texture(..)"
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or {choices}"
             );
         }
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),

@@ -96,6 +96,9 @@ impl Reader<'_> {
         if item.is_damaged() && item.children().count() <= 1 || item.kind() == Kind::List && item.holds_damage() {
             return None;
         }
+        if self.mapping_elsewhere(item, def) {
+            return None;
+        }
         let mut fault = Diagnostic::error(
             codes::WRONG_TYPE,
             item.head(),
@@ -130,10 +133,14 @@ impl Reader<'_> {
                         Some(Edit { span: Span { end: start, ..item.span() }, replacement: (*only).to_owned() });
                 } else if lexeme.starts_with('{') {
                     let syntax = item.syntax();
-                    fault.hint = syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned();
+                    fault.hint = match syntax {
+                        Syntax::Ron => format!("write `{only}(..)`"),
+                        syntax => syntax.of_toml(format!("write `{{ {only} = {{ .. }} }}`")).into_owned(),
+                    };
                     let replacement = match syntax {
                         Syntax::Json => format!("{{ \"{only}\": {lexeme} }}"),
-                        Syntax::Ron | Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
+                        Syntax::Ron => format!("{only}({})", lexeme.trim_matches(['{', '}'])),
+                        Syntax::Toml => format!("{{ {only} = {lexeme} }}"),
                     };
                     fault.edit = Some(Edit { span: item.span(), replacement });
                 } else {
@@ -157,7 +164,7 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(
             codes::UNKNOWN_VARIANT,
             span,
-            format!("`{}` is not a kind of {}", super::shortened(name), def.noun),
+            format!("`{}` is not a kind of {}", super::shortened(name), of_kind(def)),
         )
         .expected(choices(def, syntax));
         let quoted = syntax != Syntax::Ron && span.end - span.start == name.len() as u32 + 2;
@@ -185,8 +192,8 @@ impl Reader<'_> {
 
     fn quoted_variant<T>(&mut self, item: Item<'_, '_>, name: &str, def: &'static EnumDef) -> Option<T> {
         let known = suggest::nearest(name, def.variants.iter().map(|variant| variant.name));
-        let Some(word) = known else { return self.no_variant(item, def) };
-        let message = format!("the kind of {} is written without quotes", def.noun);
+        let Some(word) = known.or_else(|| kind_elsewhere(name, def)) else { return self.no_variant(item, def) };
+        let message = format!("the kind of {} is written without quotes", of_kind(def));
         let mut fault =
             Diagnostic::error(codes::WRONG_TYPE, item.span(), message).expected(choices(def, item.syntax()));
         let unit = def.variant(word).is_some_and(|variant| matches!(variant.content, Content::Unit));
@@ -314,6 +321,11 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// What a choice is a choice of kinds of: the noun `kind of noise` says it itself.
+fn of_kind(def: &'static EnumDef) -> &'static str {
+    def.noun.strip_prefix("kind of ").unwrap_or(def.noun)
 }
 
 /// How a variant is written, where what stands in brackets does not fit it.

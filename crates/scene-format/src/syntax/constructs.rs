@@ -2,7 +2,7 @@
 
 use super::Syntax;
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 
 /// A construct may have this many bytes: a file of opening brackets must not take quadratic time.
 const LONGEST: usize = 4000;
@@ -16,14 +16,19 @@ pub(super) struct Construct {
     message: String,
     expected: &'static str,
     hint: String,
+    /// What to write for all of it, where that is certain.
+    mended: Option<String>,
 }
 
 impl Construct {
     /// What is said of it, where it stands at `span(start, end)`.
     pub fn fault(self, start: usize, span: impl Fn(usize, usize) -> Span) -> Diagnostic {
-        Diagnostic::error(codes::OTHER_LANGUAGE, span(start, start + self.head), self.message)
+        let mut fault = Diagnostic::error(codes::OTHER_LANGUAGE, span(start, start + self.head), self.message)
             .expected(self.expected)
-            .hint(self.hint)
+            .hint(self.hint);
+        let whole = span(start, start + self.length);
+        fault.edit = self.mended.map(|replacement| Edit { span: whole, replacement });
+        fault
     }
 }
 
@@ -70,6 +75,7 @@ pub(super) fn loop_of(rest: &str, syntax: Syntax) -> Option<Construct> {
         message: "there are no loops here: a scene says what is, not what to do".to_owned(),
         expected: "items made by a rule, or copies by `placements`",
         hint: format!("write {form}; in its items \"={index}\" counts from 0"),
+        mended: None,
     })
 }
 
@@ -116,7 +122,7 @@ fn counted(head: &str) -> (&str, String) {
     (name, below.map_or_else(many, |to| to.to_string()))
 }
 
-/// `sphere { <0, 1, 0>, 1 pigment { .. } }`.
+/// `sphere { <0, 1, 0>, 1 pigment { .. } }`, and `sphere { radius: 1 }`.
 fn block(rest: &str, syntax: Syntax) -> Option<Construct> {
     let word = word(rest);
     let open = rest[word.len()..].find(|c: char| !c.is_whitespace()).map(|at| word.len() + at)?;
@@ -125,34 +131,46 @@ fn block(rest: &str, syntax: Syntax) -> Option<Construct> {
     }
     let length = closed(rest, open)?;
     let inner = &rest[open + 1..length - 1];
-    let known = POV.iter().find(|(names, ..)| names.contains(&word));
-    // What has names with colons is ours, in brackets of another kind.
+    let known = SHAPES.iter().chain(POV).find(|(names, ..)| names.contains(&word));
+    let shape = SHAPES.iter().any(|(names, ..)| names.contains(&word));
+    let named = inner.contains([':', '"']);
+    // What has names with colons is ours, in brackets of another kind; but no field is called as a shape is.
     let of_pov = inner.contains('<') || known.is_some() && !inner.trim().is_empty();
-    if inner.contains([':', '"']) || !of_pov {
+    if !shape && (named || !of_pov) {
         return None;
     }
     let hint = match (known, syntax) {
         (Some((_, ron, _)), Syntax::Ron) => format!("write {ron}"),
         (Some((.., toml)), _) => format!("write {}", syntax.of_toml(*toml)),
-        (None, _) => format!("`tracer explain {word}` tells what there is for it"),
+        (None, _) => "write what there is for it here: `tracer explain Object` lists the kinds of objects".to_owned(),
+    };
+    let (message, mended) = if shape && !inner.contains('<') && named {
+        // Of a shape that there is: its kind stands before the bracket.
+        let kind = known.and_then(|(_, ron, _)| ron.split_once('(')).map(|(kind, _)| kind);
+        let kind = kind.filter(|kind| syntax == Syntax::Ron && kind.eq_ignore_ascii_case(word));
+        let message = format!("an object is not written `{word} {{ .. }}`");
+        (message, kind.map(|kind| format!("{kind}({inner})")))
+    } else {
+        (format!("this looks like POV-Ray: `{word} {{ .. }}`"), None)
     };
     Some(Construct {
         length,
         head: open + 1,
-        message: format!("this looks like POV-Ray: `{word} {{ .. }}`"),
+        message,
         expected: match syntax {
             Syntax::Ron => "Name(field: value, ..), with vectors as (x, y, z)",
             Syntax::Toml => "{ Name = { field = value } }, with vectors as [x, y, z]",
             Syntax::Json => "{ \"Name\": { \"field\": value } }, with vectors as [x, y, z]",
         },
         hint,
+        mended,
     })
 }
 
 type Block = (&'static [&'static str], &'static str, &'static str);
 
-/// Blocks of POV-Ray, and what is written here, in RON and TOML.
-const POV: &[Block] = &[
+/// Shapes as POV-Ray writes them, and what is written here, in RON and TOML.
+const SHAPES: &[Block] = &[
     (&["sphere"], "Sphere(center: (x, y, z), radius: ..)", "{ Sphere = { center = [x, y, z], radius = .. } }"),
     (&["box"], "Box(center: (x, y, z), size: (x, y, z))", "{ Box = { center = [x, y, z], size = [x, y, z] } }"),
     (
@@ -168,6 +186,26 @@ const POV: &[Block] = &[
     (&["plane"], "Rectangle(size: 20)", "{ Rectangle = { size = 20 } }"),
     (&["disc"], "Disk(radius: ..)", "{ Disk = { radius = .. } }"),
     (&["mesh", "mesh2", "triangle"], "Mesh(file: \"shape.obj\")", "{ Mesh = { file = \"shape.obj\" } }"),
+    (
+        &["lathe", "sor"],
+        "Lathe(profile: [(radius, y), ..], curve: CatmullRom)",
+        "{ Lathe = { profile = [[radius, y], ..], curve = \"CatmullRom\" } }",
+    ),
+    (
+        &["prism", "extrude"],
+        "Extrude(outline: [[(x, y), ..]], depth: ..), which goes along z; its holes are more rings",
+        "{ Extrude = { outline = [[[x, y], ..]], depth = .. } }, which goes along z; its holes are more rings",
+    ),
+    (&["polygon"], "Polygon(points: [(x, y, z), ..])", "{ Polygon = { points = [[x, y, z], ..] } }"),
+    (
+        &["torus", "superellipsoid", "blob", "text", "height_field", "sphere_sweep", "isosurface", "bicubic_patch"],
+        "Mesh(file: \"shape.obj\"): there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB",
+        "{ Mesh = { file = \"shape.obj\" } }: there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB",
+    ),
+];
+
+/// Other blocks of it.
+const POV: &[Block] = &[
     (
         &["union", "merge", "object", "difference", "intersection"],
         "Group(objects: [..]); solids cannot be cut from each other",
@@ -255,9 +293,16 @@ mod tests {
         }
         let braces = at_beginning("for i in 0..2 { \"}\" { } } rest", Syntax::Ron).expect("a loop");
         assert_eq!(braces.length, "for i in 0..2 { \"}\" { } }".len());
-        for scene in
-            ["for: 1", "format: 2", "while", "sphere: { }", "materials { \"a\": 1 }", "vars {}", "objects { Sphere() }"]
-        {
+        for scene in [
+            "for: 1",
+            "format: 2",
+            "while",
+            "sphere: { }",
+            "camera {}",
+            "materials { \"a\": 1 }",
+            "vars {}",
+            "objects { Sphere() }",
+        ] {
             assert!(at_beginning(scene, Syntax::Ron).is_none(), "{scene}");
         }
     }

@@ -230,7 +230,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
-        let object = match random.below(15) {
+        let mut object = match random.below(15) {
             13 => Object::Torus(Box::new(Torus {
                 center: vector(random).into(),
                 axis: [0.3, number(random, -1.0, 1.0), 0.0].into(),
@@ -382,6 +382,18 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 name: name(random),
             }),
         };
+        // What crosses itself is no outline; three points do not, joined by straight lines.
+        match &mut object {
+            Object::Extrude(extrude) if extrude.crossing().is_some() => {
+                extrude.outline.value.0.truncate(1);
+                extrude.outline.value.0[0].truncate(3);
+                extrude.curve = Curve::Linear;
+            }
+            Object::Polygon(polygon) if polygon.points.value.crossing().is_some() => {
+                polygon.points.value.0.truncate(3);
+            }
+            _ => {}
+        }
         objects.push(object.into());
     }
     grouped(random, &mut objects);
@@ -430,7 +442,11 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             exposure: number(random, -5.0, 5.0).into(),
             tone_map: *random.pick(&[ToneMap::None, ToneMap::Filmic, ToneMap::AgX]),
         },
-        output: Output { layers: (0..random.below(3)).map(|_| *random.pick(&[Layer::Albedo, Layer::Depth])).collect() },
+        output: Output {
+            layers: (0..random.below(3)).map(|_| *random.pick(&[Layer::Albedo, Layer::Depth])).collect(),
+            alpha: false,
+            backdrop: if random.below(2) == 0 { None } else { Some([random.unit(), 0.25, 1.0].into()) },
+        },
         background: match random.below(3) {
             0 => Background::Environment(Box::new(Environment {
                 file: std::sync::Arc::<std::path::Path>::from(PathBuf::from(text(random))).into(),

@@ -9,7 +9,8 @@ use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0 to 1, as a
-    /// rectangle that faces outwards.
+    /// `Rectangle` that faces outwards: on the four upright ones v grows along y, and u to the right as seen from outside; on top and bottom u grows
+    /// along x, and v along -z on top and along z below.
     pub struct RectBox as "Box", "a box" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();

@@ -6,16 +6,21 @@ use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
+use crate::path::{Ends, Piece, Point, crossing, distinct, extent, pieces, shown};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, and made of triangles. Texture coordinates:
-    /// of the ends from 0 to 1 over the square around the outline, as of a rectangle that faces outwards; of the sides u goes round, v along z.
+    /// An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, faces outwards, and is made of
+    /// triangles. Texture coordinates of the ends go from 0 to 1 over the square around the outline, which has its middle, as on a `Rectangle` that faces
+    /// outwards: of the end at `depth`, seen from +z, u grows along x and v along y; of that at 0, seen from -z, u grows along -x. On the sides u goes
+    /// from 0 to 1 once round each ring, counter-clockwise round the outer one and clockwise round holes, from the ring's first point, and v from 0 at z = 0 to 1
+    /// at `depth`.
     pub struct Extrude as "Extrude", "an extrude" {
-        /// Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets itself or another.
+        /// Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets itself or another. A point
+        /// that repeats the last one, or at the end the first, is left out.
         outline: Spanned<Outline> => Rule::point();
         /// How far it is pushed: from z = 0 to this.
         depth: Spanned<f64> => Rule::length("a length");
@@ -46,6 +51,38 @@ impl ShapeWords for Extrude {
 /// Rings of points (x, y), each of three or more.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Outline(pub Vec<Vec<[f64; 2]>>);
+
+/// Curves are cut into pieces that turn by so much at most: 128 go round.
+const STEP: f64 = std::f64::consts::TAU / 128.0;
+
+impl Extrude {
+    /// Which sides of its outline cross, and where, if any do.
+    pub fn crossing(&self) -> Option<String> {
+        let rings = &self.outline.value.0;
+        let size = rings.iter().map(|ring| extent(ring)).fold(0.0, f64::max);
+        let (mut sides, mut of): (Vec<[Point; 2]>, Vec<usize>) = (Vec::new(), Vec::new());
+        for (number, ring) in rings.iter().enumerate() {
+            let points: Vec<Point> = distinct(ring, size, true).into_iter().map(|k| ring[k]).collect();
+            if points.len() < 3 {
+                return None;
+            }
+            let cut: Vec<Piece> = pieces(&points, Ends::Joined, self.curve == Curve::CatmullRom, STEP);
+            of.extend(cut.iter().map(|_| number));
+            sides.extend(cut.iter().map(|piece| [piece.from, piece.to]));
+        }
+        let found = crossing(&sides)?;
+        let name = |ring: usize| match ring {
+            0 => "the outline of the extrude".to_owned(),
+            hole => format!("hole {hole} of the extrude"),
+        };
+        let [first, second] = found.sides.map(|side| of[side]);
+        // Holes are told to cross what they are in.
+        let whose = if first == second { "itself".to_owned() } else { name(first) };
+        let [a, b] = found.sides.map(|side| sides[side].map(|end| shown(&end)).join(" to "));
+        let (who, at) = (name(second), shown(&found.at));
+        Some(format!("{who} crosses {whose} at {at}: the side from {a} crosses that from {b}"))
+    }
+}
 
 /// A point of a ring.
 static POINT: FieldDef = FieldDef {

@@ -29,7 +29,7 @@ pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use extrude::{Extrude, Outline};
 pub use inline_mesh::{Faces, InlineMesh};
-pub use lathe::{Lathe, Profile};
+pub use lathe::{Lathe, Profile, Turning};
 pub use mesh::{Instances, Mesh, MeshSource, Shading};
 pub use pattern::PlacementPattern;
 pub use placements::{Groups, Moved, PlacementList, Placements, Within};

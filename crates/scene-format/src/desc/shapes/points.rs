@@ -15,15 +15,20 @@ pub(super) fn read<P: Words>(
     point: &'static FieldDef,
     (noun, least): (&str, usize),
 ) -> Option<Vec<P>> {
-    let (mut points, mut whole) = (Vec::new(), true);
+    let (mut points, mut whole, mut wrong) = (Vec::new(), true, 0);
+    let told = reader.told();
     reader.passed_over = false;
     reader.items(item, at, |reader, child| {
         make_room(&mut points, item, child);
         match P::read(reader, child, point) {
             Some(point) => points.push(point),
-            None => whole = false,
+            None => (whole, wrong) = (false, wrong + 1),
         }
     })?;
+    if points.is_empty() && wrong > 1 {
+        // Points of the plane where points of space stand, or the other way round: that is one mistake.
+        reader.once(told, codes::WRONG_COUNT, wrong);
+    }
     if !whole || reader.passed_over || item.is_damaged() {
         return None;
     }

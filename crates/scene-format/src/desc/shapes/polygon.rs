@@ -5,16 +5,20 @@ use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::form::Form;
+use crate::path::{Point, crossing, distinct, shown};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is where they go round counter-clockwise.
-    /// Texture coordinates go from 0 to 1 over the square around it, as of a rectangle that faces the same way.
+    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is the side from which they go round
+    /// counter-clockwise; an `Emissive` one shines to that side, and the back is seen as the front is. Seen from the front, u grows to the right and v
+    /// upwards, as on a `Rectangle` that faces the same way: right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. The square around
+    /// it that has the same middle has coordinates from 0 to 1. It is open: it has no inside.
     pub struct Polygon as "Polygon", "a polygon" {
-        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners.
+        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners. A corner that
+        /// repeats the last one, or at the end the first, is left out.
         points: Spanned<Corners> => Rule::point();
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
@@ -41,6 +45,62 @@ impl ShapeWords for Polygon {
 /// Corners of a polygon.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Corners(pub Vec<Vec3>);
+
+impl Corners {
+    /// Each but once where it repeats the last, and their numbers among those that are written.
+    pub fn distinct(&self) -> (Vec<Vec3>, Vec<usize>) {
+        let extent = |axis: usize| {
+            let along = self.0.iter().map(|corner| corner[axis]);
+            let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            high - low
+        };
+        let size = [0, 1, 2].map(extent).into_iter().fold(0.0, f64::max);
+        let numbers = distinct(&self.0, size, true);
+        (numbers.iter().map(|&k| self.0[k]).collect(), numbers)
+    }
+
+    /// Which sides cross, and where, if any do and the corners lie in one plane.
+    pub fn crossing(&self) -> Option<String> {
+        let (corners, numbers) = self.distinct();
+        let count = corners.len();
+        let origin = *corners.first()?;
+        let sub = |a: Vec3, b: Vec3| [0, 1, 2].map(|k| a[k] - b[k]);
+        let from: Vec<Vec3> = corners.iter().map(|&corner| sub(corner, origin)).collect();
+        let size = from.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max);
+        // A bow tie's halves cancel out in Newell's normal, so that of the widest triangle at the first corner is taken.
+        let far = from.iter().copied().max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;
+        let normals = from.iter().map(|&p| cross(far, p));
+        let normal = normals.max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;
+        let length = dot(normal, normal).sqrt();
+        if count < 4
+            || length <= 1e-12 * size
+            || from.iter().any(|&p| dot(p, normal).abs() > FLAT * length * size.sqrt())
+        {
+            return None;
+        }
+        let most = [0, 1, 2].into_iter().max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
+        let flat = |p: Vec3| -> Point { [p[(most + 1) % 3], p[(most + 2) % 3]] };
+        let sides: Vec<[Point; 2]> = (0..count).map(|k| [flat(from[k]), flat(from[(k + 1) % count])]).collect();
+        let found = crossing(&sides)?;
+        let ends = found.sides.map(|k| [numbers[k], numbers[(k + 1) % count]]);
+        let (a, b) = (corners[found.sides[0]], corners[(found.sides[0] + 1) % count]);
+        let at = shown(&[0, 1, 2].map(|k| a[k] + found.along * (b[k] - a[k])));
+        let side = |[from, to]: [usize; 2]| format!("points[{from}] to points[{to}]");
+        let (first, second) = (side(ends[0]), side(ends[1]));
+        Some(format!("the polygon crosses itself: the side from {first} crosses that from {second} at {at}"))
+    }
+}
+
+/// Corners may lie so far off one plane, as a share of the polygon's size.
+const FLAT: f64 = 1e-4;
+
+fn dot(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
 
 /// One of them.
 static CORNER: FieldDef = FieldDef {

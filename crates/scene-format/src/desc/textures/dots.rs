@@ -8,7 +8,7 @@ use crate::words::scene_struct;
 
 scene_struct! {
     /// Round dots, one in the middle of each unit square of the mapped coordinates.
-    pub struct Dots as "Dots", "dots" {
+    pub struct Dots as "Dots", "a pattern of dots" {
         /// The colour between the dots.
         a: Spanned<Color> = [0.0; 3] => Rule::share();
         /// The colour of the dots.

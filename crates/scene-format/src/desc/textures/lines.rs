@@ -8,7 +8,7 @@ use crate::words::{scene_struct, scene_words};
 
 scene_struct! {
     /// Lines where the mapped coordinates are whole: a grid, tiles with joints, stripes.
-    pub struct Lines as "Lines", "lines" {
+    pub struct Lines as "Lines", "a pattern of lines" {
         /// The colour of the lines.
         a: Spanned<Color> = [0.0; 3] => Rule::share();
         /// The colour between them.

@@ -76,14 +76,15 @@ scene_enum! {
     pub enum SolidMapping, "mapping of a solid texture" {
         /// By the surface's texture coordinates: scaled, then turned, then moved.
         Uv(Uv);
-        /// By the coordinates that the shape is written in, before its `transform` and `placements`: the texture goes with the object.
+        /// By the coordinates that the shape is written in, before its `transform` and `placements` and those of groups: the texture goes with the
+        /// object, which is turned to turn it. A `center` other than the origin is such a coordinate, too.
         Object as "a mapping by an object's coordinates" {
             /// So many cells of the texture a unit along each axis, or one number for all.
             scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);
             /// Added at last.
             offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
         };
-        /// By the scene's coordinates: objects move through the texture.
+        /// By the scene's coordinates, after all transforms: objects move through the texture, and those side by side share it.
         World as "a mapping by the scene's coordinates" {
             /// So many cells of the texture a unit along each axis, or one number for all.
             scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);

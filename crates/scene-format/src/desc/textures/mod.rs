@@ -152,8 +152,12 @@ impl Words for Albedo {
     const TYPE: Type = Type::OneOf(&[Type::Color, PatternWords::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        // `rgb(..)` and `red`: a colour, if not ours.
+        // `rgb(..)` and `red`: a colour, if not ours; `wood` may be a texture.
         let bare = item.kind() == Kind::Word && item.lexeme().starts_with(char::is_lowercase);
+        let named = item.kind() == Kind::Text && !item.text().starts_with(['#', '=']);
+        if (bare || named) && reader.texture_elsewhere(item, &PatternWords::DEF) {
+            return None;
+        }
         if bare || item.name().is_some_and(|name| !is_texture(name) && is_color(name)) {
             return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
         }

@@ -8,7 +8,7 @@ use crate::words::{scene_struct, scene_words};
 
 scene_struct! {
     /// Cells about scattered points, one point in each unit cube of the mapped coordinates (Worley 1996): stones, scales, cracks.
-    pub struct Voronoi as "Voronoi", "cells" {
+    pub struct Voronoi as "Voronoi", "a pattern of cells" {
         /// The colour where the feature is 0.
         a: Spanned<Color> = [0.0; 3] => Rule::share();
         /// The colour where it is 1.

@@ -1,0 +1,163 @@
+//! Fields that patterns and their mappings have in other programs, and how they are said here.
+
+use super::elsewhere::{Fields, numbers};
+use super::{Reader, describe};
+use crate::codes;
+use crate::desc::is_texture;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::{EnumDef, StructDef};
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind};
+
+/// Whether these are the fields of a pattern: two colours, and how it lies.
+fn is_pattern(def: &'static StructDef) -> bool {
+    is_texture(def.name) && def.field("a").is_some()
+}
+
+/// The mapping by which a pattern is scaled, and how many numbers it takes for each axis.
+fn scaled_by(def: &'static StructDef) -> (&'static str, usize) {
+    if matches!(def.name, "Noise" | "Wood" | "Marble" | "Voronoi") { ("Object", 3) } else { ("Uv", 2) }
+}
+
+/// `Object(scale: 4)`, or in TOML and JSON `{ Object = { scale = 4 } }`.
+fn mapping(kind: &str, field: &str, value: &str, syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => format!("{kind}({field}: {value})"),
+        syntax => syntax.of_toml(format!("{{ {kind} = {{ {field} = {value} }} }}")).into_owned(),
+    }
+}
+
+/// A field of a pattern that belongs to its mapping: what is told, and what to write for name and value where that is certain.
+pub(super) fn of_mapping(
+    name: &str,
+    value: Item<'_, '_>,
+    item: Item<'_, '_>,
+    def: &'static StructDef,
+) -> Option<(String, Option<String>)> {
+    // Of pictures as well.
+    if !is_texture(def.name) || def.field("mapping").is_none() {
+        return None;
+    }
+    let (kind, axes) = scaled_by(def);
+    let syntax = value.syntax();
+    let field = match name.to_ascii_lowercase().as_str() {
+        "scale" | "frequency" | "freq" | "density" | "tiling" | "tiles" | "count" | "fineness" => "scale",
+        "offset" | "translate" | "translation" | "shift" | "position" | "origin" => "offset",
+        "rotate" | "rotation" | "angle" if kind == "Uv" => "rotation",
+        "size" | "cell_size" | "period" | "spacing" | "wavelength" => {
+            let written = mapping(kind, "scale", "..", syntax);
+            return Some((format!("its `mapping` says how fine it is: {written}, one over the size of a cell"), None));
+        }
+        "rotate" | "rotation" | "angle" | "transform" | "direction" | "orientation" | "axis" => {
+            let turn = match syntax {
+                Syntax::Ron => "transform: [Rotate(axis: (0, 0, 1), degrees: 90)]".into(),
+                syntax => syntax.of_toml("transform = [{ Rotate = { axis = [0, 0, 1], degrees = 90 } }]"),
+            };
+            return Some((format!("a pattern turns with its object: `{turn}`; see Wood in the reference"), None));
+        }
+        _ => return None,
+    };
+    let count = numbers(value).map(|numbers| numbers.len());
+    let number = matches!(value.kind(), Kind::Integer | Kind::Float);
+    let certain = match field {
+        "scale" => number || count == Some(axes),
+        "offset" => count == Some(axes),
+        _ => number,
+    };
+    let written = item.fields().any(|(key, _)| key.text() == "mapping");
+    let shown = if certain { value.lexeme() } else { ".." };
+    let mended = mapping(kind, field, shown, syntax);
+    if written {
+        return Some((format!("it belongs to its `mapping`: {mended}"), None));
+    }
+    let mended = format!("{}{mended}", Fields(syntax).name("mapping"));
+    let more = match (field, kind) {
+        ("scale", "Object") => ": so many cells along a unit of length",
+        ("scale", _) => ": so many along each side",
+        _ => "",
+    };
+    Some((format!("write `{mended}`{more}"), certain.then_some(mended)))
+}
+
+/// What is said of other fields that patterns do not have.
+pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    if !is_pattern(def) {
+        return None;
+    }
+    let bent = def.field("distortion").is_some();
+    let noise = def.name == "Noise";
+    Some(match name {
+        "color_map" | "colour_map" | "colormap" | "color_ramp" | "colorramp" | "ramp" | "stops" | "palette"
+        | "colors" | "colours" | "gradient" | "map" | "pigment" | "pigment_map" => {
+            "a pattern goes from one colour to another, `a` to `b`, without steps between"
+        }
+        "color" | "colour" | "albedo" | "base_color" | "texture" => "a pattern has two colours: `a` and `b`",
+        "turbulence" | "billow" | "billows" | "ridged" | "abs" if noise => {
+            "billows with dark creases are `kind: Turbulence`"
+        }
+        "distortion" | "warp" if noise => "noise is not bent: leave it out; noise bends Marble(..) and Wood(..)",
+        "contrast" | "brightness" | "strength" | "intensity" | "amplitude" | "threshold" if noise => {
+            "its values lie in the middle between its colours: for more contrast take `a` darker and `b` lighter"
+        }
+        "octaves" | "detail" | "levels" | "omega" | "lambda" | "roughness" | "gain" | "lacunarity" if bent => {
+            "the noise that bends it is always the same: how far it bends is `distortion`"
+        }
+        "seed" | "random_seed" => {
+            "there is no seed: another `offset` of the mapping gives another piece of the pattern"
+        }
+        "opacity" | "alpha" => "patterns are opaque: leave it out",
+        _ => return None,
+    })
+}
+
+impl Reader<'_> {
+    /// The word of a texture where its brackets are missing, small or of another program: reports it, and says that it did.
+    pub(crate) fn texture_elsewhere(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
+        let word = &*item.text();
+        let same = def.variants.iter().find(|variant| variant.name.eq_ignore_ascii_case(word)).map(|found| found.name);
+        let kind = same.or_else(|| super::hints::kind_elsewhere(word, def));
+        let message = format!("a colour cannot be {}", describe(item));
+        let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
+        if let Some(kind) = kind {
+            let mended = match (kind, item.syntax()) {
+                ("Texture", Syntax::Ron) => "Texture(file: \"picture.png\")".into(),
+                ("Texture", syntax) => syntax.of_toml("{ Texture = { file = \"picture.png\" } }"),
+                (_, Syntax::Ron) => format!("{kind}()").into(),
+                (_, syntax) => syntax.of_toml(format!("{{ {kind} = {{}} }}")),
+            };
+            let mut fault = fault.expected("a colour, or a texture: kinds begin with capitals, and have brackets");
+            fault.hint = format!("write {mended}");
+            fault.edit = (kind != "Texture").then(|| Edit { span: item.span(), replacement: mended.into_owned() });
+            self.report(fault);
+            return true;
+        }
+        let Some(hint) = super::hints::other_kind(word, def) else { return false };
+        self.report(fault.expected("a colour, or a texture: Noise(..), Texture(file: ..)").hint(hint));
+        true
+    }
+
+    /// Numbers where a mapping stands: reports it, and says that it did.
+    pub(super) fn mapping_elsewhere(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
+        let solid = match def.name {
+            "SolidMapping" => true,
+            "MappingWords" => false,
+            _ => return false,
+        };
+        let number = matches!(item.kind(), Kind::Integer | Kind::Float);
+        let axes = if solid { 3 } else { 2 };
+        let bare = item.name().is_none() && numbers(item).is_some_and(|numbers| numbers.len() == axes);
+        if !number && !bare {
+            return false;
+        }
+        let kind = if solid { "Object" } else { "Uv" };
+        let mended = mapping(kind, "scale", item.lexeme(), item.syntax());
+        let more = if solid { "so many cells along a unit of length" } else { "so many along each side" };
+        let message = format!("a mapping says how a texture lies, and cannot be {}", describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected(super::choices(def, item.syntax()))
+            .hint(format!("write {mended}: {more}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+}

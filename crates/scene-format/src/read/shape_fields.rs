@@ -1,0 +1,65 @@
+//! Fields that shapes have in other programs, and how they are said here.
+
+use super::elsewhere::Fields;
+use crate::schema::StructDef;
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind};
+
+/// One ring where an extrude has a list of them, under another name: what to write for name and value.
+pub(super) fn one_ring(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+    let names = ["points", "profile", "shape", "path", "polygon", "contour", "vertices", "ring", "base"];
+    if def.name != "Extrude" || !names.contains(&name) || value.kind() != Kind::List {
+        return None;
+    }
+    let number = |item: Item<'_, '_>| matches!(item.kind(), Kind::Integer | Kind::Float);
+    let first = value.children().next()?;
+    let is_ring = matches!(first.kind(), Kind::Tuple | Kind::List) && first.children().next().is_some_and(number);
+    is_ring.then(|| format!("{}[{}]", Fields(value.syntax()).name("outline"), value.lexeme()))
+}
+
+/// What is said of fields that shapes do not have.
+pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
+    let shape = def.field("material").is_some() && def.field("transform").is_some();
+    if !shape {
+        return None;
+    }
+    let ron = syntax == Syntax::Ron;
+    let joined = def.field("curve").is_some();
+    let ends = def.field("from").is_some() && def.field("to").is_some();
+    let side = matches!(name, "height" | "width" | "depth" | "length" | "thickness");
+    Some(match (name, def.name) {
+        ("bevel" | "bevels" | "chamfer" | "fillet" | "rounded" | "rounding" | "bevel_depth" | "bevel_radius", _) => {
+            "there are no bevels yet, edges are sharp: make a mesh of it elsewhere, and name its file in a `Mesh`"
+        }
+        ("holes" | "hole" | "inner" | "cutouts" | "windows", "Extrude") => {
+            "holes are rings of the `outline`, after the outer one: [[outer points ..], [points of a hole ..]]"
+        }
+        ("holes" | "hole" | "inner" | "cutouts" | "windows", "Polygon") if ron => {
+            "polygons have no holes yet: a thin plate with holes is Extrude(outline: [[..], [..]], depth: 0.01)"
+        }
+        ("holes" | "hole" | "inner" | "cutouts" | "windows", "Polygon") => {
+            "polygons have no holes yet: a thin plate with holes is an `Extrude` of small `depth`, whose `outline` has a ring for each"
+        }
+        ("spline" | "interpolation" | "smooth" | "bezier" | "type" | "kind" | "linear_spline" | "cubic_spline", _)
+            if joined =>
+        {
+            "how points are joined is its `curve`: Linear by straight lines, CatmullRom by a smooth curve through all of them"
+        }
+        ("twist" | "taper" | "scale_top", "Extrude") => {
+            "the outline is the same all along: a `Mesh` takes other shapes"
+        }
+        ("height" | "radius" | "width", "Lathe") => {
+            "its size is that of its `profile`, whose points are (distance from the axis, height)"
+        }
+        ("angle" | "sweep" | "phi_max" | "start_angle" | "degrees", "Lathe") => {
+            "it always goes all the way round: leave it out"
+        }
+        ("height" | "length", _) if ends && ron => {
+            "how long it is is said by its ends: `from: (0, 0, 0), to: (0, 2, 0)`"
+        }
+        ("height" | "length", _) if ends => "how long it is is said by its ends, `from` and `to`",
+        (_, "Box") if side => "its sides along x, y and z are its `size`",
+        (_, "Rectangle") if side => "its sides are its `size`: two numbers, or one for both",
+        _ => return None,
+    })
+}
