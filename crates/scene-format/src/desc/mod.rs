@@ -41,7 +41,7 @@ pub use per_axis::PerAxis;
 pub use shapes::{
     Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
     MeshSource, Moved, Outline, PlacementList, PlacementPattern, Placements, Polygon, Profile, RectBox, Rectangle,
-    Shading, Sphere, Turning, Within,
+    Shading, Sphere, Turning, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,
