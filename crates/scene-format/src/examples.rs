@@ -96,6 +96,7 @@ const SNIPPETS: [(&str, &str, &str); 91] = [
     ("Layer", "ObjectId", "layers: [ObjectId]"),
     ("Layer", "MaterialId", "layers: [MaterialId]"),
     ("Layer", "Variance", "layers: [Variance]"),
+    ("Layer", "Alpha", "layers: [Alpha]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),

@@ -64,6 +64,7 @@ mod load;
 mod mend;
 mod overrides;
 pub mod path;
+pub mod plane;
 mod print;
 mod read;
 mod reference;

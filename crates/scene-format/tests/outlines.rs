@@ -31,6 +31,20 @@ fn what_is_meant_is_not_told() {
     }
 }
 
+#[test]
+fn what_bounds_no_face_is_told() {
+    for (object, code) in [
+        ("Polygon(points: [(0, 0, 0), (1, 1, 2), (2, 2, 4)])", "E0542"),
+        ("Polygon(points: [(0, 0, 0), (0, 0, 0), (1, 0, 0)])", "E0542"),
+        ("Polygon(points: [(0, 0, 0), (1, 0, 0), (1, 1, 0.1), (0, 1, 0)])", "E0545"),
+        ("Polygon(points: [(0, 0, 0), (1, 1, 0), (1, 0, 0), (0, 1, 0)])", "E0545"),
+        ("Lathe(profile: [(1, 0), (1, 0)])", "E0542"),
+        ("Lathe(profile: [(0, 0), (0, 1)])", "E0542"),
+    ] {
+        assert_eq!(codes(object), [code], "{object}");
+    }
+}
+
 /// A glass by its name, and one that another scene's objects share.
 #[test]
 fn glass_is_known_by_its_name() {

@@ -4,10 +4,10 @@
 
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
+use scene_format::Diagnostic;
 use scene_format::desc::{Curve, Lathe};
 use scene_format::diagnostic::Span;
 use scene_format::path::{Piece, Point, length, pieces, smooth, sub};
-use scene_format::{Diagnostic, codes};
 use std::f64::consts::{PI, TAU};
 
 /// Tips whose sides turn by less than this from the axis to the other side are shaded as round: half of 40 degrees.
@@ -28,23 +28,13 @@ impl Triangulated for Lathe {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let at = if self.profile.span == Span::NONE { span } else { self.profile.span };
-        let flat = |message: &str| {
-            Box::new(
-                Diagnostic::error(codes::NO_EXTENT, at, message)
-                    .expected("two points or more that are not the same, not all on the axis"),
-            )
-        };
         let turning = self.profile.value.turned();
-        let (points, joined) = (&turning.points, turning.joined());
-        if points.len() < if joined { 3 } else { 2 } {
-            return Err(flat("the profile of the lathe has no extent"));
-        }
-        if points.iter().all(|p| p[0] == 0.0) {
-            return Err(flat("the profile of the lathe lies on its axis"));
+        if let Some(fault) = turning.fault(at) {
+            return Err(Box::new(fault));
         }
         let segments = self.segments.value;
         let curved = self.curve == Curve::CatmullRom;
-        let mut profile = pieces(points, turning.ends, curved, TAU / f64::from(segments));
+        let mut profile = pieces(&turning.points, turning.ends, curved, TAU / f64::from(segments));
         for piece in &mut profile {
             // Where a curve would cross the axis.
             piece.from[0] = piece.from[0].max(0.0);

@@ -41,7 +41,7 @@ pub use per_axis::PerAxis;
 pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
     MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile, Radii,
-    RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within,
+    RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

@@ -54,9 +54,7 @@ impl Reader<'_> {
                 Object::Extrude(extrude) => {
                     extrude.crossing().into_iter().map(|message| crossed(message, at)).collect()
                 }
-                Object::Polygon(polygon) => {
-                    polygon.points.value.crossing().into_iter().map(|message| crossed(message, at)).collect()
-                }
+                Object::Polygon(polygon) => polygon.points.value.fault(at).into_iter().collect(),
                 _ => Vec::new(),
             };
             // What is repeated is wrong many times, and told once.
@@ -75,6 +73,9 @@ fn crossed(message: String, at: Span) -> Diagnostic {
 
 fn of_lathe(lathe: &Lathe, at: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {
     let turning = lathe.profile.value.turned();
+    if let Some(fault) = turning.fault(at) {
+        return vec![fault];
+    }
     let mut faults = Vec::new();
     if lathe.curve == Curve::CatmullRom
         && let Some(([from, to], between)) = turning.thin()

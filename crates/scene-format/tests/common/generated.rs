@@ -389,8 +389,11 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 extrude.outline.value.0[0].truncate(3);
                 extrude.curve = Curve::Linear;
             }
-            Object::Polygon(polygon) if polygon.points.value.crossing().is_some() => {
+            Object::Polygon(polygon) if polygon.points.value.fault(Span::NONE).is_some() => {
                 polygon.points.value.0.truncate(3);
+                if polygon.points.value.fault(Span::NONE).is_some() {
+                    polygon.points.value.0 = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+                }
             }
             _ => {}
         }

@@ -3,7 +3,7 @@
 use super::{Curve, Placements, points};
 use crate::codes;
 use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
 use crate::path::{Crossing, Ends, NEAR, Point, crossing, distinct, extent, least_x, pieces};
@@ -92,6 +92,19 @@ impl Profile {
 }
 
 impl Turning {
+    /// Why it passes over no surface.
+    pub fn fault(&self, at: Span) -> Option<Diagnostic> {
+        let message = if self.points.len() < if self.joined() { 3 } else { 2 } {
+            "the profile of the lathe has no extent"
+        } else if self.points.iter().all(|point| point[0] == 0.0) {
+            "the profile of the lathe lies on its axis"
+        } else {
+            return None;
+        };
+        let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
+        Some(fault.expected("two points or more that are not the same, not all on the axis"))
+    }
+
     /// The first points between which a curve through them comes much nearer to the axis than both of them are, by their written numbers, with
     /// a point between them that would prevent it, where one would.
     pub fn thin(&self) -> Option<([usize; 2], Option<Point>)> {

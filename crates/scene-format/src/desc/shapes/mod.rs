@@ -33,7 +33,7 @@ pub use lathe::{Lathe, Profile, Turning};
 pub use mesh::{Instances, Mesh, MeshSource, Shading};
 pub use pattern::PlacementPattern;
 pub use placements::{Groups, Moved, PlacementList, Placements, Within};
-pub use polygon::{Corners, Polygon};
+pub use polygon::{Corners, Polygon, no_extent};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use torus::Torus;

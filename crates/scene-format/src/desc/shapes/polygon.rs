@@ -1,11 +1,13 @@
 //! Flat polygons.
 
 use super::{Placements, points};
+use crate::codes;
 use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
-use crate::path::{Point, crossing, distinct, shown};
+use crate::path::{Point, crossing, distinct, extent, shown};
+use crate::plane::{Frame, cross, dot, sub};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
@@ -59,12 +61,34 @@ impl Corners {
         (numbers.iter().map(|&k| self.0[k]).collect(), numbers)
     }
 
+    /// Why they bound no face, as far as can be told without cutting it into triangles.
+    pub fn fault(&self, at: Span) -> Option<Diagnostic> {
+        let (corners, _) = self.distinct();
+        let crossed = || {
+            let fault = Diagnostic::error(codes::BAD_OUTLINE, at, self.crossing()?);
+            Some(fault.expected("sides that do not meet but at the points"))
+        };
+        // Two halves that go round either way have no area together.
+        let Some(frame) = Frame::of(&corners) else { return Some(crossed().unwrap_or_else(|| no_extent(at))) };
+        let places: Vec<Vec3> = corners.iter().map(|&corner| frame.place(corner)).collect();
+        let plane: Vec<Point> = places.iter().map(|&[x, y, _]| [x, y]).collect();
+        let size = extent(&plane);
+        let heights = places.iter().map(|place| place[2]);
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+        if high - low > FLAT * size {
+            let message = format!("the points of the polygon lie up to {:.2e} off one plane", high - low);
+            let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
+            let expected = format!("points in one plane, to a ten-thousandth of its size: {:.2e} here", FLAT * size);
+            return Some(fault.expected(expected).hint("bent faces are a `Mesh` with `points` and `faces`"));
+        }
+        crossed()
+    }
+
     /// Which sides cross, and where, if any do and the corners lie in one plane.
     pub fn crossing(&self) -> Option<String> {
         let (corners, numbers) = self.distinct();
         let count = corners.len();
         let origin = *corners.first()?;
-        let sub = |a: Vec3, b: Vec3| [0, 1, 2].map(|k| a[k] - b[k]);
         let from: Vec<Vec3> = corners.iter().map(|&corner| sub(corner, origin)).collect();
         let size = from.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max);
         // A bow tie's halves cancel out in Newell's normal, so that of the widest triangle at the first corner is taken.
@@ -94,12 +118,10 @@ impl Corners {
 /// Corners may lie so far off one plane, as a share of the polygon's size.
 const FLAT: f64 = 1e-4;
 
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+/// That corners lie on one line.
+pub fn no_extent(at: Span) -> Diagnostic {
+    Diagnostic::error(codes::NO_EXTENT, at, "the polygon has no extent")
+        .expected("three points or more that are not on one line")
 }
 
 /// One of them.
