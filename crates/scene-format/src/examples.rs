@@ -77,7 +77,7 @@ pub(crate) const CHOICES: [&EnumDef; 28] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials and shapes stand at
 /// their own words.
-const SNIPPETS: [(&str, &str, &str); 91] = [
+const SNIPPETS: [(&str, &str, &str); 92] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
