@@ -1,4 +1,5 @@
-//! Looking at the files that scenes name, by a thread of its own: a mesh of a million triangles must not keep an editor waiting.
+//! Looking at the files that scenes name, by a thread of its own: a mesh of a million triangles must not keep an editor
+//! waiting.
 
 use crate::diagnostics;
 use crate::documents::Document;
@@ -19,7 +20,8 @@ pub struct Looker {
 }
 
 impl Looker {
-    /// Starts it; what it finds goes to `editor`, which says whether anybody is there. It ends when nobody can ask any more.
+    /// Starts it; what it finds goes to `editor`, which says whether anybody is there. It ends when nobody can ask any
+    /// more.
     pub fn start(editor: impl Fn(Message) -> bool + Send + 'static) -> Self {
         let (documents, received) = channel();
         let newest = Versions::default();

@@ -1,7 +1,9 @@
-//! The language server of scenes: what an editor asks, answered by [`scene_format::analysis`] over the Language Server Protocol 3.17.
+//! The language server of scenes: what an editor asks, answered by [`scene_format::analysis`] over the Language Server
+//! Protocol 3.17.
 //!
-//! One thread reads and answers; looking at the files that a scene names, which may take long, is done by another one. Documents
-//! are held whole, and are sent whole when they change: scenes are small texts, and answers come from the newest one.
+//! One thread reads and answers; looking at the files that a scene names, which may take long, is done by another one.
+//! Documents are held whole, and are sent whole when they change: scenes are small texts, and answers come from the
+//! newest one.
 #![forbid(unsafe_code)]
 
 mod answers;

@@ -1,4 +1,5 @@
-//! Places in a text as editors count them: lines from 0, and columns in units of UTF-16 (or bytes, where the editor can).
+//! Places in a text as editors count them: lines from 0, and columns in units of UTF-16 (or bytes, where the editor
+//! can).
 
 use lsp_types::{Position, PositionEncodingKind, Range};
 use std::ops;

@@ -1,7 +1,7 @@
 //! The codes of all diagnostics: stable names, what each means, and how to mend it.
 //!
-//! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never changes its
-//! meaning and is never given twice.
+//! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never
+//! changes its meaning and is never given twice.
 
 mod code;
 
@@ -45,14 +45,15 @@ pub fn find(code: &str) -> Option<&'static Entry> {
 
 codes! {
     /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign
-    /// of another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and JSON.
+    /// of another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and
+    /// JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: “0”, radius: 1)])
     /// ```
     UNEXPECTED_CHARACTER "E0101" "a character that means nothing here";
-    /// A `(`, `[` or `{` has no closing partner. The mark stands at the bracket that was opened, the second mark where it was
-    /// noticed: the missing bracket belongs somewhere between the two.
+    /// A `(`, `[` or `{` has no closing partner. The mark stands at the bracket that was opened, the second mark where
+    /// it was noticed: the missing bracket belongs somewhere between the two.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)]
@@ -64,7 +65,8 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0], radius: 1)])
     /// ```
     STRAY_BRACKET "E0103" "a closing bracket does not match";
-    /// Two values stand side by side. Values in brackets are parted by commas; one after the last is allowed, but in JSON.
+    /// Two values stand side by side. Values in brackets are parted by commas; one after the last is allowed, but in
+    /// JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0) radius: 1)])
@@ -88,8 +90,8 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1, material: "red)])
     /// ```
     UNCLOSED_TEXT "E0107" "a text is never closed";
-    /// After a backslash only a few letters mean something. A backslash itself is written `\\`; in paths write `/`, it works on
-    /// every system.
+    /// After a backslash only a few letters mean something. A backslash itself is written `\\`; in paths write `/`, it
+    /// works on every system.
     ///
     /// ```ron
     /// Scene(objects: [Mesh(file: "models\cat.obj")])
@@ -103,8 +105,8 @@ codes! {
     BAD_NUMBER "E0109" "a number is malformed";
     /// Brackets stand inside brackets more than 128 deep. No scene needs that.
     TOO_DEEP "E0110" "brackets too deep";
-    /// Names of materials stand between quotes: `{ "white": Diffuse() }`. In TOML a name of other characters than letters, digits,
-    /// `_` and `-` needs them.
+    /// Names of materials stand between quotes: `{ "white": Diffuse() }`. In TOML a name of other characters than
+    /// letters, digits, `_` and `-` needs them.
     ///
     /// ```ron
     /// Scene(materials: { red: Diffuse() }, objects: [Sphere(center: (0, 0, 0), radius: 1, material: "red")])
@@ -116,7 +118,8 @@ codes! {
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)]) Scene()
     /// ```
     TEXT_AFTER_END "E0112" "text after the end";
-    /// Scene files are UTF-8 text. The message says at which byte it stops being that; an editor can save the file as UTF-8.
+    /// Scene files are UTF-8 text. The message says at which byte it stops being that; an editor can save the file as
+    /// UTF-8.
     NOT_UTF8 "E0113" "the file is not UTF-8";
     /// Scene files may have 1 GiB. A scene of that size is better written with placements files beside it.
     TOO_LARGE "E0114" "the file is too large";
@@ -157,14 +160,15 @@ codes! {
     MISSING_NAME "E0119" "a name is missing";
     /// After a thousand faults the rest is not listed: mend the first ones, the others may go with them.
     TOO_MANY "E0120" "too many faults";
-    /// Several numbers are parted by commas where one value stands. The numbers of a vector stand in brackets of their own:
-    /// `(0, 0, 0)` in RON, `[0, 0, 0]` in TOML and JSON.
+    /// Several numbers are parted by commas where one value stands. The numbers of a vector stand in brackets of their
+    /// own: `(0, 0, 0)` in RON, `[0, 0, 0]` in TOML and JSON.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: 0, 0, 0, radius: 1)])
     /// ```
     NO_BRACKETS "E0121" "a vector without brackets";
-    /// `<<<<<<<`, `=======` and `>>>>>>>` at the beginnings of lines: `git merge` leaves both versions for you to choose from.
+    /// `<<<<<<<`, `=======` and `>>>>>>>` at the beginnings of lines: `git merge` leaves both versions for you to
+    /// choose from.
     ///
     /// ```ron
     /// Scene(
@@ -181,8 +185,8 @@ codes! {
     /// program (POV-Ray, pbrt, Mitsuba). Only RON, TOML and JSON are read, each by its extension or by `--syntax`.
     OTHER_LANGUAGE "E0123" "a file in another language";
 
-    /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks like a
-    /// typo.
+    /// This part of the scene has no field of this name. The message lists those it has, and the nearest when it looks
+    /// like a typo.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0), radus: 1)])
@@ -224,15 +228,15 @@ codes! {
     /// Scene(objects: [])
     /// ```
     NO_OBJECTS "E0207" "the scene has no objects";
-    /// The scene is written for a newer version of the language than this program knows. Nothing else is said about it, since the
-    /// rest may mean something else there.
+    /// The scene is written for a newer version of the language than this program knows. Nothing else is said about it,
+    /// since the rest may mean something else there.
     ///
     /// ```ron
     /// Scene(version: 2, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     NEWER_VERSION "E0208" "a newer version of the language";
-    /// Something is written in one of several ways, and here in more than one or in none: the strength of a light, or the triangles of a mesh
-    /// (`file`, or `points` with `faces`).
+    /// Something is written in one of several ways, and here in more than one or in none: the strength of a light, or
+    /// the triangles of a mesh (`file`, or `points` with `faces`).
     ///
     /// ```ron
     /// Scene(
@@ -247,8 +251,8 @@ codes! {
     /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
-    /// `DropTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How low these reach is known when all meshes in
-    /// them have been read; drop the objects in it, or move it by `Translate`.
+    /// `DropTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How low these reach is
+    /// known when all meshes in them have been read; drop the objects in it, or move it by `Translate`.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])])
@@ -364,16 +368,17 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// A mesh file breaks the rules of its format (OBJ, OFF, PLY, STL, glTF or GLB). The message says where in the
     /// file and what was expected.
     BROKEN_MESH "E0510" "a mesh file is broken";
-    /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it was
-    /// exported with faces.
+    /// A mesh file holds no triangle: there would be nothing to see. Look whether it is the right file, and whether it
+    /// was exported with faces.
     EMPTY_MESH "E0511" "a mesh has no triangles";
-    /// A glTF file says that it cannot be understood without an extension of the format, and this one is not known here: most often
-    /// compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again without it.
+    /// A glTF file says that it cannot be understood without an extension of the format, and this one is not known
+    /// here: most often compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again
+    /// without it.
     GLTF_EXTENSION "E0513" "a glTF file requires an extension";
     /// A picture file cannot be decoded as PNG or JPEG.
     BROKEN_TEXTURE "E0520" "a texture cannot be read";
-    /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about an axis by degrees) or
-    /// 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.
+    /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about
+    /// an axis by degrees) or 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.
     ///
     /// ```text
     /// 0 0 0
@@ -387,8 +392,8 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(objects: [Mesh(file: "cat.obj", transform: [Scale(0)])])
     /// ```
     SINGULAR_TRANSFORM "E0540" "a transform that cannot be undone";
-    /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision once
-    /// the scene is brought to its middle. Bring sizes and distances closer together.
+    /// The objects lie too far apart, or differ too much in size, for one picture: beyond the range of single precision
+    /// once the scene is brought to its middle. Bring sizes and distances closer together.
     UNTRACEABLE "E0541" "a scene beyond the range of numbers";
     /// A shape without extent: a cylinder whose ends are one point, a disk whose hole is as large as itself.
     ///
@@ -402,9 +407,9 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
-    /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a `Polygon` do not lie
-    /// in one plane, or its sides cross; or the path of a `Tube` turns straight back, or one of its balls lies within the
-    /// next. Points that repeat the last one are left out before that.
+    /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a
+    /// `Polygon` do not lie in one plane, or its sides cross; or the path of a `Tube` turns straight back, or one of
+    /// its balls lies within the next. Points that repeat the last one are left out before that.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])
@@ -412,16 +417,16 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     BAD_OUTLINE "E0545" "an outline that bounds no face";
     /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
     BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
-    /// A file that `include` or an `Include` names cannot be read, or `include` names one with objects: of a library `vars` and `materials`
-    /// are taken. The objects of another scene come by `Include(file: ..)` among the objects.
+    /// A file that `include` or an `Include` names cannot be read, or `include` names one with objects: of a library
+    /// `vars` and `materials` are taken. The objects of another scene come by `Include(file: ..)` among the objects.
     ///
     /// ```ron
     /// Scene(include: ["no such library.ron"], background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     INCLUDE "E0560" "a file that cannot be included";
 
-    /// An expression, a text that begins with `=`, is not written as expressions are: numbers, names from `vars`, `+ - * / % ^`,
-    /// comparisons, functions, brackets.
+    /// An expression, a text that begins with `=`, is not written as expressions are: numbers, names from `vars`,
+    /// `+ - * / % ^`, comparisons, functions, brackets.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Sphere(center: (0, "=2*(1+3", 0), radius: 1)])
@@ -433,7 +438,8 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, "=hight", 0), radius: "=height/4")])
     /// ```
     EXPRESSION_NAME "E0602" "an unknown name in an expression";
-    /// An expression has a value of another kind than is needed there, or an operator or function does not take such values.
+    /// An expression has a value of another kind than is needed there, or an operator or function does not take such
+    /// values.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=(1, 2, 3)")])
@@ -452,9 +458,10 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// ```
     EXPRESSION_INDEX "E0605" "an item that a list does not have";
 
-    /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each other; groups stand more
-    /// than sixteen deep, or a scene has more than a hundred million objects, copies counted; more than 256 files are included; or `vars` have more than
-    /// sixteen lists within each other, or more than two hundred wait for each other.
+    /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each
+    /// other; groups stand more than sixteen deep, or a scene has more than a hundred million objects, copies counted;
+    /// more than 256 files are included; or `vars` have more than sixteen lists within each other, or more than two
+    /// hundred wait for each other.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
     /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.
     ///
@@ -480,14 +487,14 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5, energy_conserving: true)
     /// ```
     REFLECTS_MORE "W0302" "a material reflects more than it gets";
-    /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not hold it beside the
-    /// other. Bring the radiances closer together, or leave it out.
+    /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not
+    /// hold it beside the other. Bring the radiances closer together, or leave it out.
     LIGHT_TOO_DARK "W0303" "a light is too dark beside the others";
-    /// `render.indirect: Map` asks for the map of indirect light that earlier versions had. It let light through walls and is
-    /// gone; indirect light comes by paths. Leave the field out.
+    /// `render.indirect: Map` asks for the map of indirect light that earlier versions had. It let light through walls
+    /// and is gone; indirect light comes by paths. Leave the field out.
     MAP_IS_GONE "W0304" "there is no map of indirect light any more";
-    /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong way at it. Seen
-    /// from outside, the corners of a face go round counterclockwise.
+    /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong
+    /// way at it. Seen from outside, the corners of a face go round counterclockwise.
     INSIDE_OUT "W0305" "glass that is inside out";
     /// The camera stands inside an opaque ball or box in which there is no light: all that it sees is black.
     ///
@@ -508,28 +515,30 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and never back.
+    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and
+    /// never back.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
     /// ```
     OPEN_GLASS "W0310" "glass without an inside";
-    /// A `Scatter` with `spacing` found no room for all of its copies: those that it found none for in 32 tries are left out. After 256 of
-    /// them in a row no more are tried. Make the box larger, or `spacing` or `count` smaller.
+    /// A `Scatter` with `spacing` found no room for all of its copies: those that it found none for in 32 tries are
+    /// left out. After 256 of them in a row no more are tried. Make the box larger, or `spacing` or `count` smaller.
     ///
     /// ```text
     /// placements: Scatter(count: 1000, min: (0, 0, 0), max: (1, 0, 1), spacing: 0.5)
     /// ```
     FEWER_COPIES "W0311" "fewer copies than asked for";
-    /// The smooth curve through the points of a `Lathe` comes, between two of them, to less than half of their distance from the axis, or even to
-    /// the axis, where it is cut off: a stem thins to nothing. A curve swings out where long and short distances between points meet. Add a point
-    /// between the two.
+    /// The smooth curve through the points of a `Lathe` comes, between two of them, to less than half of their distance
+    /// from the axis, or even to the axis, where it is cut off: a stem thins to nothing. A curve swings out where long
+    /// and short distances between points meet. Add a point between the two.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Lathe(profile: [(0.2, 0), (0.05, 0.16), (0.05, 0.9), (0.2, 1)], curve: CatmullRom)])
     /// ```
     THIN_PROFILE "W0312" "a curve that comes too near to its axis";
-    /// The profile of a `Lathe` of glass crosses itself: what is inside of one part is outside of the other, and light is bent the wrong way there.
+    /// The profile of a `Lathe` of glass crosses itself: what is inside of one part is outside of the other, and light
+    /// is bent the wrong way there.
     ///
     /// ```ron
     /// Scene(
@@ -554,22 +563,24 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNUSED_VAR "W0402" "a var is not used";
-    /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are counted.
+    /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are
+    /// counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";
-    /// A material file (MTL) says things that this renderer cannot do, or a glTF file has materials of its own, which are not taken.
+    /// A material file (MTL) says things that this renderer cannot do, or a glTF file has materials of its own, which
+    /// are not taken.
     MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
-    /// A glTF file has more than meshes that stand still: skins, morph targets, animations, extensions that it can be read without. The
-    /// mesh is taken without them, as its nodes place it.
+    /// A glTF file has more than meshes that stand still: skins, morph targets, animations, extensions that it can be
+    /// read without. The mesh is taken without them, as its nodes place it.
     GLTF_UNSUPPORTED "W0512" "a glTF file has more than meshes that stand still";
-    /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same; pictures of other
-    /// layouts (a cube's sides, a mirror ball) look wrong so.
+    /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same;
+    /// pictures of other layouts (a cube's sides, a mirror ball) look wrong so.
     ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
     /// A texture has transparent pixels. Its colours are used, its transparency is not.
     TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
-    /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every point of it has the
-    /// colour of one corner. A pattern with `mapping: Object()` needs none.
+    /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every
+    /// point of it has the colour of one corner. A pattern with `mapping: Object()` needs none.
     NO_COORDINATES "W0521" "a texture on a mesh without texture coordinates";
-    /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as the largest number of a
-    /// half, 65504.
+    /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as
+    /// the largest number of a half, 65504.
     ENVIRONMENT_PIXELS "W0552" "pixels of an environment that no light can have";
 }

@@ -1,5 +1,5 @@
-//! From one syntax to the other, or tidied up in the same one, on the tree: so comments, the order of fields and the form of values
-//! stay as the person wrote them.
+//! From one syntax to the other, or tidied up in the same one, on the tree: so comments, the order of fields and the
+//! form of values stay as the person wrote them.
 
 use crate::codes;
 use crate::desc::Scene;
@@ -30,8 +30,9 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
     parse(text, syntax, &mut Sink::default()).comments.len()
 }
 
-/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with the person's
-/// comments, order and empty lines (one of several). What it gives it leaves as it is. `name` is shown in diagnostics.
+/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with
+/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. `name` is shown in
+/// diagnostics.
 ///
 /// # Errors
 /// As [`convert`].

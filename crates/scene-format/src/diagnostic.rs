@@ -67,7 +67,8 @@ impl<T> std::ops::Deref for Spanned<T> {
     }
 }
 
-/// One text that spans point into: a scene file, an argument of `--set`, or a mesh, texture or placements file that is wrong.
+/// One text that spans point into: a scene file, an argument of `--set`, or a mesh, texture or placements file that is
+/// wrong.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Source {
     /// The name to show (`scenes/fig4.ron`, `<stdin>`, `--set`).
@@ -85,8 +86,8 @@ pub enum Severity {
     Error,
 }
 
-/// A line in a file other than the scene (a mesh, a placements file), where no byte span into a [`Source`] is kept because the
-/// file may be large.
+/// A line in a file other than the scene (a mesh, a placements file), where no byte span into a [`Source`] is kept
+/// because the file may be large.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileLine {
     /// The file.

@@ -1,4 +1,5 @@
-//! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by tests.
+//! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by
+//! tests.
 
 use crate::desc::{
     Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
@@ -75,8 +76,8 @@ pub(crate) const CHOICES: [&EnumDef; 28] = [
     &PlacementPattern::DEF,
 ];
 
-/// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials and shapes stand at
-/// their own words.
+/// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
+/// and shapes stand at their own words.
 const SNIPPETS: [(&str, &str, &str); 92] = [
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),

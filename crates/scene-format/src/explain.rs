@@ -78,7 +78,8 @@ pub fn words() -> Vec<String> {
     words
 }
 
-/// What a word of the language means: `Sphere` with its fields, or `radius` wherever it stands. `None`: there is no such word.
+/// What a word of the language means: `Sphere` with its fields, or `radius` wherever it stands. `None`: there is no
+/// such word.
 pub fn explain_word(word: &str) -> Option<String> {
     let reference = reference();
     let pieces = pieces(&reference);

@@ -14,7 +14,8 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 /// Files that a scene includes, at most.
 pub(crate) const MOST_FILES: usize = 256;
 
-/// The bytes of a file; `None`: it has more than `most`. Of what is no regular file nobody knows the size before: no more than that is read.
+/// The bytes of a file; `None`: it has more than `most`. Of what is no regular file nobody knows the size before: no
+/// more than that is read.
 pub(crate) fn read(path: &Path, most: u64) -> std::io::Result<Option<Vec<u8>>> {
     let file = File::open(path)?;
     let size = file.metadata()?.len();

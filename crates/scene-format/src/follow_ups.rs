@@ -1,8 +1,9 @@
 //! Faults that are none: those that vanish when another one is mended.
 //!
-//! A reader that goes on after a fault guesses what was meant, and where it guesses wrong it sees faults that are not there. So what
-//! it suggests is tried: an edit that makes its own fault and others vanish, and brings no new one, shows that the others only
-//! followed from it. Where brackets or quotes do not match, the edits that people forget are tried as well.
+//! A reader that goes on after a fault guesses what was meant, and where it guesses wrong it sees faults that are not
+//! there. So what it suggests is tried: an edit that makes its own fault and others vanish, and brings no new one,
+//! shows that the others only followed from it. Where brackets or quotes do not match, the edits that people forget are
+//! tried as well.
 
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
@@ -13,7 +14,8 @@ use std::ops::Range;
 const MANY: usize = 300;
 /// Bytes that are read again at most, all trials together: a fiftieth of a second.
 const BUDGET: usize = 1 << 20;
-/// To tell of so many faults takes as long as to read the text of them: names are compared with all that is known, and with each other.
+/// To tell of so many faults takes as long as to read the text of them: names are compared with all that is known, and
+/// with each other.
 const FAULTS_OF_A_READING: usize = 32;
 /// Longer files are told as they are.
 const LONG: usize = 1 << 16;
@@ -138,8 +140,8 @@ impl Repair {
     }
 }
 
-/// Changes that may mend brackets and quotes on the lines of faults: what is too much is taken away, what is of the wrong kind
-/// replaced, what is missing added.
+/// Changes that may mend brackets and quotes on the lines of faults: what is too much is taken away, what is of the
+/// wrong kind replaced, what is missing added.
 fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
     const CLOSERS: [&str; 3] = [")", "]", "}"];
     const OPENERS: [&str; 3] = ["(", "[", "{"];
@@ -239,8 +241,8 @@ fn excess_of(byte: Option<u8>, kind: usize) -> i32 {
     i32::from(byte == Some(open)) - i32::from(byte == Some(close))
 }
 
-/// Lines whose own brackets are as uneven as those of the file, and that begin with something other than a bracket which closes: there
-/// one is likely to be missing or too many, wherever it is noticed.
+/// Lines whose own brackets are as uneven as those of the file, and that begin with something other than a bracket
+/// which closes: there one is likely to be missing or too many, wherever it is noticed.
 fn uneven_lines(text: &str, excess: [i32; 3], known: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut at = 0;
     let lines = text.split('\n').map(|line| {
@@ -289,7 +291,8 @@ fn line_around(text: &str, byte: usize) -> Range<usize> {
     start..end
 }
 
-/// Takes back edits on lines where an error of the syntax stands for which there is none: what is meant there nobody knows.
+/// Takes back edits on lines where an error of the syntax stands for which there is none: what is meant there nobody
+/// knows.
 pub(crate) fn withhold(text: &str, faults: &mut [Diagnostic]) {
     // What is missing or too much where the syntax is right hides nothing.
     let unclear = |fault: &&Diagnostic| {

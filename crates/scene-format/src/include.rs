@@ -1,5 +1,5 @@
-//! The files that a scene includes, and those that these include: found and read before the scene is, so that all of them are in
-//! memory as long as its tree.
+//! The files that a scene includes, and those that these include: found and read before the scene is, so that all of
+//! them are in memory as long as its tree.
 //!
 //! What is wrong with a file, or with a circle of them, is told by the reader at the place that names it.
 
@@ -175,8 +175,8 @@ impl Library {
         }
     }
 
-    /// Says of a fault in an included file how one gets there, where the reader did not; `first`: the number of the first such
-    /// source.
+    /// Says of a fault in an included file how one gets there, where the reader did not; `first`: the number of the
+    /// first such source.
     pub fn say_where(&self, fault: &mut Diagnostic, first: usize) {
         let file = |span: Span| (span.source as usize).checked_sub(first).and_then(|k| self.files.get(k));
         let told = |fault: &Diagnostic, from: Span| fault.labels.iter().any(|label| label.span == from);

@@ -1,7 +1,7 @@
 //! The schema as JSON Schema draft-07, for editors: completion and checks while a TOML or JSON scene is written.
 //!
-//! Draft-07 because taplo and most editors know it best: vectors are `items` with `minItems` and `maxItems`, descriptions stand
-//! beside `allOf`, since draft-07 ignores what stands beside a `$ref`.
+//! Draft-07 because taplo and most editors know it best: vectors are `items` with `minItems` and `maxItems`,
+//! descriptions stand beside `allOf`, since draft-07 ignores what stands beside a `$ref`.
 
 use crate::desc::Scene;
 use crate::examples::CHOICES;

@@ -3,9 +3,9 @@
 //! This crate knows the language (its three syntaxes, defaults, ranges, names) and nothing of rays, threads or
 //! printing.
 //!
-//! The way of a scene file: text → tape of spanned nodes (`tree`, by `syntax`) → `--set` edits (`overrides`) → checked reader
-//! (`read`, going by the schema that the macros of `words` make from the types in [`desc`]) → [`SceneDesc`] or all its faults as
-//! [`Diagnostic`]s, which [`render`] turns into text.
+//! The way of a scene file: text → tape of spanned nodes (`tree`, by `syntax`) → `--set` edits (`overrides`) → checked
+//! reader (`read`, going by the schema that the macros of `words` make from the types in [`desc`]) → [`SceneDesc`] or
+//! all its faults as [`Diagnostic`]s, which [`render`] turns into text.
 //!
 //! A program that makes scenes builds a [`SceneDesc`], and writes it in any syntax; what is written says the same
 //! when it is read:

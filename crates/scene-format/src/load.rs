@@ -52,8 +52,8 @@ fn errors(diagnostics: &Diagnostics) -> usize {
 /// Reads a scene file, its syntax told by the extension (else by what it looks like).
 ///
 /// # Errors
-/// [`LoadError::Io`] when the file cannot be read, [`LoadError::Invalid`] with every fault of it otherwise. Files that the scene
-/// names (meshes, textures) are not looked at.
+/// [`LoadError::Io`] when the file cannot be read, [`LoadError::Invalid`] with every fault of it otherwise. Files that
+/// the scene names (meshes, textures) are not looked at.
 pub fn load(path: &Path) -> Result<Loaded, LoadError> {
     load_with(path, &[])
 }
@@ -206,8 +206,8 @@ fn too_large(name: String) -> LoadError {
     }
 }
 
-/// The text of a file in UTF-16, as Windows programs save it: told by its byte order mark, or by a zero in every other byte at its
-/// beginning.
+/// The text of a file in UTF-16, as Windows programs save it: told by its byte order mark, or by a zero in every other
+/// byte at its beginning.
 fn utf16(bytes: &[u8]) -> Option<String> {
     const LOOK_AT: usize = 64;
     let head = &bytes[..bytes.len().min(LOOK_AT)];

@@ -18,8 +18,9 @@ pub struct Mended {
     pub faults: usize,
 }
 
-/// Applies what the faults of a text offer, again and again, as long as errors become fewer, or warnings where errors do not become more: a
-/// text that is mended twice is as if it were mended once. `base_dir` is where the files that it names lie.
+/// Applies what the faults of a text offer, again and again, as long as errors become fewer, or warnings where errors
+/// do not become more: a text that is mended twice is as if it were mended once. `base_dir` is where the files that it
+/// names lie.
 pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
     let look = |text: &str| -> Diagnostics {
         match load_str(name, text, syntax, base_dir, &[]) {

@@ -1,5 +1,5 @@
-//! `--set path=value`: edits of the tree before it is checked, so that the same checks apply and the carets point into the
-//! argument.
+//! `--set path=value`: edits of the tree before it is checked, so that the same checks apply and the carets point into
+//! the argument.
 #![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
 
 mod named;
@@ -16,8 +16,8 @@ use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
 use crate::words::Words;
 use std::path::Path;
 
-/// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value is written
-/// in RON, whatever the scene file is written in.
+/// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value
+/// is written in RON, whatever the scene file is written in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Override {
     /// The argument as it was given.
@@ -32,8 +32,8 @@ impl<T: Into<String>> From<T> for Override {
     }
 }
 
-/// The argument with the quotes or brackets that a shell makes hard to write: `albedo=#ff0000`, `material=gold`, `file=cat.obj`,
-/// `position=1,2,3`. `None`: it is as it is.
+/// The argument with the quotes or brackets that a shell makes hard to write: `albedo=#ff0000`, `material=gold`,
+/// `file=cat.obj`, `position=1,2,3`. `None`: it is as it is.
 fn completed(argument: &str) -> Option<String> {
     let (path, value) = argument.split_at(end_of_path(argument)? + 1);
     let value = value.trim();

@@ -83,8 +83,8 @@ pub fn extent(points: &[Point]) -> f64 {
 /// Points nearer than this share of the size of what they are points of are one.
 pub const NEAR: f64 = 1e-12;
 
-/// The numbers of the points that are left where each one that repeats the last is dropped, and where `ring`, those at the end that repeat the
-/// first. `size`: of the whole that they are points of.
+/// The numbers of the points that are left where each one that repeats the last is dropped, and where `ring`, those at
+/// the end that repeat the first. `size`: of the whole that they are points of.
 pub fn distinct<const N: usize>(points: &[[f64; N]], size: f64, ring: bool) -> Vec<usize> {
     let one = |a: usize, b: usize| {
         let apart = (0..N).map(|axis| points[a][axis] - points[b][axis]);
@@ -102,8 +102,8 @@ pub fn distinct<const N: usize>(points: &[[f64; N]], size: f64, ring: bool) -> V
     kept
 }
 
-/// Cuts the path through these points, no two neighbours of which are equal, into pieces: straight ones, or of a centripetal Catmull-Rom curve
-/// those that turn by at most `step` (radians) each.
+/// Cuts the path through these points, no two neighbours of which are equal, into pieces: straight ones, or of a
+/// centripetal Catmull-Rom curve those that turn by at most `step` (radians) each.
 pub fn pieces<const N: usize>(points: &[[f64; N]], ends: Ends, curved: bool, step: f64) -> Vec<Piece<N>> {
     let mut pieces = Vec::new();
     if curved {
@@ -156,8 +156,8 @@ struct Span<const N: usize> {
 }
 
 impl<const N: usize> Span<N> {
-    /// Centripetal Catmull-Rom between the two points in the middle (Yuksel, Schaefer, Keyser: "Parameterization and applications of
-    /// Catmull-Rom curves", 2011), as Hermite's cubic.
+    /// Centripetal Catmull-Rom between the two points in the middle (Yuksel, Schaefer, Keyser: "Parameterization and
+    /// applications of Catmull-Rom curves", 2011), as Hermite's cubic.
     fn new([a, b, c, d]: [[f64; N]; 4]) -> Self {
         let knots = [sub(b, a), sub(c, b), sub(d, c)].map(|side| length(side).sqrt());
         let slope = |axis: usize, p: [[f64; N]; 3], [first, second]: [f64; 2]| {
@@ -243,7 +243,8 @@ pub struct Crossing {
 /// Pairs of sides that are looked at, at most: a fraction of a second.
 const MOST_PAIRS: usize = 2_000_000;
 
-/// The first two sides that cross within both of them; `None` also where there are too many to tell soon. Sides that only touch do not cross.
+/// The first two sides that cross within both of them; `None` also where there are too many to tell soon. Sides that
+/// only touch do not cross.
 pub fn crossing(sides: &[[Point; 2]]) -> Option<Crossing> {
     let low = |k: usize, axis: usize| sides[k][0][axis].min(sides[k][1][axis]);
     let high = |k: usize, axis: usize| sides[k][0][axis].max(sides[k][1][axis]);

@@ -1,4 +1,5 @@
-//! The reference of the scene language and of its diagnostics, as Markdown: made from the same schema that the reader goes by.
+//! The reference of the scene language and of its diagnostics, as Markdown: made from the same schema that the reader
+//! goes by.
 
 use crate::codes::CODES;
 use crate::desc::Scene;

@@ -1,6 +1,7 @@
 //! Diagnostics as text for people (source line, caret, what was expected, a hint) and as JSON lines for editors.
 //!
-//! Nothing is printed here: the functions return strings, and the caller says whether there are colours and how wide the terminal is.
+//! Nothing is printed here: the functions return strings, and the caller says whether there are colours and how wide
+//! the terminal is.
 
 use crate::diagnostic::{Diagnostic, Edit, Severity, Source, Span};
 use annotate_snippets::renderer::{DEFAULT_TERM_WIDTH, DecorStyle};
@@ -356,8 +357,8 @@ struct JsonEdit<'d> {
     replacement: &'d str,
 }
 
-/// All diagnostics as JSON, one object a line. Lines and columns count from 1 (columns in characters), bytes from 0; `end` is
-/// one past the last.
+/// All diagnostics as JSON, one object a line. Lines and columns count from 1 (columns in characters), bytes from 0;
+/// `end` is one past the last.
 pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
     let lines = lines(sources);
     let place = |span: Span| -> Option<JsonPlace<'_>> {
@@ -408,7 +409,8 @@ pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
     out
 }
 
-/// All diagnostics as annotations that GitHub's Actions show in the changed lines of a pull request: one workflow command a line.
+/// All diagnostics as annotations that GitHub's Actions show in the changed lines of a pull request: one workflow
+/// command a line.
 pub fn github_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
     // As the runner decodes them.
     let escaped = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");

@@ -1,5 +1,5 @@
-//! The schema: types, fields, defaults, units and ranges as data. The macros of `words` make it from the Rust types and their doc
-//! comments; the reader, the writer, the JSON Schema and the reference all go by it.
+//! The schema: types, fields, defaults, units and ranges as data. The macros of `words` make it from the Rust types and
+//! their doc comments; the reader, the writer, the JSON Schema and the reference all go by it.
 
 use crate::files::FileKind;
 use crate::form::Form;

@@ -5,8 +5,8 @@ const MAX_DISTANCE: usize = 2;
 
 /// The candidate that `word` most probably stands for, if any is near enough.
 ///
-/// Near is: the same but for case and `_`/`-`, or at most two edits (a swap of neighbours is one). Among equals the one that
-/// begins alike wins, then the one of nearer length, then the first.
+/// Near is: the same but for case and `_`/`-`, or at most two edits (a swap of neighbours is one). Among equals the one
+/// that begins alike wins, then the one of nearer length, then the first.
 pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // Nobody mistypes such a word, and the distance takes quadratic time.
     if word.len() > 64 {

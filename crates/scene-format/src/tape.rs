@@ -3,11 +3,12 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// Entries of one chunk. A chunk of nodes takes 256 KB: so much the system's allocator gives back at once when it is released.
+/// Entries of one chunk. A chunk of nodes takes 256 KB: so much the system's allocator gives back at once when it is
+/// released.
 const CHUNK: usize = 1 << 14;
 
-/// A list in chunks of equal size. Entries are read by value, so that what was read for the last time can be released while the
-/// list is shared.
+/// A list in chunks of equal size. Entries are read by value, so that what was read for the last time can be released
+/// while the list is shared.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape<T> {
     chunks: Vec<RefCell<Vec<T>>>,
@@ -78,8 +79,8 @@ impl<T: Copy> Tape<T> {
         (0..self.length).filter_map(|index| self.get(index))
     }
 
-    /// Gives back the memory of entries that nobody will read any more, as far as whole chunks lie in the range. Gives the first
-    /// entry of the range that is still there.
+    /// Gives back the memory of entries that nobody will read any more, as far as whole chunks lie in the range. Gives
+    /// the first entry of the range that is still there.
     pub fn release(&self, range: Range<usize>) -> usize {
         let (first, last) = (range.start.div_ceil(CHUNK), range.end / CHUNK);
         for chunk in self.chunks.get(first..last).unwrap_or_default() {

@@ -1,11 +1,12 @@
 //! The spanned syntax tree: one tree type for all syntaxes, before any word of it has a meaning.
 //!
-//! The tree is a tape of 16-byte nodes in the order of writing (a node is followed by its children), so that reading a scene of
-//! 10^5 objects allocates nothing per node. Nodes hold positions only; names, numbers and texts are read from the source text
-//! when somebody asks.
+//! The tree is a tape of 16-byte nodes in the order of writing (a node is followed by its children), so that reading a
+//! scene of 10^5 objects allocates nothing per node. Nodes hold positions only; names, numbers and texts are read from
+//! the source text when somebody asks.
 //!
-//! TOML may go on with a table after others were written. What comes later stands in an `Added` node where it was written: it
-//! belongs not to the node around it but to the table that `added` names, after what that table has already.
+//! TOML may go on with a table after others were written. What comes later stands in an `Added` node where it was
+//! written: it belongs not to the node around it but to the table that `added` names, after what that table has
+//! already.
 
 use crate::diagnostic::Span;
 use crate::syntax::{Syntax, decode};
@@ -52,7 +53,8 @@ pub(crate) enum Kind {
     DottedTable,
     /// `[[name]]` in TOML; to readers a `List`.
     TableList,
-    /// What belongs to a table elsewhere; `start` is the next node of this kind for the same table. Readers never see it.
+    /// What belongs to a table elsewhere; `start` is the next node of this kind for the same table. Readers never see
+    /// it.
     Added,
 }
 
@@ -354,8 +356,8 @@ impl<'t, 's> Item<'t, 's> {
         Children { tree: self.tree, index, end, added, begin: index }
     }
 
-    /// Gives back the memory of children that were read for the last time: those from `begin` to this one, which stand in one piece.
-    /// Gives where the next that can be given back begin.
+    /// Gives back the memory of children that were read for the last time: those from `begin` to this one, which stand
+    /// in one piece. Gives where the next that can be given back begin.
     pub fn release_before(&self, begin: usize) -> usize {
         self.tree.nodes.release(begin..self.index)
     }

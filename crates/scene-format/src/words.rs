@@ -1,7 +1,8 @@
-//! The macros that make the language's types: from one declaration come the Rust type, its schema, its reader and its writer.
+//! The macros that make the language's types: from one declaration come the Rust type, its schema, its reader and its
+//! writer.
 //!
-//! A field is `name: Type = default => rule;` with its doc comment; without a default it must be written, without a rule any
-//! value of the type will do.
+//! A field is `name: Type = default => rule;` with its doc comment; without a default it must be written, without a
+//! rule any value of the type will do.
 
 use crate::form::Form;
 use crate::read::Reader;
@@ -223,8 +224,8 @@ macro_rules! scene_enum {
     };
 }
 
-/// A choice between kinds that are types of their own, one line each: what is told of a kind stands at its type. What is asked of all
-/// of them is a trait, which `words` gives.
+/// A choice between kinds that are types of their own, one line each: what is told of a kind stands at its type. What
+/// is asked of all of them is a trait, which `words` gives.
 macro_rules! scene_kinds {
     (
         $(#[doc = $doc:literal])+

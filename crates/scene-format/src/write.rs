@@ -61,11 +61,13 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
     form
 }
 
-/// SHA-256 over what the scene says: every field that differs from its default, with its value; not how it is written, nor where.
+/// SHA-256 over what the scene says: every field that differs from its default, with its value; not how it is written,
+/// nor where.
 ///
-/// A field that has its default counts as not written, so that a field that the language gets later changes no hash of today. (A
-/// default never changes within a version of the language.) Two scenes have the same hash when they have the same fields with the same numbers, whatever the syntax, the order of
-/// materials and of fields, the comments, or the form of the numbers. Files that a scene names count by their names alone.
+/// A field that has its default counts as not written, so that a field that the language gets later changes no hash of
+/// today. (A default never changes within a version of the language.) Two scenes have the same hash when they have the
+/// same fields with the same numbers, whatever the syntax, the order of materials and of fields, the comments, or the
+/// form of the numbers. Files that a scene names count by their names alone.
 pub fn hash(scene: &SceneDesc) -> [u8; 32] {
     let mut hasher = Sha256::new();
     hasher.update(b"tracer scene 1");

@@ -1,6 +1,8 @@
-//! Broken scene files and the exact text that is said about each: `broken/<syntax>/<name>.<syntax>` with `<name>.txt` beside it.
+//! Broken scene files and the exact text that is said about each: `broken/<syntax>/<name>.<syntax>` with `<name>.txt`
+//! beside it.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p scene-format --test broken` writes the texts anew; read the difference before committing it.
+//! `UPDATE_EXPECT=1 cargo test -p scene-format --test broken` writes the texts anew; read the difference before
+//! committing it.
 
 use scene_format::{LoadError, Syntax, load_bytes, render};
 use std::collections::BTreeSet;

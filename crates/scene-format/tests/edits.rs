@@ -1,4 +1,5 @@
-//! Each edit that is offered makes a file better: every stored broken scene, every edit of it by itself, and all of them together.
+//! Each edit that is offered makes a file better: every stored broken scene, every edit of it by itself, and all of
+//! them together.
 
 use scene_format::diagnostic::Edit;
 use scene_format::{Diagnostic, LoadError, Severity, Syntax, load_bytes, render};

@@ -1,4 +1,5 @@
-//! Files that a scene includes: whose names win, where paths start, what is said of faults, and that nothing goes on for ever.
+//! Files that a scene includes: whose names win, where paths start, what is said of faults, and that nothing goes on
+//! for ever.
 
 use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
 use scene_format::{FileKind, LoadError, Loaded, Override, Syntax, convert, hash_hex, load, load_with};
@@ -190,7 +191,8 @@ fn scenes_in_scenes_in_scenes_end_soon() {
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }
 
-/// One file without the list around it: one error, and the edit mends it; the names that it would have brought are not missed.
+/// One file without the list around it: one error, and the edit mends it; the names that it would have brought are not
+/// missed.
 #[test]
 fn a_file_without_its_list_is_one_error() {
     for (name, syntax, text) in [

@@ -12,8 +12,8 @@ use std::time::Instant;
 /// Counts the bytes in use and their peak.
 struct Counting;
 
-/// What a piece of memory takes from the system, as the allocator of glibc hands it out: 8 bytes for its length, in steps of 16, at
-/// least 32.
+/// What a piece of memory takes from the system, as the allocator of glibc hands it out: 8 bytes for its length, in
+/// steps of 16, at least 32.
 fn taken(bytes: usize) -> usize {
     (bytes + 8).next_multiple_of(16).max(32)
 }
@@ -68,8 +68,8 @@ static ALLOCATOR: Counting = Counting;
 
 /// Bytes of each file; `SCENE_MEMORY=64` makes each 64 MB long.
 const SIZE: usize = 4 << 20;
-/// What a file may take beyond ten times its bytes is 64 MB. A file of `SIZE` has no reason to need more than a fifth of them, for a
-/// thousand diagnostics, chunks that are not full and small tables.
+/// What a file may take beyond ten times its bytes is 64 MB. A file of `SIZE` has no reason to need more than a fifth
+/// of them, for a thousand diagnostics, chunks that are not full and small tables.
 const BEYOND: usize = 12 << 20;
 
 /// The shortest pieces that give the largest trees; `#` becomes a name that no other piece has.

@@ -431,7 +431,8 @@ fn points_at(fault: &Diagnostic, broken: &str, at: usize) -> bool {
     ends || seen(&fault.span) || fault.labels.iter().any(|label| seen(&label.span))
 }
 
-/// Whether a bracket is told to be one too many, and nothing is wrong without it: of two in a row, on two lines, it may be either.
+/// Whether a bracket is told to be one too many, and nothing is wrong without it: of two in a row, on two lines, it may
+/// be either.
 fn may_go(fault: &Diagnostic, broken: &str, syntax: Syntax) -> bool {
     fault.code == "E0103"
         && fault.edit.as_ref().is_some_and(|edit| {
@@ -466,8 +467,8 @@ fn scenes() -> Vec<(String, String)> {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "ron") {
                 let text = std::fs::read_to_string(&path).expect("a scene");
-                // Names that a scene gives itself are free: a mistake in one is told where it is used (`one_fault.rs`, `broken`).
-                // The files that one includes do not lie beside it here.
+                // Names that a scene gives itself are free: a mistake in one is told where it is used (`one_fault.rs`,
+                // `broken`). The files that one includes do not lie beside it here.
                 if text.contains("vars:") || text.contains("nclude") {
                     continue;
                 }

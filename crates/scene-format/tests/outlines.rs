@@ -14,7 +14,8 @@ fn codes(objects: &str) -> Vec<String> {
     }
 }
 
-/// What is right is left alone: corners that touch their neighbours, profiles that go along the axis, vases with a waist.
+/// What is right is left alone: corners that touch their neighbours, profiles that go along the axis, vases with a
+/// waist.
 #[test]
 fn what_is_meant_is_not_told() {
     for object in [

@@ -5,7 +5,8 @@ mod common;
 use common::load;
 use scene_format::{LoadError, Syntax, convert, hash};
 
-/// `Repeat` says the same as its items written out, wherever a list stands, in both syntaxes; the converter keeps it with its comments.
+/// `Repeat` says the same as its items written out, wherever a list stands, in both syntaxes; the converter keeps it
+/// with its comments.
 #[test]
 fn repetitions_say_what_they_stand_for() {
     let short = r#"Scene(

@@ -58,7 +58,8 @@ fn the_full_scenes_are_the_same_and_their_hash_stays() {
     assert_eq!(plain(ron.clone()), plain(toml.clone()));
     assert_eq!(hash_hex(&ron), hash_hex(&toml));
     assert_eq!(plain(read(FULL_JSON, Syntax::Json)), plain(toml));
-    // Fields at their default are left out of it, so that version 1 files keep their hash when the language gets new fields.
+    // Fields at their default are left out of it, so that version 1 files keep their hash when the language gets new
+    // fields.
     let shown = to_text(&ron, Syntax::Ron, Defaults::Shown);
     assert_eq!(hash_hex(&read(&shown, Syntax::Ron)), hash_hex(&ron));
     assert_eq!(hash_hex(&ron), "49b55913529e6d0e1b6b07bfcacabea51e0c84883c4319ef21ea4ea7ec0d523d");

@@ -1,4 +1,5 @@
-//! Coverage: the share of a pixel that hides the background. It is one where something is hit, glass and mirrors included.
+//! Coverage: the share of a pixel that hides the background. It is one where something is hit, glass and mirrors
+//! included.
 
 use super::{FirstHit, PictureLayer, Pixel};
 use crate::lanes::Lanes;

@@ -379,7 +379,8 @@ fn what_makes_no_polygon_is_told() {
         told(&crossing)
     );
     let bow_tie = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let expected = "E0545 the polygon crosses itself: the side from points[0] to points[1] crosses that from points[2] to points[3] at (0.5, 0.5, 0)";
+    let expected = "E0545 the polygon crosses itself: the side from points[0] to points[1] crosses \
+                    that from points[2] to points[3] at (0.5, 0.5, 0)";
     assert_eq!(told(&bow_tie), expected);
 }
 

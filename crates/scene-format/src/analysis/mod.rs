@@ -1,7 +1,9 @@
-//! What an editor asks about a scene while it is written: what may stand here, what a word means, where a name is defined.
+//! What an editor asks about a scene while it is written: what may stand here, what a word means, where a name is
+//! defined.
 //!
-//! Everything goes by the schema, so that a new word needs nothing here. Places are bytes of the text. Texts may be wrong or
-//! half written: what stands before the cursor is read by `place`, whole texts by the reader's own tree, as far as it goes.
+//! Everything goes by the schema, so that a new word needs nothing here. Places are bytes of the text. Texts may be
+//! wrong or half written: what stands before the cursor is read by `place`, whole texts by the reader's own tree, as
+//! far as it goes.
 
 mod colors;
 mod complete;

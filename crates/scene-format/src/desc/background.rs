@@ -60,8 +60,8 @@ impl From<Color> for Background {
 }
 
 scene_struct! {
-    /// Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera looks by default, to -z, what
-    /// is right of there to +x, and its top row at `up`.
+    /// Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera
+    /// looks by default, to -z, what is right of there to +x, and its top row at `up`.
     pub struct Environment as "Environment", "an environment" {
         /// HDR, EXR, PNG or JPEG, relative to the scene file; twice as wide as it is high.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Environment);

@@ -44,8 +44,8 @@ scene_enum! {
 scene_struct! {
     /// A thin lens: a disc-shaped aperture, sharp at the plane of focus.
     pub struct ThinLens as "ThinLens", "a thin lens" {
-        /// Diameter of the lens, in the scene's unit: a point at distance d along the view axis is blurred to a disc that is
-        /// aperture * |d - focus_distance| / d across in the plane of focus.
+        /// Diameter of the lens, in the scene's unit: a point at distance d along the view axis is blurred to a disc
+        /// that is aperture * |d - focus_distance| / d across in the plane of focus.
         aperture: Spanned<f64> => Rule::within("a length", 0.0, 1e12).unit("in the scene's unit");
         /// Distance from the eye to the plane of focus, along the view axis.
         focus_distance: Spanned<f64> => Rule::length("a length");

@@ -1,8 +1,8 @@
 //! Groups: objects and lights that are moved and copied as one.
 //!
 //! A description knows no groups: what stands in one is read as plain objects that remember where their groups put them
-//! ([`Placements::Within`]), so that nobody after the reader has to walk a tree, and a mesh in a group of a thousand copies is a mesh
-//! with a thousand copies. Lights of a group are spheres that shine to both sides, which is the same.
+//! ([`Placements::Within`]), so that nobody after the reader has to walk a tree, and a mesh in a group of a thousand
+//! copies is a mesh with a thousand copies. Lights of a group are spheres that shine to both sides, which is the same.
 
 use super::{
     Amount, Emission, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements,
@@ -28,11 +28,12 @@ scene_struct! {
         objects: Objects = Objects(Vec::new());
         /// The material of those objects in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
-        /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are
-        /// about the origin. A group has no `DropTo`.
+        /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without
+        /// `about` are about the origin. A group has no `DropTo`.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name
-        /// of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A
+        /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a
+        /// rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// Lights that move with it. Each copy has one, as bright as it is written.
         lights: Vec<Spanned<Light>> = Vec::new();
@@ -152,7 +153,8 @@ fn group(reader: &mut Reader<'_>, chosen: &Chosen<'_, '_>, at: Span) -> Option<V
     if moved(reader, words.transform, words.placements, &mut objects) { Some(objects) } else { None }
 }
 
-/// Puts objects where a group with this transform and these placements puts them. `false`: it cannot, which is reported.
+/// Puts objects where a group with this transform and these placements puts them. `false`: it cannot, which is
+/// reported.
 pub(crate) fn moved(
     reader: &mut Reader<'_>,
     transform: Vec<Spanned<Transform>>,

@@ -41,8 +41,8 @@ pub enum Emission {
 }
 
 scene_struct! {
-    /// A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`, `radiance` and
-    /// `power`.
+    /// A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`,
+    /// `radiance` and `power`.
     pub(crate) struct SphereLightWords as "SphereLight", "a sphere light", exactly one of [intensity, radiance, power] {
         /// Centre.
         center: Spanned<Vec3> => Rule::point();

@@ -4,8 +4,8 @@
 //! values per channel. All of it is serde's (`serde_types`): nothing is derived, since what is read goes through the
 //! spanned tree and its checks, whoever reads.
 //!
-//! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones that the
-//! reader goes by and that the reference and the JSON Schema show.
+//! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones
+//! that the reader goes by and that the reference and the JSON Schema show.
 
 mod background;
 mod effects;
@@ -105,10 +105,11 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
-        /// Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of two files those
-        /// of the later. Paths in a file start from its folder.
+        /// Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of
+        /// two files those of the later. Paths in a file start from its folder.
         include: Includes = Includes => Rule::file(FileKind::Scene);
-        /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
+        /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour
+        /// or truth value.
         vars: Vars = Vars;
         /// The camera.
         camera: Camera = Camera::default();

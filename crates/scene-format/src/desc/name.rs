@@ -6,7 +6,8 @@ use crate::schema::{FieldDef, Type};
 use crate::tree::Item;
 use crate::words::Words;
 
-/// What an object or a light is called, if anything. Eight bytes long, as a scene may have millions of things without a name.
+/// What an object or a light is called, if anything. Eight bytes long, as a scene may have millions of things without a
+/// name.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 #[allow(clippy::box_collection, reason = "a text by itself is three words long")]
 pub struct Name(Option<Box<String>>);

@@ -8,47 +8,51 @@ use crate::words::{scene_struct, scene_words};
 scene_struct! {
     /// What is written beside the picture.
     pub struct Output as "Output", "the output" {
-        /// Layers that EXR files get beside the picture: what camera rays hit first. The picture is the same with and without them.
+        /// Layers that EXR files get beside the picture: what camera rays hit first. The picture is the same with and
+        /// without them.
         layers: Vec<Layer> = Vec::new();
-        /// Leaves the background out, to lay the picture over another one: PNG and EXR files say how much of each pixel is covered. It still
-        /// lights the scene, and shows in mirrors and through glass.
+        /// Leaves the background out, to lay the picture over another one: PNG and EXR files say how much of each pixel
+        /// is covered. It still lights the scene, and shows in mirrors and through glass.
         alpha: bool = false;
-        /// A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still
-        /// lights the scene, and shows in mirrors and through glass.
+        /// A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white
+        /// paper. The background still lights the scene, and shows in mirrors and through glass.
         backdrop: Option<Spanned<Color>> = None => Rule::share();
     }
 }
 
 scene_words! {
-    /// A layer of the picture: of what camera rays hit first, averaged over a pixel's samples as the picture is unless it says otherwise. Not
-    /// developed: exposure and tone map are the picture's.
+    /// A layer of the picture: of what camera rays hit first, averaged over a pixel's samples as the picture is unless
+    /// it says otherwise. Not developed: exposure and tone map are the picture's.
     pub enum Layer, "layer" {
-        /// The surface's colour as it is without light, from textures too: the albedo, of mirrors the reflectance, of glass the
-        /// transmittance. Black where nothing is hit and where lamps are.
+        /// The surface's colour as it is without light, from textures too: the albedo, of mirrors the reflectance, of
+        /// glass the transmittance. Black where nothing is hit and where lamps are.
         Albedo,
-        /// The unit shading normal in the scene's axes, on the viewer's side. Zero where nothing is hit, so that it is shorter than one
-        /// at edges.
+        /// The unit shading normal in the scene's axes, on the viewer's side. Zero where nothing is hit, so that it is
+        /// shorter than one at edges.
         Normal,
-        /// The distance from the eye along the view axis, as `focus_distance` is measured: the mean over the samples that hit something,
-        /// infinite where none does.
+        /// The distance from the eye along the view axis, as `focus_distance` is measured: the mean over the samples
+        /// that hit something, infinite where none does.
         Depth,
-        /// The point that is hit, in the scene's axes and unit: the mean over the samples that hit something, zero where none does.
+        /// The point that is hit, in the scene's axes and unit: the mean over the samples that hit something, zero
+        /// where none does.
         Position,
-        /// Texture coordinates before a texture's mapping, u to the right, v upwards: the mean over the samples that hit something. Zero
-        /// where none does and on meshes without any.
+        /// Texture coordinates before a texture's mapping, u to the right, v upwards: the mean over the samples that
+        /// hit something. Zero where none does and on meshes without any.
         Uv,
-        /// What the surface itself sends to the viewer, in W/(sr m^2): lamps. Zero elsewhere, also where the background is seen.
+        /// What the surface itself sends to the viewer, in W/(sr m^2): lamps. Zero elsewhere, also where the background
+        /// is seen.
         Emission,
-        /// The object at the sample nearest to the pixel's centre: 1 for the first of `objects` and so on, what a `Repeat` makes one by
-        /// one; then the lamps of `lights`. 0: nothing is hit.
+        /// The object at the sample nearest to the pixel's centre: 1 for the first of `objects` and so on, what a
+        /// `Repeat` makes one by one; then the lamps of `lights`. 0: nothing is hit.
         ObjectId,
-        /// The material at the sample nearest to the pixel's centre: 1 for the first of `materials` and so on, then those without a
-        /// name there. 0: nothing is hit, or a lamp of `lights`.
+        /// The material at the sample nearest to the pixel's centre: 1 for the first of `materials` and so on, then
+        /// those without a name there. 0: nothing is hit, or a lamp of `lights`.
         MaterialId,
-        /// Estimated variance of the pixel's mean luminance, in the square of W/(sr m^2), were its samples independent: how noisy it
-        /// still is. Zero below two samples.
+        /// Estimated variance of the pixel's mean luminance, in the square of W/(sr m^2), were its samples independent:
+        /// how noisy it still is. Zero below two samples.
         Variance,
-        /// The share of the pixel's samples that hit something, mirrors and glass included: 0 where the background is seen, between at edges.
+        /// The share of the pixel's samples that hit something, mirrors and glass included: 0 where the background is
+        /// seen, between at edges.
         Alpha,
     }
 }

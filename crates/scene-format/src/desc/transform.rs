@@ -44,7 +44,8 @@ scene_enum! {
         Scale as "a scaling" bare factor {
             /// One factor, or one per axis; negative ones mirror.
             factor: Factor => Rule::within("a factor", -1e9, 1e9);
-            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin.
+            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the
+            /// origin.
             about: Option<Vec3> = None => Rule::point();
         };
         /// Rotates by the right-hand rule.
@@ -53,7 +54,8 @@ scene_enum! {
             axis: Vec3 => Rule::direction();
             /// Angle in degrees.
             degrees: f64 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
-            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin.
+            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the
+            /// origin.
             about: Option<Vec3> = None => Rule::point();
         };
         /// Moves along y so that the lowest point lies at this height.

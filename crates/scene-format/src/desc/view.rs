@@ -34,8 +34,8 @@ scene_struct! {
     pub struct Render as "Render", "`Render`" {
         /// Camera samples per pixel.
         samples: Spanned<u32> = 64u32 => Rule::within("a whole number", 1.0, 1_000_000_000.0);
-        /// Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces,
-        /// and one more to a light.
+        /// Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through
+        /// surfaces, and one more to a light.
         max_bounces: Spanned<u32> = 5u32 => Rule::within("a whole number", 0.0, 1_000_000.0);
         /// Seed of all random choices.
         seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);
@@ -49,15 +49,17 @@ scene_struct! {
         caustics: Caustics = Caustics::Photons;
         /// How light comes to second vertices over further surfaces.
         indirect: Indirect = Indirect::Paths;
-        /// The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more
-        /// than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light
-        /// with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one
-        /// light path brings (`caustics`) counts at most as much; a caustic of many may be brighter.
+        /// The most that one camera sample counts: where the largest channel of what it has found, lamps in view
+        /// included, is more than this (before exposure), all three are scaled down together, so that the hue stays.
+        /// That takes fireflies, and their light with them: such pixels stay too dark however many samples follow. The
+        /// report says how much was taken. `None` takes nothing. What one light path brings (`caustics`) counts at most
+        /// as much; a caustic of many may be brighter.
         clamp: Option<Spanned<f64>> = None => Rule::length("a radiance").unit("in W/(sr m^2)");
-        /// The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to
-        /// the mean luminance, as the report has it. 0.01 is hardly seen. It is a bound from above, since samples are stratified: 1.2 to 2.1
-        /// times the true error on figures 4, 6 and 8, more where the edge of a bright lamp is in view (4.6 in Cornell's box). `samples` are the most. It is looked at with 16, 32, 64, 128, 192, ..
-        /// samples, so the picture depends on nothing else. `None`: all samples.
+        /// The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their
+        /// standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is a bound
+        /// from above, since samples are stratified: 1.2 to 2.1 times the true error on figures 4, 6 and 8, more where
+        /// the edge of a bright lamp is in view (4.6 in Cornell's box). `samples` are the most. It is looked at with
+        /// 16, 32, 64, 128, 192, .. samples, so the picture depends on nothing else. `None`: all samples.
         noise: Option<Spanned<f64>> = None => Rule::between("a relative error", 0.0, 1.0);
         /// The rendering ends when the program has run so long. `samples` are the most. `None`: all samples.
         time: Option<Spanned<f64>> = None => Rule::length("a time").unit("in seconds");
@@ -81,8 +83,8 @@ scene_words! {
     pub enum Integrator, "integrator" {
         /// Path tracing with all that `reuse` and `caustics` say. Right on average, too.
         Full,
-        /// The plain path tracer, whatever `reuse` and `caustics` say: every pixel for itself, no ray guided; right on average with any
-        /// number of samples, unless `clamp` is written.
+        /// The plain path tracer, whatever `reuse` and `caustics` say: every pixel for itself, no ray guided; right on
+        /// average with any number of samples, unless `clamp` is written.
         Path,
     }
 }
@@ -90,10 +92,11 @@ scene_words! {
 scene_words! {
     /// Whether the pixels of a block share what they find. The picture is right on average either way.
     pub enum Reuse, "reuse" {
-        /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time in the light that
-        /// one matt surface throws on another. Light gathered by mirrors and glass (caustics) gains nothing from it, for it stays
-        /// with the pixel whose path has found it; `render.caustics` is for that. Under a background this is done indoors: in
-        /// all blocks where a trial finds that nine in ten paths meet a second matt surface, in none where it is six.
+        /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time in the
+        /// light that one matt surface throws on another. Light gathered by mirrors and glass (caustics) gains nothing
+        /// from it, for it stays with the pixel whose path has found it; `render.caustics` is for that. Under a
+        /// background this is done indoors: in all blocks where a trial finds that nine in ten paths meet a second matt
+        /// surface, in none where it is six.
         Blocks,
         /// Every pixel for itself, as denoisers expect it.
         None,
@@ -103,9 +106,10 @@ scene_words! {
 scene_words! {
     /// How light comes over mirrors, glass and shiny lobes to matt surfaces: the bright curves under a glass ball, say.
     pub enum Caustics, "caustics" {
-        /// Photons are sent from the lights over mirrors and glass, and tell where rays from other surfaces are aimed. They bring no light
-        /// themselves. Light paths bring it to surfaces that the camera sees. Each way counts by how likely it was, so the picture is right on
-        /// average. What mirrors and glass show of lamps is sampled four times as often.
+        /// Photons are sent from the lights over mirrors and glass, and tell where rays from other surfaces are aimed.
+        /// They bring no light themselves. Light paths bring it to surfaces that the camera sees. Each way counts by
+        /// how likely it was, so the picture is right on average. What mirrors and glass show of lamps is sampled four
+        /// times as often.
         Photons,
         /// By the rays that happen to meet a light: right on average, and slow to become smooth.
         None,
@@ -113,7 +117,8 @@ scene_words! {
 }
 
 scene_words! {
-    /// How light comes to the second vertices of paths over three surfaces and more. There was a choice in earlier versions.
+    /// How light comes to the second vertices of paths over three surfaces and more. There was a choice in earlier
+    /// versions.
     pub enum Indirect, "indirect" {
         /// Read as `Paths`: the map of earlier versions let light through walls.
         Map,

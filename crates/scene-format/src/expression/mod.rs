@@ -1,7 +1,7 @@
 //! Expressions: texts that begin with `=` where a number, a vector, a colour or a truth value may stand.
 //!
-//! Total: no loops, no functions of one's own, at most [`MAX_BYTES`] long and [`MAX_DEPTH`] deep, so every one ends soon. The same on every
-//! machine: own `libm`, angles in degrees.
+//! Total: no loops, no functions of one's own, at most [`MAX_BYTES`] long and [`MAX_DEPTH`] deep, so every one ends
+//! soon. The same on every machine: own `libm`, angles in degrees.
 
 mod functions;
 mod parse;

@@ -87,7 +87,8 @@ fn collect<'t, 's>(
 }
 
 impl Setter {
-    /// Goes on from the light of a group, where `lights.NAME` is none of the scene's own `lights`; `None`: it is for nobody here.
+    /// Goes on from the light of a group, where `lights.NAME` is none of the scene's own `lights`; `None`: it is for
+    /// nobody here.
     pub(super) fn find_light_in_group(
         &self,
         root: Item<'_, '_>,

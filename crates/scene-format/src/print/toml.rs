@@ -103,8 +103,8 @@ fn fits(entry: &Entry) -> bool {
     !has_comments(&entry.value) && key(&entry.name).len() + 3 + toml_value(&entry.value).chars().count() <= WIDTH
 }
 
-/// `name = value`; lists that are long or hold comments take several lines. Tables in braces cannot, so that the comments in
-/// them move up before the line.
+/// `name = value`; lists that are long or hold comments take several lines. Tables in braces cannot, so that the
+/// comments in them move up before the line.
 fn line(out: &mut String, entry: &Entry) {
     let at_head =
         out.is_empty() || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
@@ -136,7 +136,8 @@ fn line(out: &mut String, entry: &Entry) {
     end_line(out, entry.after.as_deref());
 }
 
-/// Comments that stand inside a value that will be on one line; those of a list's own items stay when it has several lines.
+/// Comments that stand inside a value that will be on one line; those of a list's own items stay when it has several
+/// lines.
 fn hoisted(form: &Form, lists: bool, out: &mut Vec<String>) {
     let entries = match form {
         Form::List(_) if !lists => return,

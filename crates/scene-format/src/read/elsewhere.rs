@@ -1,4 +1,5 @@
-//! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`, `RotateY(30)`.
+//! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`,
+//! `RotateY(30)`.
 
 use super::Reader;
 use super::shape_fields::one_ring;

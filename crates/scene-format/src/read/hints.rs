@@ -145,8 +145,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
     found.map(|(kind, _)| *kind)
 }
 
-/// How the language says what other programs have a kind for, or what to do where it does not. A hint goes with the kind that it tells of:
-/// once there is one, nobody asks.
+/// How the language says what other programs have a kind for, or what to do where it does not. A hint goes with the
+/// kind that it tells of: once there is one, nobody asks.
 pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     let lower = name.to_ascii_lowercase();
     let table = match def.noun {

@@ -262,8 +262,8 @@ impl Reader<'_> {
         self.report(fault);
     }
 
-    /// Gives the objects of an included scene materials of this one: those that are given for its own, else its own under names
-    /// that say where they come from.
+    /// Gives the objects of an included scene materials of this one: those that are given for its own, else its own
+    /// under names that say where they come from.
     fn take_materials(
         &mut self,
         objects: &mut [Spanned<Object>],

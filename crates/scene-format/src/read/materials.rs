@@ -29,7 +29,8 @@ pub(super) struct Materials {
     adopted: HashMap<String, usize>,
     /// The names of these.
     foreign: HashSet<Arc<str>>,
-    /// Open addressing over four bytes a name: the number of a name that could be read, or of another, counted down from `NOWHERE`.
+    /// Open addressing over four bytes a name: the number of a name that could be read, or of another, counted down
+    /// from `NOWHERE`.
     slots: Vec<u32>,
     hash: RandomState,
     /// Part of `materials` could not be read: names may be missing.

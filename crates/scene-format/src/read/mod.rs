@@ -1,7 +1,8 @@
 //! From the tree to the typed description, with all faults in one run.
 //!
-//! The types' readers (made by the macros of `words`) call the methods here; each method goes by the schema, reports what is
-//! wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said twice.
+//! The types' readers (made by the macros of `words`) call the methods here; each method goes by the schema, reports
+//! what is wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said
+//! twice.
 
 mod check;
 mod elsewhere;
@@ -87,7 +88,8 @@ pub(crate) struct Fields<'t, 's> {
     def: &'static StructDef,
     /// Any item of the tree.
     of: Item<'t, 's>,
-    /// Places on the tape: the items themselves are eight times as large, and each struct of a scene is moved about like this.
+    /// Places on the tape: the items themselves are eight times as large, and each struct of a scene is moved about
+    /// like this.
     slots: [u32; MAX_FIELDS],
     next: usize,
 }
@@ -117,8 +119,8 @@ const MAX_FIELDS: usize = {
 /// Lists of fewer items get room for all of them at once.
 const SHORT_LIST: usize = 64;
 
-/// Makes room in the list that `item` is read into, `child` being read next. A list that grows by doubling is in memory one and a
-/// half times too often; after a few items one can tell how many more there will be.
+/// Makes room in the list that `item` is read into, `child` being read next. A list that grows by doubling is in memory
+/// one and a half times too often; after a few items one can tell how many more there will be.
 pub(crate) fn make_room<T>(list: &mut Vec<T>, item: Item<'_, '_>, child: Item<'_, '_>) {
     if list.len() == list.capacity() && list.len() >= SHORT_LIST {
         let (read, rest) = item.nodes_around(child);
@@ -467,7 +469,8 @@ impl<'r> Reader<'r> {
         Some(list)
     }
 
-    /// Goes through the items of a list, and gives back the memory of those that were read. `None`: it is no list, which is reported.
+    /// Goes through the items of a list, and gives back the memory of those that were read. `None`: it is no list,
+    /// which is reported.
     #[inline]
     pub(crate) fn items<'t, 's>(
         &mut self,

@@ -1,4 +1,5 @@
-//! Profiles and outlines that bound nothing, or not what was meant: told with all else that is wrong, before they are made into triangles.
+//! Profiles and outlines that bound nothing, or not what was meant: told with all else that is wrong, before they are
+//! made into triangles.
 
 use super::Reader;
 use crate::codes;
@@ -8,7 +9,8 @@ use crate::path::shown;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-/// Sides that are looked at in all outlines of a scene, at most; what is wrong with others is told when triangles are made of them.
+/// Sides that are looked at in all outlines of a scene, at most; what is wrong with others is told when triangles are
+/// made of them.
 const MOST_SIDES: usize = 200_000;
 /// About so many sides a curve has between two points.
 const SIDES_OF_A_SPAN: usize = 64;
@@ -21,7 +23,8 @@ impl Reader<'_> {
         self.sink.diagnostics.len()
     }
 
-    /// Leaves the first of the faults that were told since then, where so many are all there are and all have this code.
+    /// Leaves the first of the faults that were told since then, where so many are all there are and all have this
+    /// code.
     pub(crate) fn once(&mut self, since: usize, code: codes::Code, count: usize) {
         let told = self.sink.diagnostics.get(since..).unwrap_or_default();
         if told.len() == count && told.iter().all(|fault| fault.code == code) {

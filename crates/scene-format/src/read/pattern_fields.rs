@@ -27,7 +27,8 @@ fn mapping(kind: &str, field: &str, value: &str, syntax: Syntax) -> String {
     }
 }
 
-/// A field of a pattern that belongs to its mapping: what is told, and what to write for name and value where that is certain.
+/// A field of a pattern that belongs to its mapping: what is told, and what to write for name and value where that is
+/// certain.
 pub(super) fn of_mapping(
     name: &str,
     value: Item<'_, '_>,
@@ -111,7 +112,8 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
 }
 
 impl Reader<'_> {
-    /// The word of a texture where its brackets are missing, small or of another program: reports it, and says that it did.
+    /// The word of a texture where its brackets are missing, small or of another program: reports it, and says that it
+    /// did.
     pub(crate) fn texture_elsewhere(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
         let word = &*item.text();
         let same = def.variants.iter().find(|variant| variant.name.eq_ignore_ascii_case(word)).map(|found| found.name);

@@ -52,7 +52,8 @@ pub(crate) fn pick_body<'t, 's>(item: Item<'t, 's>) -> Option<Item<'t, 's>> {
 }
 
 impl Reader<'_> {
-    /// The value that a `Pick` stands for, or the item itself where it is none. `None`: the pick is wrong, which is reported.
+    /// The value that a `Pick` stands for, or the item itself where it is none. `None`: the pick is wrong, which is
+    /// reported.
     #[inline]
     pub(crate) fn picked<'t, 's>(&mut self, item: Item<'t, 's>) -> Option<Item<'t, 's>> {
         match pick_body(item) {

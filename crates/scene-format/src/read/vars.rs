@@ -294,7 +294,8 @@ impl Reader<'_> {
         self.vars.find(name).is_some()
     }
 
-    /// The value of an expression; `None` where the item is none, `Some(None)` where it is a wrong one, which has been reported.
+    /// The value of an expression; `None` where the item is none, `Some(None)` where it is a wrong one, which has been
+    /// reported.
     pub(crate) fn expression(&mut self, item: Item<'_, '_>) -> Option<Option<Value>> {
         if !is_expression(item) {
             return None;

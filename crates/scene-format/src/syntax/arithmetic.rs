@@ -1,4 +1,5 @@
-//! Arithmetic without quotes, `1/3` or `sqrt(2)`, where an expression is a text: `"=1/3"`. And numbers with signs of other languages: `50%`.
+//! Arithmetic without quotes, `1/3` or `sqrt(2)`, where an expression is a text: `"=1/3"`. And numbers with signs of
+//! other languages: `50%`.
 
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -51,8 +52,8 @@ fn is_expression(body: &str) -> bool {
     !matches!(value, Err(Some(fault)) if fault.code == codes::EXPRESSION_SYNTAX)
 }
 
-/// The length of the expression that `rest`, what follows on a `=`, begins with, up to a quote, a comma or a bracket that closes, on the
-/// same line; `None` where there is none.
+/// The length of the expression that `rest`, what follows on a `=`, begins with, up to a quote, a comma or a bracket
+/// that closes, on the same line; `None` where there is none.
 pub(super) fn expression_ahead(rest: &str) -> Option<usize> {
     let line = super::line_ahead(rest, 0);
     let (mut depth, mut end) = (0usize, line.len());
@@ -76,8 +77,8 @@ pub(super) fn expression_ahead(rest: &str) -> Option<usize> {
     is_expression(body).then_some(body.len())
 }
 
-/// Whether a text that was closed by the quote of the next one is rather an expression without its last quote. `inner`: what stands between
-/// the quotes; `after`: what follows on the second.
+/// Whether a text that was closed by the quote of the next one is rather an expression without its last quote. `inner`:
+/// what stands between the quotes; `after`: what follows on the second.
 pub(super) fn lost_its_quote(inner: &str, after: &str) -> bool {
     let Some(body) = inner.strip_prefix('=') else { return false };
     let after = super::line_ahead(after, 0).trim_start();

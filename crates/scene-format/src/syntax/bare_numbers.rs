@@ -5,8 +5,8 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::{Builder, Kind};
 
-/// What follows the number that has just been read as the node at `mark`, ending at `at`: when more numbers do, they are reported with
-/// it as one fault, and the node is broken. Gives the end of the last one.
+/// What follows the number that has just been read as the node at `mark`, ending at `at`: when more numbers do, they
+/// are reported with it as one fault, and the node is broken. Gives the end of the last one.
 pub(super) fn report(
     text: &str,
     syntax: Syntax,

@@ -1,4 +1,5 @@
-//! What other languages have in the middle of a scene: loops, and blocks of POV-Ray. Each is told once, with the way here, and passed over.
+//! What other languages have in the middle of a scene: loops, and blocks of POV-Ray. Each is told once, with the way
+//! here, and passed over.
 
 use super::Syntax;
 use crate::codes;

@@ -29,8 +29,8 @@ pub(crate) fn number(lexeme: &str) -> f64 {
     sign * value
 }
 
-/// Digits with a point among them, at most fifteen: their whole number and the power of ten are exact, so that one division rounds as
-/// reading the digits themselves would (Clinger 1990).
+/// Digits with a point among them, at most fifteen: their whole number and the power of ten are exact, so that one
+/// division rounds as reading the digits themselves would (Clinger 1990).
 #[inline]
 fn short_number(lexeme: &[u8]) -> Option<f64> {
     const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];

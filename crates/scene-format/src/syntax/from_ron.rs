@@ -8,8 +8,8 @@ use std::path::Path;
 /// Groups of the scene, which TOML writes without their names.
 const GROUPS: [&str; 5] = ["Camera", "Image", "Render", "Effects", "Output"];
 
-/// The length of the value of RON that a text begins with, `Name(..)` or `(..)`, over several lines if need be; `None` where its bracket is
-/// not closed.
+/// The length of the value of RON that a text begins with, `Name(..)` or `(..)`, over several lines if need be; `None`
+/// where its bracket is not closed.
 pub(super) fn length(rest: &str) -> Option<usize> {
     let open = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))?;
     rest[open..].starts_with('(').then(|| constructs::closed(rest, open)).flatten()

@@ -154,7 +154,8 @@ impl Sink {
     }
 }
 
-/// What stands on the line from a byte on, as far as a look ahead goes: a file in one line must not take quadratic time.
+/// What stands on the line from a byte on, as far as a look ahead goes: a file in one line must not take quadratic
+/// time.
 fn line_ahead(text: &str, at: usize) -> &str {
     const LOOK_AHEAD: usize = 300;
     let mut end = text.len().min(at + LOOK_AHEAD);

@@ -1,4 +1,5 @@
-//! RON into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or bracket.
+//! RON into the tree, with recovery: a fault is reported where it stands, and reading goes on at the next comma or
+//! bracket.
 
 use super::brackets::{self, Fate, Open};
 use super::{MAX_DEPTH, Sink};
@@ -12,8 +13,8 @@ use crate::tree::{Builder, Kind};
 pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Tape<Span> {
     let (mut comments, mut faults) = attempt(text, builder, Trust::Brackets);
     if faults.diagnostics.iter().any(|fault| matches!(fault.code, codes::UNCLOSED_BRACKET | codes::STRAY_BRACKET)) {
-        // Brackets do not match: where the lines are indented, that may say better what was meant. One tree at a time, for a
-        // large file's tree is large.
+        // Brackets do not match: where the lines are indented, that may say better what was meant. One tree at a time,
+        // for a large file's tree is large.
         let errors = faults.errors;
         drop((comments, faults));
         (comments, faults) = attempt(text, builder, Trust::Indentation);

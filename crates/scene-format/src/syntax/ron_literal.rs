@@ -270,8 +270,9 @@ impl Parser<'_> {
     }
 }
 
-/// The digits, and digits after a point, that a text begins with, as most numbers are written: their length and kind, which are
-/// the same in both syntaxes if nothing follows that belongs to a number. `None`: it may be a number written in another way.
+/// The digits, and digits after a point, that a text begins with, as most numbers are written: their length and kind,
+/// which are the same in both syntaxes if nothing follows that belongs to a number. `None`: it may be a number written
+/// in another way.
 #[inline]
 pub(super) fn plain_number(bytes: &[u8]) -> Option<(usize, Kind)> {
     let digits = |from: usize| {

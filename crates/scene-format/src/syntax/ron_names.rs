@@ -72,7 +72,8 @@ impl Parser<'_> {
         true
     }
 
-    /// `for i in range(8)` after a value, whose nodes begin at `mark` and which begins at `begin`: reported, and nothing is said of the value.
+    /// `for i in range(8)` after a value, whose nodes begin at `mark` and which begins at `begin`: reported, and
+    /// nothing is said of the value.
     #[inline]
     pub(super) fn comprehension(&mut self, mark: usize, begin: usize) {
         if !matches!(self.peek(), Some(b' ' | b'\n' | b'\r')) || !self.rest().trim_start().starts_with("for ") {

@@ -302,8 +302,8 @@ impl Parser<'_> {
         number && short && self.line <= end && !after.trim_start().starts_with([':', '=', '(', '"', '[', '{'])
     }
 
-    /// The bracket that was meant where `written` stands, after a name from `start` on: fields stand in round ones, names of
-    /// materials in braces, lists in square ones.
+    /// The bracket that was meant where `written` stands, after a name from `start` on: fields stand in round ones,
+    /// names of materials in braces, lists in square ones.
     pub(super) fn meant(&self, start: usize, written: u8) -> u8 {
         let inner = || {
             let mut inner = self.rest()[1..].trim_start();

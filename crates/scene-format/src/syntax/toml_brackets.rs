@@ -344,8 +344,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the line that begins here must be a new statement though a bracket is open: `[name]`, `[[name]]`, or `name =`
-    /// in a list.
+    /// Whether the line that begins here must be a new statement though a bracket is open: `[name]`, `[[name]]`, or
+    /// `name =` in a list.
     fn statement_ahead(&self) -> bool {
         let line = line_ahead(self.text, self.span.start()).trim();
         let header = line.trim_start_matches('[');

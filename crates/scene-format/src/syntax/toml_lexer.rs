@@ -1,5 +1,5 @@
-//! Tokens of TOML: those of `toml_parser`'s lexer, at three times its speed. That one searches a list of eleven characters for every
-//! byte of a word, and a scene file is made of words.
+//! Tokens of TOML: those of `toml_parser`'s lexer, at three times its speed. That one searches a list of eleven
+//! characters for every byte of a word, and a scene file is made of words.
 
 use toml_parser::Span;
 use toml_parser::lexer::TokenKind;
@@ -84,7 +84,8 @@ impl<'l> Lexer<'l> {
         }
     }
 
-    /// A text after its first quote; one that is not closed ends with its line, or with the file if its quotes are three.
+    /// A text after its first quote; one that is not closed ends with its line, or with the file if its quotes are
+    /// three.
     fn text(&mut self, quote: u8) -> TokenKind {
         let basic = quote == b'"';
         let many = self.ahead(0) == Some(quote) && self.ahead(1) == Some(quote);

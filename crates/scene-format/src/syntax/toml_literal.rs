@@ -185,7 +185,8 @@ impl Parser<'_> {
         true
     }
 
-    /// `Sphere(center: (0, 0, 0), radius: 1)` in the place of `name = value`, a loop or a block of POV-Ray, which is reported.
+    /// `Sphere(center: (0, 0, 0), radius: 1)` in the place of `name = value`, a loop or a block of POV-Ray, which is
+    /// reported.
     pub(super) fn construct_elsewhere(&mut self) -> bool {
         let start = self.span.start();
         let rest = &self.text[start..];

@@ -13,7 +13,8 @@ type Slot = (u32, u32);
 /// Parts of the index. Each grows by itself, so that never more than one of them is in memory twice, or half empty.
 const PARTS: usize = 64;
 
-/// Eight bytes a name; the names themselves stay in the text. The hash is seeded by chance, so that no file can be made to collide.
+/// Eight bytes a name; the names themselves stay in the text. The hash is seeded by chance, so that no file can be made
+/// to collide.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     parts: Vec<HashTable<Slot>>,
@@ -25,8 +26,8 @@ pub(super) fn name_of<'s>(text: &'s str, node: &Node) -> Cow<'s, str> {
     decode::toml_key(text.get(node.start as usize..node.end as usize).unwrap_or(""))
 }
 
-/// Which part a hash belongs to, by bits that the parts themselves do not go by. The last part gets twice as many names as the
-/// first, those between them more and more: parts double when they are full, and so do not all double at once.
+/// Which part a hash belongs to, by bits that the parts themselves do not go by. The last part gets twice as many names
+/// as the first, those between them more and more: parts double when they are full, and so do not all double at once.
 fn part(hash: u64) -> usize {
     let fraction = (hash >> 32 & 0xff_ffff) as f64 / f64::from(1 << 24);
     ((1.0 + fraction).log2() * PARTS as f64) as usize

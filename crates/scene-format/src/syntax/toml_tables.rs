@@ -1,5 +1,5 @@
-//! The tables of a TOML file while they are put together on the tape. Headers may come in any order, and a table may be gone on
-//! with after others: then what comes stands in an `Added` node (see `tree`).
+//! The tables of a TOML file while they are put together on the tape. Headers may come in any order, and a table may be
+//! gone on with after others: then what comes stands in an `Added` node (see `tree`).
 
 use super::Sink;
 use super::toml_names::{Names, name_of};
@@ -21,12 +21,13 @@ const ROOT: u32 = 0;
 
 /// Tables that only the names of others imply, as `a` and `b` of `[a.b.c]`: so many are always allowed.
 const FREE_IMPLIED: usize = 1 << 16;
-/// Beyond that, one for so many bytes of the file. Two letters, `.a`, make a table; a file of them would take thirty times its
-/// size. The densest that means something is `Mesh.material.Diffuse.albedo.Texture.file = ".."` below `[[objects]]`.
+/// Beyond that, one for so many bytes of the file. Two letters, `.a`, make a table; a file of them would take thirty
+/// times its size. The densest that means something is `Mesh.material.Diffuse.albedo.Texture.file = ".."` below
+/// `[[objects]]`.
 const BYTES_PER_IMPLIED: usize = 9;
 
-/// A node of the tape that is not closed yet, and the table that is being written in it: the node itself, or the one that an
-/// `Added` node belongs to.
+/// A node of the tape that is not closed yet, and the table that is being written in it: the node itself, or the one
+/// that an `Added` node belongs to.
 #[derive(Clone, Copy, Debug)]
 struct Open {
     node: u32,
@@ -462,8 +463,8 @@ mod tests {
         }
     }
 
-    /// Tables in any order, gone on with after others, in braces and by dotted keys: what the `toml` crate takes is read without
-    /// a fault and as the same values, also when the tape has been made flat for `--set`.
+    /// Tables in any order, gone on with after others, in braces and by dotted keys: what the `toml` crate takes is
+    /// read without a fault and as the same values, also when the tape has been made flat for `--set`.
     #[test]
     fn tables_are_those_of_the_toml_crate() {
         let mut state = 7;

@@ -1,4 +1,5 @@
-//! What the tests of this crate share: scenes that use every word of the language, and a small generator of random numbers.
+//! What the tests of this crate share: scenes that use every word of the language, and a small generator of random
+//! numbers.
 #![allow(dead_code, reason = "each test file uses its part")]
 
 pub mod generated;

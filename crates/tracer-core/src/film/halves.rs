@@ -145,8 +145,8 @@ impl Tile {
         }
     }
 
-    /// Adds samples of a half whose camera rays have hit nothing, as those of [`Tile::add`]; where halves are kept. All that
-    /// they have is the background.
+    /// Adds samples of a half whose camera rays have hit nothing, as those of [`Tile::add`]; where halves are kept. All
+    /// that they have is the background.
     pub(crate) fn add_background(
         &mut self,
         of: usize,

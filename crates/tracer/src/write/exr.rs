@@ -1,5 +1,5 @@
-//! OpenEXR: R, G, B, A where the picture has it, and the channels of the picture's layers (`depth.Z`) in 32-bit floats, ZIP, in one part as readers
-//! of channels by name expect it, with attributes that say what the picture was made from.
+//! OpenEXR: R, G, B, A where the picture has it, and the channels of the picture's layers (`depth.Z`) in 32-bit floats,
+//! ZIP, in one part as readers of channels by name expect it, with attributes that say what the picture was made from.
 
 use super::{Encoding, Provenance, WriteError};
 use exr::image::Blocks;

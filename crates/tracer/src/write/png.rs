@@ -1,4 +1,5 @@
-//! PNG: display values with an sRGB chunk, alpha beside them where the picture has it (not multiplied), and what the picture was made from as text (iTXt, UTF-8).
+//! PNG: display values with an sRGB chunk, alpha beside them where the picture has it (not multiplied), and what the
+//! picture was made from as text (iTXt, UTF-8).
 
 use super::{Bits, Encoding, Provenance, WriteError};
 use png::text_metadata::ITXtChunk;

@@ -281,8 +281,7 @@ pub struct LightPass<'a> {
 pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let (plan, tables) = (pass.plan, &scene.tables);
-    let touching = scene.has_touching();
+    let plan = pass.plan;
     let film = Film::<F>::new(&scene.camera, scene.size);
     let goes_on = event < scene.max_bounces;
     let salt = hash3(pass.seed, event, 0x00e4_e275) as u32;
@@ -311,10 +310,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         let origin = V3::<F>::load(&paths.origin, i);
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
-        let mut bsdf = Bsdf::<'_, F>::at(tables, &s, surfaces);
-        if touching {
-            bsdf.touch(&tables.materials, F::U::load(&batch.hits.behind[i..]));
-        }
+        let bsdf = Bsdf::<'_, F>::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         let back = direction.neg();
         let numbers =
             Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, pair) };

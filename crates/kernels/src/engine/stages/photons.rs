@@ -132,8 +132,6 @@ fn lane_numbers<F: Lanes>(i: usize) -> F::U {
 pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let tables = &scene.tables;
-    let touching = scene.has_touching();
     let goes_on = event < scene.max_bounces;
     let salt = hash3(seed, event, 0x00e4_e275) as u32;
     let (paths, next, photons) = (&batch.paths, &mut batch.next, &mut batch.photons);
@@ -155,10 +153,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         }
         let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
-        let mut bsdf = Bsdf::<'_, F>::at(tables, &s, surfaces);
-        if touching {
-            bsdf.touch(&tables.materials, F::U::load(&batch.hits.behind[i..]));
-        }
+        let bsdf = Bsdf::<'_, F>::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         let wo = direction.neg();
         if event > 0 {
             let stored = bsdf.rough();

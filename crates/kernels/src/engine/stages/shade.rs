@@ -34,7 +34,6 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let tables = &scene.tables;
-    let touching = scene.has_touching();
     let items = &batch.items;
     let choices = PairPoints::<F>::new(seed, Purpose::Choice(vertex), items);
     let light_points = PairPoints::<F>::new(seed, Purpose::Light(vertex), items);
@@ -128,10 +127,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             continue;
         }
 
-        let mut bsdf = Bsdf::at(tables, &s, surfaces);
-        if touching {
-            bsdf.touch(&tables.materials, F::U::load(&batch.hits.behind[i..]));
-        }
+        let mut bsdf = Bsdf::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         if pass.task == Task::Chains {
             // Chains end at all other surfaces.
             surfaces = surfaces & bsdf.specular();

@@ -39,9 +39,9 @@ scene_words! {
 }
 
 impl Metal {
-    /// Index of refraction and extinction coefficient in red, green and blue, fitted so that Fresnel's reflectance at 0 and 82 degrees has
-    /// the colour of the spectral one under D65 (linear sRGB; gold's red cut to 0.99). The measurements are those of
-    /// refractiveindex.info (CC0).
+    /// Index of refraction and extinction coefficient in red, green and blue, fitted so that Fresnel's reflectance at 0
+    /// and 82 degrees has the colour of the spectral one under D65 (linear sRGB; gold's red cut to 0.99). The
+    /// measurements are those of refractiveindex.info (CC0).
     pub fn ior_and_k(self) -> [Color; 2] {
         match self {
             Metal::Silver => [[0.056, 0.055, 0.043], [4.480, 3.542, 2.586]],
@@ -92,7 +92,8 @@ pub struct Conductor {
 }
 
 scene_struct! {
-    /// A metal, smooth or rough: GGX. What it reflects is said by exactly one of `metal`, `ior` (with `k`) and `reflectance`.
+    /// A metal, smooth or rough: GGX. What it reflects is said by exactly one of `metal`, `ior` (with `k`) and
+    /// `reflectance`.
     pub(crate) struct ConductorWords as "Conductor", "a conductor", exactly one of [metal, ior, reflectance] {
         /// A measured metal.
         metal: Option<Metal> = None;
@@ -102,12 +103,13 @@ scene_struct! {
         k: Option<Spanned<Color>> = None => Rule::per_channel("an extinction coefficient per channel", 0.0, 100.0);
         /// Reflected share at normal incidence per channel; it grows to 1 at grazing angles (F82-tint model).
         reflectance: Option<Albedo> = None => Rule::share();
-        /// What the reflected share at about 82 degrees is multiplied by, per channel; with `reflectance` only. None: 1.
+        /// What the reflected share at about 82 degrees is multiplied by, per channel; with `reflectance` only.
+        /// None: 1.
         edge_tint: Option<Spanned<Color>> = None => Rule::share();
         /// r: 0 is a mirror, 1 dull. The width of the lobe is alpha = r^2.
         roughness: Spanned<f64> = 0.0 => Rule::within("a roughness", 0.0, 1.0);
-        /// Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017): without it rough metals are
-        /// too dark.
+        /// Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017): without it
+        /// rough metals are too dark.
         multiple_scattering: bool = true;
     }
 }

@@ -8,8 +8,8 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A round shaft with a cone at its tip: an axis, a direction, a force. It is closed, and made of triangles. Texture coordinates: u goes
-    /// round it as round a cylinder, v from 0 to 1 by length along its outline.
+    /// A round shaft with a cone at its tip: an axis, a direction, a force. It is closed, and made of triangles.
+    /// Texture coordinates: u goes round it as round a cylinder, v from 0 to 1 by length along its outline.
     pub struct Arrow as "Arrow", "an arrow" {
         /// Middle of its flat end.
         from: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -27,8 +27,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about the middle between its ends.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();

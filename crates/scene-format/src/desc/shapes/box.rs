@@ -8,9 +8,9 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0 to 1, as a
-    /// `Rectangle` that faces outwards: on the four upright ones v grows along y, and u to the right as seen from outside; on top and bottom u grows
-    /// along x, and v along -z on top and along z below.
+    /// A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0
+    /// to 1, as a `Rectangle` that faces outwards: on the four upright ones v grows along y, and u to the right as seen
+    /// from outside; on top and bottom u grows along x, and v along -z on top and along z below.
     pub struct RectBox as "Box", "a box" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -20,8 +20,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();

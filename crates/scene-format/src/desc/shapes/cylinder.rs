@@ -9,8 +9,9 @@ use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from
-    /// inside, too. Its front is its outside. Texture coordinates: u goes once round it from 0 to 1, counter-clockwise seen from
-    /// beyond `to`, v from 0 at `from` to 1 at `to`; on the caps both grow from 0 to 1 as on a `Disk` that faces outwards.
+    /// inside, too. Its front is its outside. Texture coordinates: u goes once round it from 0 to 1, counter-clockwise
+    /// seen from beyond `to`, v from 0 at `from` to 1 at `to`; on the caps both grow from 0 to 1 as on a `Disk` that
+    /// faces outwards.
     pub struct Cylinder as "Cylinder", "a cylinder" {
         /// Middle of its first end.
         from: Spanned<Vec3> = [0.0; 3] => Rule::point();

@@ -13,14 +13,15 @@ use crate::tree::{Item, Kind};
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, faces outwards, and is made of
-    /// triangles. Texture coordinates of the ends go from 0 to 1 over the square around the outline, which has its middle, as on a `Rectangle` that faces
-    /// outwards: of the end at `depth`, seen from +z, u grows along x and v along y; of that at 0, seen from -z, u grows along -x. On the sides u goes
-    /// from 0 to 1 once round each ring, counter-clockwise round the outer one and clockwise round holes, from the ring's first point, and v from 0 at z = 0 to 1
-    /// at `depth`.
+    /// An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, faces
+    /// outwards, and is made of triangles. Texture coordinates of the ends go from 0 to 1 over the square around the
+    /// outline, which has its middle, as on a `Rectangle` that faces outwards: of the end at `depth`, seen from +z, u
+    /// grows along x and v along y; of that at 0, seen from -z, u grows along -x. On the sides u goes from 0 to 1 once
+    /// round each ring, counter-clockwise round the outer one and clockwise round holes, from the ring's first point,
+    /// and v from 0 at z = 0 to 1 at `depth`.
     pub struct Extrude as "Extrude", "an extrude" {
-        /// Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets itself or another. A point
-        /// that repeats the last one, or at the end the first, is left out.
+        /// Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets
+        /// itself or another. A point that repeats the last one, or at the end the first, is left out.
         outline: Spanned<Outline> => Rule::point();
         /// How far it is pushed: from z = 0 to this.
         depth: Spanned<f64> => Rule::length("a length");
@@ -30,8 +31,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.depth=2` finds it where no other has this name.
         name: Name = Name::default();

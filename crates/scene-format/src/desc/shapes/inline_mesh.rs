@@ -18,7 +18,8 @@ pub struct InlineMesh {
     pub faces: Faces,
 }
 
-/// Faces, each by the numbers of its corners' points. The corners of all of them stand in one list: a scene may have millions.
+/// Faces, each by the numbers of its corners' points. The corners of all of them stand in one list: a scene may have
+/// millions.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Faces {
     corners: Vec<u32>,

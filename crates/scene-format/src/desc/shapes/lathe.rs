@@ -13,17 +13,18 @@ use crate::tree::Item;
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// What a profile passes over as it turns about the y axis: a vase, a glass, a chess piece. Where both ends of the profile lie on the axis,
-    /// or its last point is its first, it is closed and faces outwards, either way round. Else it is open: it has no thickness, and its front is on the
-    /// right of its profile, drawn with the axis on the left: outwards where the profile goes up. An open `Emissive` one shines to its front, and open
-    /// glass has no inside. It is made of triangles. Texture coordinates: u goes round from 0 to 1 as a sphere's, beginning at -z and at 1/4 at -x, v
-    /// grows from 0 at the first point to 1 at the last, by length along the profile.
+    /// What a profile passes over as it turns about the y axis: a vase, a glass, a chess piece. Where both ends of the
+    /// profile lie on the axis, or its last point is its first, it is closed and faces outwards, either way round. Else
+    /// it is open: it has no thickness, and its front is on the right of its profile, drawn with the axis on the left:
+    /// outwards where the profile goes up. An open `Emissive` one shines to its front, and open glass has no inside. It
+    /// is made of triangles. Texture coordinates: u goes round from 0 to 1 as a sphere's, beginning at -z and at 1/4 at
+    /// -x, v grows from 0 at the first point to 1 at the last, by length along the profile.
     pub struct Lathe as "Lathe", "a lathe" {
         /// Two or more points (distance from the axis, height). A point that repeats the last one is left out.
         profile: Spanned<Profile> => Rule::point();
-        /// How the points are joined. A `CatmullRom` curve swings out where a long way between points meets a short one: between two points of a
-        /// thin stem it comes nearer to the axis than they are, and one that would cross the axis goes along it. Points at even distances
-        /// prevent that.
+        /// How the points are joined. A `CatmullRom` curve swings out where a long way between points meets a short
+        /// one: between two points of a thin stem it comes nearer to the axis than they are, and one that would cross
+        /// the axis goes along it. Points at even distances prevent that.
         curve: Curve = Curve::Linear;
         /// How many flat pieces go round; curves of the profile are as fine.
         segments: Spanned<u32> = 128u32 => Rule::within("a whole number", 3.0, 4096.0);
@@ -31,8 +32,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
         name: Name = Name::default();
@@ -105,8 +106,8 @@ impl Turning {
         Some(fault.expected("two points or more that are not the same, not all on the axis"))
     }
 
-    /// The first points between which a curve through them comes much nearer to the axis than both of them are, by their written numbers, with
-    /// a point between them that would prevent it, where one would.
+    /// The first points between which a curve through them comes much nearer to the axis than both of them are, by
+    /// their written numbers, with a point between them that would prevent it, where one would.
     pub fn thin(&self) -> Option<([usize; 2], Option<Point>)> {
         let count = self.points.len();
         if count < 2 {

@@ -55,22 +55,24 @@ impl Mesh {
 scene_struct! {
     /// A triangle mesh, from a file or written out as `points` and `faces`.
     pub(crate) struct MeshWords as "Mesh", "a mesh", exactly one of [file, points] {
-        /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes
-        /// place them; its materials, vertex colours, lights, cameras, skins, morph targets and animations are not.
+        /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene
+        /// are taken, where its nodes place them; its materials, vertex colours, lights, cameras, skins, morph targets
+        /// and animations are not.
         file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
         /// Instead of a file: the points of the mesh, three or more.
         points: Points = Points::default() => Rule::point();
-        /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than
-        /// three corners are cut into triangles, also where they are not convex.
+        /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen
+        /// from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
         faces: WrittenFaces = WrittenFaces::default();
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
-        /// Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
+        /// Whether copies share one tree of triangles, those of other objects with the same file and shading among
+        /// them.
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.
         shading: Shading = Shading::Auto;
@@ -184,7 +186,8 @@ scene_words! {
 scene_words! {
     /// Whether copies of a mesh share its triangles. The picture is the same but for rounding.
     pub enum Instances, "instances" {
-        /// As `Never` where there are at most 1024 copies and they have 262144 triangles together at most; else as `Always`.
+        /// As `Never` where there are at most 1024 copies and they have 262144 triangles together at most; else as
+        /// `Always`.
         Auto,
         /// They do: a further copy takes 64 bytes, whatever the mesh. Rays take up to a third longer.
         Always,

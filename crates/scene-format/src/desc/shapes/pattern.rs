@@ -22,7 +22,8 @@ scene_enum! {
             radius: f64 => Rule::length("a length");
             /// What the circle goes round.
             axis: Vec3 = [0.0, 1.0, 0.0] => Rule::direction();
-            /// Angle of the first copy. At 0 it stands where (0, 1, 0) x axis points, or (1, 0, 0) where the axis is upright.
+            /// Angle of the first copy. At 0 it stands where (0, 1, 0) x axis points, or (1, 0, 0) where the axis is
+            /// upright.
             start: f64 = 0.0 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
             /// Whether copies turn with the circle, as the seats of a carousel do; else all look the same way.
             turn: bool = true;

@@ -7,7 +7,8 @@ use crate::schema::FieldDef;
 use crate::tree::Item;
 use crate::words::Words;
 
-/// Reads a list of `least` points or more, each by the rule of `point`; `noun`: what the list is. `None`: something was wrong, and told.
+/// Reads a list of `least` points or more, each by the rule of `point`; `noun`: what the list is. `None`: something was
+/// wrong, and told.
 pub(super) fn read<P: Words>(
     reader: &mut Reader<'_>,
     item: Item<'_, '_>,

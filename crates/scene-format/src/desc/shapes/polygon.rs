@@ -14,20 +14,21 @@ use crate::tree::Item;
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is the side from which they go round
-    /// counter-clockwise; an `Emissive` one shines to that side, and the back is seen as the front is. Seen from the front, u grows to the right and v
-    /// upwards, as on a `Rectangle` that faces the same way: right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. The square around
-    /// it that has the same middle has coordinates from 0 to 1. It is open: it has no inside.
+    /// A flat face with any number of corners: a roof, a window that is no rectangle. Its front is the side from which
+    /// they go round counter-clockwise; an `Emissive` one shines to that side, and the back is seen as the front is.
+    /// Seen from the front, u grows to the right and v upwards, as on a `Rectangle` that faces the same way: right is
+    /// (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. The square around it that has the same middle has
+    /// coordinates from 0 to 1. It is open: it has no inside.
     pub struct Polygon as "Polygon", "a polygon" {
-        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners. A corner that
-        /// repeats the last one, or at the end the first, is left out.
+        /// Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the
+        /// corners. A corner that repeats the last one, or at the end the first, is left out.
         points: Spanned<Corners> => Rule::point();
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name.
         name: Name = Name::default();
@@ -91,7 +92,8 @@ impl Corners {
         let origin = *corners.first()?;
         let from: Vec<Vec3> = corners.iter().map(|&corner| sub(corner, origin)).collect();
         let size = from.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max);
-        // A bow tie's halves cancel out in Newell's normal, so that of the widest triangle at the first corner is taken.
+        // A bow tie's halves cancel out in Newell's normal, so that of the widest triangle at the first corner is
+        // taken.
         let far = from.iter().copied().max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;
         let normals = from.iter().map(|&p| cross(far, p));
         let normal = normals.max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;

@@ -8,9 +8,9 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A flat rectangle. Seen against its normal, its sides run to the right and upwards: to the right is (0, 1, 0) x normal,
-    /// or (1, 0, 0) where the normal is upright. Texture coordinates grow along the sides from 0 to 1. Where it shines it shines to
-    /// the normal's side.
+    /// A flat rectangle. Seen against its normal, its sides run to the right and upwards: to the right is (0, 1, 0) x
+    /// normal, or (1, 0, 0) where the normal is upright. Texture coordinates grow along the sides from 0 to 1. Where it
+    /// shines it shines to the normal's side.
     pub struct Rectangle as "Rectangle", "a rectangle" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -22,8 +22,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();

@@ -8,8 +8,8 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes round its axis as a
-    /// sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
+    /// A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes
+    /// round its axis as a sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
     pub struct Torus as "Torus", "a torus" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -25,8 +25,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about its middle.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();

@@ -11,14 +11,15 @@ use crate::tree::{Item, Kind};
 use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
-    /// What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its ends are round, and so are
-    /// its elbows where the points are joined by straight lines. It is made of triangles, shaded as round. Where the path bends tighter than the
-    /// radius it passes through itself, which shows in glass only. Texture coordinates: u goes round, v from 0 to 1 by length along it,
-    /// round ends included.
+    /// What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its
+    /// ends are round, and so are its elbows where the points are joined by straight lines. It is made of triangles,
+    /// shaded as round. Where the path bends tighter than the radius it passes through itself, which shows in glass
+    /// only. Texture coordinates: u goes round, v from 0 to 1 by length along it, round ends included.
     pub struct Tube as "Tube", "a tube" {
         /// Two or more points that the middle of the ball passes.
         points: Spanned<PathPoints> => Rule::point();
-        /// The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve: CatmullRom`.
+        /// The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve:
+        /// CatmullRom`.
         radius: Spanned<Radii> => Rule::length("a length");
         /// How the points are joined.
         curve: Curve = Curve::CatmullRom;
@@ -30,8 +31,8 @@ scene_struct! {
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
         transform: Vec<Spanned<Transform>> = Vec::new();
-        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a
-        /// placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
         name: Name = Name::default();

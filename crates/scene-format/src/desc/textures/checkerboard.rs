@@ -7,13 +7,15 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is even. In space they are cubes.
+    /// Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is
+    /// even. In space they are cubes.
     pub struct Checkerboard as "Checkerboard", "a checkerboard" {
         /// One colour.
         a: Spanned<Color> = [0.0; 3] => Rule::share();
         /// The other one.
         b: Spanned<Color> = [1.0; 3] => Rule::share();
-        /// How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along a unit of length.
+        /// How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along
+        /// a unit of length.
         mapping: SolidMapping = SolidMapping::Uv(Uv::default());
     }
 }

@@ -7,8 +7,8 @@ use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Words, scene_enum, scene_struct};
 
-/// From a surface's texture coordinates to those of a texture: turned by `rotation` after they were scaled, then moved. Its size is that of a
-/// pointer, since nearly all textures lie as they are.
+/// From a surface's texture coordinates to those of a texture: turned by `rotation` after they were scaled, then moved.
+/// Its size is that of a pointer, since nearly all textures lie as they are.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Mapping(Option<Box<Uv>>);
 
@@ -76,15 +76,17 @@ scene_enum! {
     pub enum SolidMapping, "mapping of a solid texture" {
         /// By the surface's texture coordinates: scaled, then turned, then moved.
         Uv(Uv);
-        /// By the coordinates that the shape is written in, before its `transform` and `placements` and those of groups: the texture goes with the
-        /// object, which is turned to turn it. A `center` other than the origin is such a coordinate, too.
+        /// By the coordinates that the shape is written in, before its `transform` and `placements` and those of
+        /// groups: the texture goes with the object, which is turned to turn it. A `center` other than the origin is
+        /// such a coordinate, too.
         Object as "a mapping by an object's coordinates" {
             /// So many cells of the texture a unit along each axis, or one number for all.
             scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);
             /// Added at last.
             offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
         };
-        /// By the scene's coordinates, after all transforms: objects move through the texture, and those side by side share it.
+        /// By the scene's coordinates, after all transforms: objects move through the texture, and those side by side
+        /// share it.
         World as "a mapping by the scene's coordinates" {
             /// So many cells of the texture a unit along each axis, or one number for all.
             scale: PerAxis<3> = PerAxis([1.0; 3]) => Rule::within("a factor", -1e6, 1e6);

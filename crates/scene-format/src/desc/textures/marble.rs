@@ -7,8 +7,8 @@ use crate::schema::Rule;
 use crate::words::scene_struct;
 
 scene_struct! {
-    /// Veins across the x axis, one a unit of the mapped coordinates, bent by six octaves of turbulence. With `mapping: Object()` they turn with the
-    /// object's `transform`, as `Wood` does.
+    /// Veins across the x axis, one a unit of the mapped coordinates, bent by six octaves of turbulence. With `mapping:
+    /// Object()` they turn with the object's `transform`, as `Wood` does.
     pub struct Marble as "Marble", "marble" {
         /// The colour of the veins.
         a: Spanned<Color> = [0.0; 3] => Rule::share();

@@ -103,15 +103,15 @@ textures! {
     pattern Dots;
     /// From `a` where a coordinate is 0 to `b` where it is 1, and constant beyond.
     pattern Gradient;
-    /// Clouds: Perlin's improved noise (2002), mixed from octaves. From `a` to `b` by t, with n the noise from -1 to 1, l the `lacunarity`
-    /// and g the `gain`: t = 1/2 + n(p)/2 for `Perlin`, 1/2 + sum g^i n(l^i p) / (2 sum g^i) for `Fbm`, sum g^i |n(l^i p)| / sum g^i for
-    /// `Turbulence`.
+    /// Clouds: Perlin's improved noise (2002), mixed from octaves. From `a` to `b` by t, with n the noise from -1 to 1,
+    /// l the `lacunarity` and g the `gain`: t = 1/2 + n(p)/2 for `Perlin`, 1/2 + sum g^i n(l^i p) / (2 sum g^i) for
+    /// `Fbm`, sum g^i |n(l^i p)| / sum g^i for `Turbulence`.
     pattern Noise;
-    /// Rings round the y axis, one a unit, bent by noise: from `a` to `b` by t = 1/2 - cos(2 pi (hypot(x, z) + `distortion` n)) / 2, n four
-    /// octaves of noise from -1 to 1.
+    /// Rings round the y axis, one a unit, bent by noise: from `a` to `b` by t = 1/2 - cos(2 pi (hypot(x, z) +
+    /// `distortion` n)) / 2, n four octaves of noise from -1 to 1.
     pattern Wood;
-    /// Veins across the x axis, one a unit, bent by turbulence: from `a` to `b` by t = 1/2 - cos(2 pi (x + `distortion` n)) / 2, n six octaves
-    /// of turbulence from 0 to 1.
+    /// Veins across the x axis, one a unit, bent by turbulence: from `a` to `b` by t = 1/2 - cos(2 pi (x + `distortion`
+    /// n)) / 2, n six octaves of turbulence from 0 to 1.
     pattern Marble;
     /// Cells about scattered points, one in each unit cube (Worley 1996): stones, scales, cracks.
     pattern Voronoi;

@@ -7,9 +7,10 @@ use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
 scene_struct! {
-    /// Perlin's improved noise (2002), mixed from octaves: clouds, dirt, wear. It seldom comes near its two colours: of `Fbm` with six octaves 98 % of
-    /// all points have t from 0.32 to 0.68, of `Perlin` from 0.21 to 0.80, of `Turbulence` from 0.06 to 0.46 (half of them below 0.21). For more contrast take
-    /// `a` darker and `b` lighter than what is to be seen.
+    /// Perlin's improved noise (2002), mixed from octaves: clouds, dirt, wear. It seldom comes near its two colours: of
+    /// `Fbm` with six octaves 98 % of all points have t from 0.32 to 0.68, of `Perlin` from 0.21 to 0.80, of
+    /// `Turbulence` from 0.06 to 0.46 (half of them below 0.21). For more contrast take `a` darker and `b` lighter than
+    /// what is to be seen.
     pub struct Noise as "Noise", "noise" {
         /// The colour where the noise is lowest.
         a: Spanned<Color> = [0.0; 3] => Rule::share();

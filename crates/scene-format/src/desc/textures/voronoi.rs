@@ -7,7 +7,8 @@ use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
 scene_struct! {
-    /// Cells about scattered points, one point in each unit cube of the mapped coordinates (Worley 1996): stones, scales, cracks.
+    /// Cells about scattered points, one point in each unit cube of the mapped coordinates (Worley 1996): stones,
+    /// scales, cracks.
     pub struct Voronoi as "Voronoi", "a pattern of cells" {
         /// The colour where the feature is 0.
         a: Spanned<Color> = [0.0; 3] => Rule::share();

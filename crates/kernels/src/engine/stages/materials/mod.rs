@@ -32,7 +32,7 @@ use super::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::warp;
-use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Tables};
+use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Scene, Tables};
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
@@ -138,10 +138,21 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         bsdf
     }
 
+    /// The material of a surface that rays have met, the first of them the batch's i-th: with what is behind it, where
+    /// bodies touch.
+    #[inline(always)]
+    pub fn met(scene: &'t Scene, s: &Surface<F>, valid: F::M, behind: &[u32], i: usize) -> Self {
+        let mut bsdf = Self::at(&scene.tables, s, valid);
+        if scene.has_touching() {
+            bsdf.touch(&scene.tables.materials, F::U::load(&behind[i..]));
+        }
+        bsdf
+    }
+
     /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none.
     /// Light passes from one body into the other, and takes on the colour of both.
     #[inline(always)]
-    pub fn touch(&mut self, table: &MaterialTable, behind: F::U) {
+    fn touch(&mut self, table: &MaterialTable, behind: F::U) {
         let none = F::U::splat(0);
         let on = self.transparent & !behind.eq(none);
         if !on.any() {
