@@ -21,7 +21,6 @@ pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
 use halves::TileHalf;
 pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
-pub(crate) use layers::is_hit;
 use layers::{FilmLayer, TileLayers};
 pub use merge::{Gap, Gaps, MergeError, faults};
 pub use part::{Part, Split};
@@ -249,6 +248,8 @@ pub struct Film {
     layers: Vec<FilmLayer>,
     /// Whether the second half of the samples is summed by itself, too.
     halves: bool,
+    /// Whether what is seen behind everything is summed by itself, too.
+    backdrop: bool,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -297,6 +298,7 @@ impl Film {
             unit,
             layers: Vec::new(),
             halves: false,
+            backdrop: false,
             first_tile,
             tile_columns,
             tiles,

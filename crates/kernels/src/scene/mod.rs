@@ -83,6 +83,8 @@ pub struct Scene {
     pub time: Option<f64>,
     /// What is kept of what camera rays hit first, unless the caller says otherwise.
     pub layers: crate::layers::LayerSet,
+    /// What camera rays see behind everything is to be told from the rest: each sample has one camera ray then.
+    pub backdrop: bool,
     /// What a radiance of one in this scene stands for, in W/(sr m^2): a power of two, so that the brightest light or
     /// background is from 1 to 2 and the range of `f32` and of the film's sums lies where the scene's numbers are. All
     /// of a film that is read is in W/(sr m^2) again.

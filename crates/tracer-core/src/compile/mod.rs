@@ -16,7 +16,7 @@ mod radiances;
 mod textures;
 mod unmeant;
 
-use crate::develop::Look;
+use crate::develop::{Backdrop, Look};
 use crate::scene::{CompileTimes, Scene, backdrop, film_layers};
 use curved::Curved;
 pub use files::check_files;
@@ -175,6 +175,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         noise: desc.render.noise.as_ref().map(|goal| goal.value),
         time: desc.render.time.as_ref().map(|seconds| seconds.value),
         layers: film_layers(&desc.output),
+        backdrop: backdrop(&desc.output) != Backdrop::Background,
         radiance_unit,
         background,
         spheres,

@@ -26,8 +26,8 @@ pub struct Look {
     pub backdrop: Backdrop,
 }
 
-/// What a picture has behind everything. All but the first need the film's layer `alpha`; without it the background
-/// stays.
+/// What a picture has behind everything. All but the first need a film that keeps it apart, as that of a scene with one
+/// of them does ([`Film::has_backdrop`]); else the background stays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Backdrop {
     /// What the camera sees there.
@@ -79,7 +79,7 @@ pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image 
 fn developed(film: &Film, look: &Look, radiance: impl Fn(u32, u32) -> [f64; 3] + Sync) -> Image {
     let Crop { x, y, width, height } = film.crop();
     let gain = libm::exp2(look.exposure);
-    let backdrop = if film.has_alpha() { look.backdrop } else { Backdrop::Background };
+    let backdrop = if film.has_backdrop() { look.backdrop } else { Backdrop::Background };
     let encoder = &*ENCODER;
     let mut linear = vec![0.0; 3 * width as usize * height as usize];
     let mut display = vec![0.0; linear.len()];

@@ -25,6 +25,7 @@ use techniques::Trial;
 use tracer_kernels::engine::kernels::Kernels;
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::{Counted, Pool};
+use tracer_kernels::layers::Layer;
 use tracer_kernels::level::Level;
 use tracer_kernels::scene::Scene;
 
@@ -65,6 +66,7 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
     fits("set of layers", film.has_layers_of(&fresh))?;
+    fits("backdrop", film.has_backdrop() == fresh.has_backdrop())?;
     fits("choice of halves", film.has_halves() == fresh.has_halves())?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
     let samples = samples(scene, options);
@@ -85,7 +87,9 @@ fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
         options.part.map(|part| part.crop).or(options.crop).unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
     let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
-    film.keep_layers(options.layers.unwrap_or(scene.layers), scene);
+    film.keep_backdrop(scene.backdrop);
+    let alpha = scene.backdrop.then_some(Layer::Alpha);
+    film.keep_layers(options.layers.unwrap_or(scene.layers).iter().chain(alpha).collect(), scene);
     film.keep_part(options.part);
     film.keep_halves(options.halves);
     film
@@ -162,7 +166,7 @@ fn painter<'a>(
         observer,
         statistics: options.statistics,
         limit: film.clamp.map(|limit| f64::from(limit) / engine.scene.radiance_unit),
-        alpha: film.has_alpha(),
+        backdrop: film.has_backdrop(),
         lamps: film.place_of_lamps(),
         until: None,
         done: AtomicU64::new(if film.is_begun() { film.camera_samples() } else { 0 }),

@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::observer::{Observer, Progress};
 use super::technique::{Engine, OnFilm, Technique};
 use super::trace::trace;
-use crate::film::{Cells, Film, Keeper, Piece, Unfinished, half_end, half_of, is_hit};
+use crate::film::{Cells, Film, Keeper, Piece, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -143,7 +143,7 @@ pub struct Painter<'a> {
     /// The most that samples count, in the film's unit.
     pub limit: Option<f64>,
     /// What is seen behind everything is summed by itself.
-    pub alpha: bool,
+    pub backdrop: bool,
     /// Where the layer `emission` stands among the sums of samples, where halves are kept.
     pub lamps: Option<usize>,
     /// When the rendering ends at the latest.
@@ -280,7 +280,7 @@ impl Painter<'_> {
                 batch.counters.dropped += left_out.dropped;
                 batch.counters.beyond += left_out.beyond;
                 tile.add_layers(&batch.layers, first, common);
-                if self.alpha {
+                if self.backdrop {
                     tile.add_missed(samples, &batch.layers, first, common);
                 }
                 let half = half_of(batch.items[first].sample);
@@ -290,7 +290,6 @@ impl Painter<'_> {
                 if let Some(place) = self.lamps {
                     let lamps = [0, 1, 2].map(|c| &batch.layers.sums[place + c][slots.clone()]);
                     tile.add_lamps(half, lamps, common, self.limit);
-                    tile.add_background(half, samples, |k| is_hit(&batch.layers, first, k), common);
                 }
                 added += common.len() as u64;
             });

@@ -92,6 +92,7 @@ pub struct FilmHead {
     pub(super) caustics: bool,
     pub(super) layers: Vec<SavedLayer>,
     pub(super) halves: bool,
+    pub(super) backdrop: bool,
 }
 
 impl FilmHead {
@@ -116,6 +117,7 @@ impl FilmHead {
             caustics: film.caustics,
             layers: film.layers.iter().map(|layer| layer.saved()).collect(),
             halves: film.halves,
+            backdrop: film.backdrop,
         }
     }
 
@@ -136,7 +138,7 @@ impl FilmHead {
         let whole = *self.samples.start();
         let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
         numbers.push(self.clamp.map_or(0, f32::to_bits));
-        numbers.extend([self.reuse, self.caustics, self.halves].map(u32::from));
+        numbers.extend([self.reuse, self.caustics, self.halves, self.backdrop].map(u32::from));
         numbers.extend([whole, *self.samples.end(), self.light_samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
         numbers.extend([end, pieces.len() as u32]);
@@ -172,7 +174,8 @@ impl FilmHead {
         let size = [next()?, next()?];
         let crop = Crop { x: next()?, y: next()?, width: next()?, height: next()? };
         let (seed, clamp) = (next()?, f32::from_bits(next()?));
-        let [reuse, caustics, halves] = [next()? != 0, next()? != 0, next()? != 0];
+        let [reuse, caustics] = [next()? != 0, next()? != 0];
+        let [halves, backdrop] = [next()? != 0, next()? != 0];
         let samples = next()?..=next()?;
         let (light_samples, end, count) = (next()?, next()?, next()?);
         let mut pieces = Vec::new();
@@ -213,6 +216,7 @@ impl FilmHead {
             caustics,
             layers,
             halves,
+            backdrop,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -262,6 +266,7 @@ impl FilmHead {
     pub(super) fn has(&self, tile: &Tile, kept: Kept) -> bool {
         tile.taken.is_some() == self.clamp.is_some()
             && tile.half.is_some() == self.halves
+            && (tile.missed.is_none() || self.backdrop)
             && (tile.layers.is_none() || kept != Kept::default())
     }
 
@@ -432,6 +437,7 @@ impl<R: Read> SavedFilm<R> {
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
+        film.backdrop = head.backdrop;
         Ok(film)
     }
 

@@ -21,7 +21,7 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
-    /// What camera rays of either half have met of lamps, and of the background, where they have.
+    /// What camera rays of either half have met of lamps, where they have.
     lamps: Option<Box<[Sums; 2]>>,
 }
 
@@ -129,8 +129,8 @@ impl Tile {
     }
 
     /// Adds what camera rays of a half have met of lamps, red, green and blue of the samples that [`Tile::add`] is
-    /// given, too; where halves are kept. What is met of a lamp is all that such a sample has, so that it is clamped as
-    /// the sample is.
+    /// given, too; where halves are kept. What is met of a lamp is all that such a sample has by itself, so it is
+    /// clamped as a sample is.
     pub(crate) fn add_lamps(&mut self, of: usize, lamps: [&[f32]; 3], pixels: &[[u8; 2]], limit: Option<f64>) {
         let Some(half) = &mut self.half else { return };
         for &[k, pixel] in pixels {
@@ -142,27 +142,6 @@ impl Tile {
             let scale = limit.filter(|&limit| largest > limit).map_or(1.0, |limit| limit / largest);
             let lamps = half.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
             lamps[of].add(usize::from(pixel), met.map(|x| fixed((f64::from(x) * scale) as f32)));
-        }
-    }
-
-    /// Adds samples of a half whose camera rays have hit nothing, as those of [`Tile::add`]; where halves are kept. All
-    /// that they have is the background.
-    pub(crate) fn add_background(
-        &mut self,
-        of: usize,
-        [red, green, blue]: [&[f32]; 3],
-        is_hit: impl Fn(usize) -> bool,
-        pixels: &[[u8; 2]],
-    ) {
-        let Some(half) = &mut self.half else { return };
-        for &[k, pixel] in pixels {
-            let (k, pixel) = (usize::from(k), usize::from(pixel));
-            let sample = [red[k], green[k], blue[k]];
-            if is_hit(k) || sample == [0.0; 3] || !counts(sample) {
-                continue;
-            }
-            let lamps = half.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
-            lamps[of].add(pixel, sample.map(fixed));
         }
     }
 
@@ -203,8 +182,8 @@ impl Film {
         })
     }
 
-    /// What lamps and the background, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where
-    /// the film has the layer `emission`, else zero. It is clamped where samples are.
+    /// What lamps, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has the layer
+    /// `emission`, else zero. It is clamped where samples are.
     pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);

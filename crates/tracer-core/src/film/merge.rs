@@ -123,6 +123,7 @@ impl FilmHead {
             ("set of layers", layers(self) == layers(other)),
             ("reuse", self.reuse == other.reuse),
             ("caustics", self.caustics == other.caustics),
+            ("backdrop", self.backdrop == other.backdrop),
             ("choice of halves", self.halves == other.halves),
         ];
         same.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
@@ -302,6 +303,7 @@ fn empty(head: &FilmHead) -> Result<Film, MergeError> {
     (film.crop, film.tile_columns) = (of, across);
     (film.reuse, film.caustics) = (head.reuse, head.caustics);
     film.keep_halves(head.halves);
+    film.keep_backdrop(head.backdrop);
     film.layers = head.film_layers().map_err(|error| MergeError::Part { part: 0, error })?;
     Ok(film)
 }

@@ -1,11 +1,11 @@
-//! What camera rays see behind everything, summed by itself, so that a picture can be laid over another one. It is
-//! kept where the film has the layer `alpha`, which tells how much of a pixel that is.
+//! What camera rays see behind everything, summed by itself, so that a picture can be laid over another one
+//! ([`crate::Backdrop`]). The layer `alpha` is kept beside it, which tells how much of a pixel that is.
 
 use super::exact::{Sums, fixed};
 use super::layers::is_hit;
 use super::{Film, Tile, counts};
 use bytemuck::Zeroable;
-use tracer_kernels::layers::{Layer, LayerSamples};
+use tracer_kernels::layers::LayerSamples;
 
 impl Tile {
     /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
@@ -29,22 +29,28 @@ impl Tile {
 }
 
 impl Film {
-    /// Whether it keeps what is seen behind everything by itself: it has the layer `alpha`.
-    pub fn has_alpha(&self) -> bool {
-        self.layers.iter().any(|of| of.layer == Layer::Alpha)
+    /// Keeps what is seen behind everything by itself, if that is wanted; before anything is added.
+    pub(crate) fn keep_backdrop(&mut self, backdrop: bool) {
+        self.backdrop = backdrop;
+    }
+
+    /// Whether it keeps what is seen behind everything by itself: the scene has a [`crate::Backdrop`].
+    pub fn has_backdrop(&self) -> bool {
+        self.backdrop
     }
 
     /// The part of a pixel's radiance ([`Film::radiance`]) that is the background, seen by camera rays that hit
-    /// nothing, linear RGB. Black where the film does not have the layer `alpha`.
+    /// nothing, linear RGB. Black where that is not kept ([`Film::has_backdrop`]).
     pub fn background(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         let mean = |missed: &Sums| missed.mean(pixel, tile.samples[pixel]).map(|x| x * self.unit);
         tile.missed.as_deref().map_or([0.0; 3], mean)
     }
 
-    /// The share of a pixel's samples that hit something, 0 to 1; one where the film does not have the layer `alpha`.
+    /// The share of a pixel's samples that hit something, 0 to 1; one where that is not kept
+    /// ([`Film::has_backdrop`]).
     pub fn alpha(&self, x: u32, y: u32) -> f64 {
-        if !self.has_alpha() {
+        if !self.backdrop {
             return 1.0;
         }
         let (tile, pixel) = self.place(x, y);

@@ -46,6 +46,10 @@ impl Glints {
 /// Chains, where rays are guided and mirrors or glass are seen.
 pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
     trial.plan.as_ref()?;
+    // Of a sample's four chains some would see the background and others not.
+    if trial.engine.scene.backdrop {
+        return None;
+    }
     let glints = pilot(trial)?;
     glints.flags.contains(&true).then(|| Box::new(glints) as Box<dyn Technique>)
 }
