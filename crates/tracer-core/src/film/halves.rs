@@ -182,8 +182,8 @@ impl Film {
         })
     }
 
-    /// What lamps, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has the layer
-    /// `emission`, else zero. It is clamped where samples are.
+    /// What lamps, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has the
+    /// layer `emission`, else zero. It is clamped where samples are.
     pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);

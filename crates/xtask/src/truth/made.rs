@@ -15,11 +15,11 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let glass = material.transmits();
     let curve = if once_in(random, 2) { Curve::CatmullRom } else { Curve::Linear };
     let segments = if once_in(random, 2) { 128 } else { 3 + random.below(30) as u32 };
-    let transform = if once_in(random, 2) { steps(random) } else { Vec::new() };
+    let transform = if once_in(random, 4) { Vec::new() } else { steps(random) };
     let there = vec![Transform::Translate(center).into()];
     let placements = Placements::List(Box::new(std::iter::once(there).collect()));
     let (material, name) = (inline(material), Name::default());
-    let object = match random.below(8) {
+    let object = match random.below(10) {
         0 if !glass => Object::Polygon(Box::new(Polygon {
             points: Corners(star(radius, random).into_iter().map(|[x, y]| [x, 0.6 * y, 0.8 * y]).collect()).into(),
             material,
@@ -36,19 +36,19 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             placements,
             name,
         })),
-        3 => Object::Tube(Box::new(Tube {
+        3 | 8 => Object::Tube(Box::new(Tube {
             points: PathPoints(path(radius, random)).into(),
             // A curve that bends tighter than its tube passes through itself, which glass shows.
             radius: Radii::All(0.12 * radius).into(),
             curve,
-            closed: once_in(random, 3),
+            closed: once_in(random, 2),
             segments: segments.min(32).into(),
             material,
-            transform: steps(random),
+            transform,
             placements,
             name,
         })),
-        4 => Object::Torus(Box::new(Torus {
+        4 | 9 => Object::Torus(Box::new(Torus {
             center: [0.0, random.between(-0.1, 0.1) * radius, 0.0].into(),
             axis: [random.between(-1.0, 1.0), 0.5, random.between(-1.0, 1.0)].into(),
             radius: (0.5 * radius).into(),
@@ -67,7 +67,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             head_length: once_in(random, 2).then(|| (random.between(0.2, 0.8) * radius).into()),
             segments: segments.into(),
             material,
-            transform: steps(random),
+            transform,
             placements,
             name,
         })),
