@@ -148,7 +148,7 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
         && let Some(without) = outputs.iter().find(clear)
         && shell.verbosity > Verbosity::Quiet
     {
-        let name = without.encoding.name();
+        let name = without.encoding.name().to_uppercase();
         shell.say(&format!("warning: {name} files hold no alpha: the background is black there; PNG and EXR hold it"));
     }
 }
