@@ -82,6 +82,9 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             );
         }
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
+        (Type::OneOf([Type::Number, Type::List(_)]), what) => {
+            return with_unit(format!("{what} {words}, or a list of such numbers: [a, b, ..]"), at);
+        }
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
         (Type::OneOf([Type::Text, ..]), _) => "the name of a material, or a material written here".to_owned(),
         (Type::OneOf(_), _) => "a value".to_owned(),

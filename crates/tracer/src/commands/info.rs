@@ -104,7 +104,7 @@ impl Facts {
         );
         line("objects", {
             let other =
-                [(flat_sided, "flat-sided shape"), (curved, "other curved shape"), (made, "shape made of triangles")];
+                [(flat_sided, "flat-sided shape"), (curved, "other curved shape"), (made, "triangulated shape")];
             let other = other.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what));
             let spheres = std::iter::once(counted(spheres, "sphere"));
             let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();

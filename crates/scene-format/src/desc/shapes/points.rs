@@ -3,7 +3,7 @@
 use crate::codes;
 use crate::diagnostic::Diagnostic;
 use crate::read::{Reader, make_room};
-use crate::schema::FieldDef;
+use crate::schema::{FieldDef, Type};
 use crate::tree::Item;
 use crate::words::Words;
 
@@ -34,9 +34,10 @@ pub(super) fn read<P: Words>(
         return None;
     }
     if points.len() < least {
-        let message = format!("{noun} has at least {least} points, not {}", points.len());
+        let items = if matches!(P::TYPE, Type::Number) { "numbers" } else { "points" };
+        let message = format!("{noun} has at least {least} {items}, not {}", points.len());
         let fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message);
-        reader.report(fault.expected(format!("{least} points or more")));
+        reader.report(fault.expected(format!("{least} {items} or more")));
         return None;
     }
     points.shrink_to_fit();
