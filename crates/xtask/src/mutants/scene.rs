@@ -42,16 +42,23 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "coplanar-lamps-lose",
         file: COPLANAR_FIND,
-        find: "let rank = |face: &Face| (face.rank, face.primitive, face.instance);",
-        replace: "let rank = |face: &Face| (0, face.primitive, face.instance);",
+        find: "let rank = |face: &Face| (face.rank, face.id());",
+        replace: "let rank = |face: &Face| (0, face.id());",
         caught_by: proofs(&["coplanar::"]),
     },
     Mutant {
         name: "coplanar-real-gaps-are-none",
         file: COPLANAR_FIND,
-        find: "let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2.0, corners);",
-        replace: "let (mut terms, mut units, mut placed) = (DVec3::ZERO, 2000.0, corners);",
+        find: "= (DVec3::ZERO, 2.0, corners, false);",
+        replace: "= (DVec3::ZERO, 2000.0, corners, false);",
         caught_by: suite("bvh_coplanar", &["what_is_apart"]),
+    },
+    Mutant {
+        name: "touching-glass-as-if-alone",
+        file: "crates/kernels/src/engine/stages/materials/mod.rs",
+        find: "self.parameter / ior",
+        replace: "self.parameter",
+        caught_by: proofs(&["coplanar::glass_that_touches_glass"]),
     },
     Mutant {
         name: "one-bounce-too-many",
