@@ -5,7 +5,7 @@ use super::meshes::{Point, Shape};
 use super::receivers;
 use super::relation::{PLANE_MIRROR, Relation};
 use super::world::{World, glass, matt, mirror};
-use scene_format::desc::{Albedo, Material, Mirror, Object, Transform};
+use scene_format::desc::{Albedo, Material, Mirror, Object, SolidMapping, Transform};
 use tracer_reference::Random;
 
 /// A scene and what it is held against.
@@ -458,8 +458,22 @@ pub const KINDS: [Kind; 16] = [
     ("flipped", casters, Relation::Flipped, false),
 ];
 
-/// Takes the textures off spheres: they lie by longitude, which has no mirror image.
-fn plain_spheres(world: &mut World) {
+/// Whether a pattern lies in the scene's space, whatever is done to what it is on.
+fn lies_in_the_world(albedo: &Albedo) -> bool {
+    let mapping = match albedo {
+        Albedo::Checkerboard(pattern) => &pattern.mapping,
+        Albedo::Gradient(pattern) => &pattern.mapping,
+        Albedo::Noise(pattern) => &pattern.mapping,
+        Albedo::Wood(pattern) => &pattern.mapping,
+        Albedo::Marble(pattern) => &pattern.mapping,
+        Albedo::Voronoi(pattern) => &pattern.mapping,
+        _ => return false,
+    };
+    matches!(mapping, SolidMapping::World { .. })
+}
+
+/// Takes off what has no mirror image: textures of spheres, which lie by longitude, and patterns that lie in the world.
+fn without_what_has_no_image(world: &mut World) {
     let textured: Vec<bool> = world
         .desc
         .objects
@@ -467,7 +481,9 @@ fn plain_spheres(world: &mut World) {
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
             let plain = |material: &Material| material.color().is_none_or(|color| matches!(color, Albedo::Color(_)));
-            sphere && !draw::material_of(world, &object.value).is_none_or(plain)
+            let in_world = |material: &Material| material.color().is_some_and(lies_in_the_world);
+            let material = draw::material_of(world, &object.value);
+            sphere && !material.is_none_or(plain) || material.is_some_and(in_world)
         })
         .collect();
     for (object, textured) in world.desc.objects.iter_mut().zip(textured) {
@@ -504,7 +520,9 @@ pub fn case(seed: u64, size: u32) -> Case {
     if matches!(relation, Relation::Flipped) {
         // A camera that is turned about its axis would have to be turned the other way.
         world.desc.camera.up = [0.0, 1.0, 0.0].into();
-        plain_spheres(&mut world);
+    }
+    if matches!(relation, Relation::Flipped | Relation::Unfolded) {
+        without_what_has_no_image(&mut world);
     }
     // Up along the view is refused; drawn so with probability zero. A drop is the last kind of step to be told apart.
     if let Some(Object::Mesh(mesh)) = world.desc.objects.last_mut().map(|object| &mut object.value)
