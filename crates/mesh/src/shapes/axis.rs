@@ -9,7 +9,8 @@ use scene_format::path::{Point3, dot, unit};
 /// coordinates.
 const UPRIGHT: f64 = 0.9999;
 
-fn cross(a: Point3, b: Point3) -> Point3 {
+/// a x b.
+pub fn cross(a: Point3, b: Point3) -> Point3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

@@ -11,6 +11,7 @@
 
 #![expect(clippy::indexing_slicing, reason = "rings and corners are numbered here")]
 
+use super::axis::cross;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
 use scene_format::desc::{Curve, Radii, Tube};
@@ -207,10 +208,6 @@ fn add(a: Point3, b: Point3, times: f64) -> Point3 {
     std::array::from_fn(|axis| a[axis] + times * b[axis])
 }
 
-fn cross(a: Point3, b: Point3) -> Point3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// Of unit length, across a unit direction.
 fn across(direction: Point3) -> Point3 {
     let [x, y, z] = direction.map(f64::abs);
@@ -376,21 +373,24 @@ impl Swept {
     }
 
     fn ring(&mut self, positions: Vec<u32>, normals: &[Point3], v: f64, is_tip: bool) -> Ring {
-        let data = &mut self.data;
-        let (normal, uvs) = (data.normals.len() as u32, data.uvs.len() as u32);
-        data.normals.extend(normals.iter().map(|n| n.map(|x| x as f32)));
+        let (normal, uvs) = (self.data.normals.len() as u32, self.uvs(v, is_tip));
+        self.data.normals.extend(normals.iter().map(|n| n.map(|x| x as f32)));
+        Ring { positions, normal, uvs, is_tip }
+    }
+
+    /// Adds texture coordinates of a ring; gives the number of the first.
+    fn uvs(&mut self, v: f64, is_tip: bool) -> u32 {
+        let first = self.data.uvs.len() as u32;
         // At a tip each triangle has its own.
         let shift = if is_tip { 0.5 } else { 0.0 };
         let u = |k: u32| (f64::from(k) + shift) / f64::from(self.segments);
-        data.uvs.extend((0..=self.segments).map(|k| [u(k) as f32, v as f32]));
-        Ring { positions, normal, uvs, is_tip }
+        self.data.uvs.extend((0..=self.segments).map(|k| [u(k) as f32, v as f32]));
+        first
     }
 
     /// A ring that is where another is, with other texture coordinates.
     fn again(&mut self, ring: &Ring, v: f64) -> Ring {
-        let uvs = self.data.uvs.len() as u32;
-        let u = |k: u32| f64::from(k) / f64::from(self.segments);
-        self.data.uvs.extend((0..=self.segments).map(|k| [u(k) as f32, v as f32]));
+        let uvs = self.uvs(v, ring.is_tip);
         Ring { positions: ring.positions.clone(), uvs, ..*ring }
     }
 
