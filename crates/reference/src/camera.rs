@@ -2,21 +2,80 @@
 
 use crate::Ray;
 use crate::random::Random;
+use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use tracer_core::scene::{Camera, Filter};
+use tracer_core::scene::{Camera, Filter, FisheyeMapping, Lens, Projection};
 
-/// A ray through the pixel (column, row).
-pub fn ray(camera: &Camera, size: [u32; 2], pixel: [u32; 2], random: &mut Random) -> Ray {
+/// A ray through the pixel (column, row); `None` where the picture shows nothing.
+pub fn ray(camera: &Camera, size: [u32; 2], pixel: [u32; 2], random: &mut Random) -> Option<Ray> {
     let (dx, dy) = filter(camera.filter, random);
     // From -1 to 1 over the picture, y upwards.
     let x = 2.0 * (f64::from(pixel[0]) + 0.5 + dx) / f64::from(size[0]) - 1.0;
     let y = 1.0 - 2.0 * (f64::from(pixel[1]) + 0.5 + dy) / f64::from(size[1]);
-    let through = camera.forward + x * camera.right + y * camera.up;
-    // The ray through the lens' middle is not bent; all rays of a point meet where it crosses the plane of focus.
-    let (sin, cos) = (TAU * random.number()).sin_cos();
-    let r = camera.lens_radius * random.number().sqrt();
-    let on_lens = camera.right.normalize() * (r * cos) + camera.up.normalize() * (r * sin);
-    Ray { origin: camera.eye + on_lens, direction: (through * camera.focus_distance - on_lens).normalize() }
+    let Ray { mut origin, mut direction } = through(camera, x, y)?;
+    if let Projection::Perspective { lens: Some(lens), .. } = camera.projection {
+        // The ray through the lens' middle is not bent; all rays of a point meet where it crosses the plane of focus.
+        let on_lens = point_of(&lens, random);
+        let on_lens = camera.right.normalize() * on_lens[0] + camera.up.normalize() * on_lens[1];
+        let normal = lens.tilted.unwrap_or(camera.forward);
+        let distance = lens.focus_distance * normal.dot(camera.forward) / normal.dot(direction);
+        let focus = direction * distance;
+        // Where the plane is behind the eye, rays go away from their common point.
+        direction = (focus - on_lens) * distance.signum();
+        origin += on_lens;
+    }
+    let direction = direction.normalize();
+    let start = camera.near / direction.dot(camera.forward);
+    Some(Ray { origin: origin + if camera.near > 0.0 { start * direction } else { DVec3::ZERO }, direction })
+}
+
+/// The ray from the eye to a place in the picture, `near` and lens aside.
+pub fn through(camera: &Camera, x: f64, y: f64) -> Option<Ray> {
+    let Camera { eye, forward, right, up, .. } = *camera;
+    let ray = |direction: DVec3| Ray { origin: eye, direction: direction.normalize() };
+    match camera.projection {
+        Projection::Perspective { shift, .. } => Some(ray(forward + (x + shift[0]) * right + (y + shift[1]) * up)),
+        Projection::Orthographic => Some(Ray { origin: eye + x * right + y * up, direction: forward }),
+        Projection::Panorama => {
+            let (longitude, latitude) = (PI * x, PI / 2.0 * y);
+            let level = longitude.cos() * forward + longitude.sin() * right;
+            Some(ray(latitude.cos() * level + latitude.sin() * up))
+        }
+        Projection::Fisheye { mapping, scale } => {
+            let place = x * right + y * up;
+            let r = place.length();
+            let angle = match mapping {
+                FisheyeMapping::Equidistant => scale * r,
+                FisheyeMapping::Equisolid => 2.0 * (scale * r).min(1.0).asin(),
+                FisheyeMapping::Stereographic => 2.0 * (scale * r).atan(),
+                FisheyeMapping::Orthographic => (scale * r).min(1.0).asin(),
+            };
+            let towards = place.normalize_or_zero();
+            (r < 1.0).then(|| ray(angle.cos() * forward + angle.sin() * towards))
+        }
+    }
+}
+
+/// A uniform point of the lens, to the right and up.
+fn point_of(lens: &Lens, random: &mut Random) -> [f64; 2] {
+    loop {
+        let point = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+        let (x, y) = (point[0], point[1]);
+        let inside = if lens.blades < 3 {
+            x.hypot(y) < 1.0
+        } else {
+            // Below each side, whose normal lies half way between two corners.
+            let step = TAU / f64::from(lens.blades);
+            let reach = (step / 2.0).cos();
+            (0..lens.blades).all(|side| {
+                let (sin, cos) = (TAU * lens.rotation + step * (f64::from(side) + 0.5)).sin_cos();
+                x * cos + y * sin < reach
+            })
+        };
+        if inside {
+            return point.map(|side| side * lens.radius);
+        }
+    }
 }
 
 /// An offset from the pixel's centre with the filter as its density.

@@ -1,9 +1,10 @@
 //! What the picture's layers show: the first hit of a ray through a pixel's centre.
 
 use crate::world::World;
-use crate::{Ray, Smoothing, texture};
+use crate::{Smoothing, camera, texture};
 use glam::DVec3;
 use tracer_core::Scene;
+use tracer_core::scene::Projection;
 
 /// What is seen at a pixel's centre, in render space.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +13,7 @@ pub struct FirstHit {
     pub point: DVec3,
     /// Shading normal, unit, on the viewer's side.
     pub normal: DVec3,
-    /// Distance from the eye along the view axis.
+    /// Distance from the eye along the view axis; of cameras that see all around the distance itself.
     pub depth: f64,
     /// Texture coordinates, v upwards.
     pub uv: [f64; 2],
@@ -37,8 +38,7 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<FirstHit>> {
 fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit> {
     let camera = &scene.camera;
     let [x, y] = [(x, scene.size[0]), (y, scene.size[1])].map(|(x, n)| 2.0 * (f64::from(x) + 0.5) / f64::from(n) - 1.0);
-    let through = camera.forward + x * camera.right - y * camera.up;
-    let ray = Ray { origin: camera.eye, direction: through.normalize() };
+    let ray = camera::through(camera, x, -y)?;
     let hit = world.closest(&ray)?;
     let s = world.surface(&ray, &hit, Smoothing::Naive);
     let light = world.light_of(&hit).map(|light| &scene.lights[light]);
@@ -51,7 +51,10 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
     Some(FirstHit {
         point: s.p,
         normal: s.ns,
-        depth: (s.p - camera.eye).dot(camera.forward),
+        depth: match camera.projection {
+            Projection::Perspective { .. } | Projection::Orthographic => (s.p - camera.eye).dot(camera.forward),
+            Projection::Panorama | Projection::Fisheye { .. } => (s.p - camera.eye).length(),
+        },
         uv: s.uv,
         albedo,
         emission,

@@ -69,7 +69,7 @@ pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> P
             let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
             for _ in 0..samples {
                 let ray = camera::ray(&scene.camera, scene.size, [x, y], &mut random);
-                let radiance = tracer.radiance(ray, 0, &mut random);
+                let radiance = ray.map_or(DVec3::ZERO, |ray| tracer.radiance(ray, 0, &mut random));
                 sum += radiance;
                 squares += radiance * radiance;
             }

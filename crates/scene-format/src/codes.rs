@@ -258,6 +258,13 @@ codes! {
     /// Scene(background: 1, objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])])
     /// ```
     GROUP_DROP "E0211" "a group that is dropped";
+    /// A field stands beside another one that leaves it nothing to say: a `fov` where the camera's projection shows all
+    /// directions, say.
+    ///
+    /// ```ron
+    /// Scene(camera: Camera(fov: 30, projection: Panorama), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    NO_USE "E0212" "a field that has no use here";
 
     /// A length or size must be more than zero.
     ///

@@ -6,7 +6,10 @@ use crate::desc::{
     Metal, NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
     VoronoiFeature,
 };
-use crate::desc::{BackgroundWords, DepthOfField, ITEMS, MappingWords, PatternWords, PlacementPattern, TransformWords};
+use crate::desc::{
+    BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
+    Projection, TransformWords,
+};
 use crate::schema::EnumDef;
 
 /// A complete scene that shows one kind of thing.
@@ -45,7 +48,10 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 28] = [
+pub(crate) const CHOICES: [&EnumDef; 31] = [
+    &Projection::DEF,
+    &FovAxis::DEF,
+    &FisheyeMapping::DEF,
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -78,7 +84,20 @@ pub(crate) const CHOICES: [&EnumDef; 28] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 92] = [
+const SNIPPETS: [(&str, &str, &str); 105] = [
+    ("Projection", "Perspective", "projection: Perspective"),
+    ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
+    ("Projection", "Panorama", "projection: Panorama"),
+    ("Projection", "Fisheye", "projection: Fisheye(fov: 200, mapping: Equisolid)"),
+    ("FovAxis", "Vertical", "fov: 50, fov_axis: Vertical"),
+    ("FovAxis", "Horizontal", "fov: 50, fov_axis: Horizontal"),
+    ("FovAxis", "Diagonal", "fov: 50, fov_axis: Diagonal"),
+    ("FovAxis", "Smaller", "fov: 50, fov_axis: Smaller"),
+    ("FovAxis", "Larger", "fov: 50, fov_axis: Larger"),
+    ("FisheyeMapping", "Equidistant", "projection: Fisheye(mapping: Equidistant)"),
+    ("FisheyeMapping", "Equisolid", "projection: Fisheye(mapping: Equisolid)"),
+    ("FisheyeMapping", "Stereographic", "projection: Fisheye(mapping: Stereographic)"),
+    ("FisheyeMapping", "Orthographic", "projection: Fisheye(mapping: Orthographic)"),
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -236,7 +255,9 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     let mut background = "0.1";
     let mut files: &'static [ExampleFile] = &[];
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
+    let mut camera = "position: (0, 1, 5)".to_owned();
     match choice {
+        "Projection" | "FovAxis" | "FisheyeMapping" => camera = format!("{camera}, {words}"),
         "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
         "Layer" => more = format!("    output: Output({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
@@ -272,7 +293,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
         _ => {}
     }
     let ron = format!(
-        "Scene(\n    camera: Camera(position: (0, 1, 5)),\n    image: Image(width: 64, height: 64),\n    render: \
+        "Scene(\n    camera: Camera({camera}),\n    image: Image(width: 64, height: 64),\n    render: \
          Render({render}),\n{more}    background: {background},\n    lights: [{light}],\n    objects: [\n        {object},\n        \
          Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
     );

@@ -14,7 +14,8 @@ pub const DENOISE_REACH: u32 = tracer_denoise::REACH as u32;
 /// What denoising made of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Denoised {
-    /// Radiance of the pixels that the film holds, linear RGB, rows from the top: as [`Film::radiance`] gives it.
+    /// Radiance of the pixels that the film holds, linear RGB, rows from the top: as [`Film::radiance`] gives it, less
+    /// the background where the film keeps that by itself ([`Film::has_backdrop`]).
     pub radiance: Vec<f32>,
     /// What was changed, and how large errors were and are.
     pub told: tracer_denoise::Told,
@@ -76,7 +77,10 @@ pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
     let picture = |half: usize| -> Vec<f32> { halves.iter().flat_map(|of| of[half].map(finite)).collect() };
     let lamps = |(x, y): (u32, u32)| {
         let (lamps, [first, second]) = (film.lamps_of_halves(x, y), film.samples_of_halves(x, y).map(f64::from));
-        [0, 1, 2].map(|c| finite((lamps[0][c] * first + lamps[1][c] * second) / (first + second)))
+        let behind = if film.has_backdrop() { film.background(x, y) } else { [0.0; 3] };
+        // Never less than none, but for rounding.
+        let seen = |c: usize| (lamps[0][c] * first + lamps[1][c] * second) / (first + second) - behind[c];
+        [0, 1, 2].map(|c| finite(seen(c).max(0.0)))
     };
     let lamps: Vec<f32> = (0..pixels).flat_map(|k| lamps(at(k))).collect();
     let variance: Vec<f32> = (0..pixels).into_par_iter().map(|k| finite(film.variance(at(k).0, at(k).1))).collect();

@@ -119,6 +119,9 @@ enum Command {
         /// Only rooms whose names contain this.
         #[arg(long, default_value = "")]
         name: String,
+        /// Pictures of each: more make the bound narrower.
+        #[arg(long, default_value_t = xtask::truth::squares::PICTURES)]
+        pictures: u32,
     },
 }
 
@@ -159,8 +162,8 @@ fn main() -> anyhow::Result<()> {
             anyhow::ensure!(jumps == 0, "{jumps} jumps are too large");
             return Ok(());
         }
-        Command::Rooms { samples, name } => {
-            let above = xtask::truth::rooms::run(&samples, &name)?;
+        Command::Rooms { samples, name, pictures } => {
+            let above = xtask::truth::rooms::run(&samples, &name, pictures)?;
             anyhow::ensure!(above == 0, "{above} upper bounds are above the limit");
             return Ok(());
         }

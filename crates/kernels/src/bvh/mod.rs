@@ -41,7 +41,7 @@ pub use ray_space::{PAD, SMALLEST_COMPONENT};
 use crate::level::Level;
 use arena::Arena;
 use coplanar::Coplanar;
-pub use coplanar::{Materials, Ranks, TRANSMITS};
+pub use coplanar::{Materials, Ranks, SAME_SIDE, TRANSMITS};
 use kernels::{Batch, MeshRecord, TreeView};
 use layout::{INSTANCE_UNITS, InstanceRecord, Ref};
 

@@ -20,4 +20,4 @@ pub use stages::camera::density;
 pub use stages::deposit::deposit;
 pub use stages::light_paths::LightPass;
 pub use stages::shaft::Obstacles;
-pub(crate) use stages::{lights, materials::Bsdf, surface::Surface};
+pub(crate) use stages::{cameras::depth, lights, materials::Bsdf, surface::Surface};

@@ -1,9 +1,10 @@
 //! The distance from the eye along the view axis, as `focus_distance` is measured: that of a wall seen straight is the
-//! same in all of the picture. A lens lies across the view axis, so it changes nothing.
+//! same in all of the picture. A lens lies across the view axis, so it changes nothing. Cameras that see all around have
+//! no such axis: the distance itself.
 
 use super::{FirstHit, PictureLayer, Pixel, Units};
+use crate::engine::depth;
 use crate::lanes::Lanes;
-use crate::math::V3;
 use crate::scene::Scene;
 
 pub(super) struct Depth;
@@ -18,8 +19,7 @@ impl PictureLayer for Depth {
 
     #[inline(always)]
     fn at<F: Lanes>(hit: &FirstHit<'_, F>) -> [F; 3] {
-        let forward = V3::<F>::splat(hit.scene.camera.forward.as_vec3().to_array());
-        let depth = hit.t * hit.direction.dot(forward);
+        let depth = depth(&hit.scene.camera, hit.t, hit.direction);
         [depth, depth, depth]
     }
 

@@ -2,26 +2,80 @@
 
 use glam::DVec3;
 
-/// A thin-lens camera (a pinhole when the lens has no radius).
+/// A camera.
 ///
-/// A point of the picture plane is `forward + x right + y up` from the eye, with x, y from -1 to 1 times the half
-/// extents that are already multiplied into `right` and `up`.
+/// A place in the picture is x, y from -1 to 1, x to the right and y upwards; what it shows, [`Projection`] says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Eye.
     pub eye: DVec3,
     /// Unit view direction.
     pub forward: DVec3,
-    /// To the right edge of the picture, at distance 1 from the eye.
+    /// To the right, across `forward`: how long, the projection says.
     pub right: DVec3,
-    /// To the upper edge of the picture, at distance 1 from the eye.
+    /// Upwards, across both: how long, the projection says.
     pub up: DVec3,
-    /// Radius of the lens, in render units.
-    pub lens_radius: f64,
-    /// Distance of the plane of focus from the eye along `forward`, in render units.
-    pub focus_distance: f64,
+    /// From places in the picture to rays.
+    pub projection: Projection,
+    /// Depth, along `forward`, in render units, at which rays start; zero: at the eye.
+    pub near: f64,
     /// The pixel's reconstruction filter.
     pub filter: Filter,
+}
+
+/// From a place (x, y) in the picture to the ray that sees what is there. Over lanes: `engine/stages/cameras/`, a file
+/// a projection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Along `forward + x right + y up` from the eye, `right` and `up` being half the picture at distance one.
+    Perspective {
+        /// Added to x and y.
+        shift: [f64; 2],
+        /// A pinhole without.
+        lens: Option<Lens>,
+    },
+    /// Along `forward` from `eye + x right + y up`, `right` and `up` being half the picture in render units.
+    Orthographic,
+    /// All directions: x half a turn to the right of `forward`, y a quarter of a turn upwards; `right` and `up` are
+    /// unit vectors.
+    Panorama,
+    /// In the plane of the picture at `x right + y up`, r long: `forward` turned towards it by an angle that `mapping`
+    /// takes from r. `right` and `up` are half the picture's sides over half the shorter one, so that r is one on the
+    /// circle in it, beyond which nothing is seen.
+    Fisheye {
+        /// From r to the angle.
+        mapping: FisheyeMapping,
+        /// What r is multiplied by to be what the mapping says.
+        scale: f64,
+    },
+}
+
+/// A thin lens: the rays of one place in the picture meet in the plane of focus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius, in render units: of the disc, or of the corners of the polygon.
+    pub radius: f64,
+    /// Distance of the plane of focus from the eye along `forward`, in render units.
+    pub focus_distance: f64,
+    /// Corners of the aperture, a regular polygon; below three it is a disc.
+    pub blades: u32,
+    /// Where its first corner is, in turns from the right, counter-clockwise as the picture shows it.
+    pub rotation: f64,
+    /// The normal of the plane of focus, whose part along `forward` is one; `None`: `forward`.
+    pub tilted: Option<DVec3>,
+}
+
+/// What r is in proportion to, t being the angle to the view direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FisheyeMapping {
+    /// t
+    Equidistant,
+    /// sin(t / 2)
+    Equisolid,
+    /// tan(t / 2)
+    Stereographic,
+    /// sin(t)
+    Orthographic,
 }
 
 /// The pixel's reconstruction filter: samples are placed by its density, so each has weight one (filter importance

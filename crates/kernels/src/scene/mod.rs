@@ -19,7 +19,7 @@ mod statistics;
 mod table;
 mod texture;
 
-pub use camera::{Camera, Filter};
+pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;

@@ -1,11 +1,9 @@
 //! Film and lens effects.
 
+use super::ThinLens;
 use crate::diagnostic::Spanned;
-use crate::form::Form;
-use crate::read::Reader;
-use crate::schema::{FieldDef, Rule, Type};
-use crate::tree::Item;
-use crate::words::{Words, scene_enum, scene_struct, scene_words};
+use crate::schema::Rule;
+use crate::words::{scene_enum, scene_struct, scene_words};
 
 scene_struct! {
     /// Film and lens effects.
@@ -38,46 +36,6 @@ scene_enum! {
             /// Half width in pixels.
             radius: Spanned<f64> = 1.5 => Rule::within("a width", 1e-3, 64.0).unit("in pixels");
         };
-    }
-}
-
-scene_struct! {
-    /// A thin lens: a disc-shaped aperture, sharp at the plane of focus.
-    pub struct ThinLens as "ThinLens", "a thin lens" {
-        /// Diameter of the lens, in the scene's unit: a point at distance d along the view axis is blurred to a disc
-        /// that is aperture * |d - focus_distance| / d across in the plane of focus.
-        aperture: Spanned<f64> => Rule::within("a length", 0.0, 1e12).unit("in the scene's unit");
-        /// Distance from the eye to the plane of focus, along the view axis.
-        focus_distance: Spanned<f64> => Rule::length("a length");
-    }
-}
-
-scene_enum! {
-    /// The lens before the film: none, which is a pinhole and sharp everywhere, or a thin one.
-    pub(crate) enum DepthOfField, "lens" {
-        /// A pinhole: sharp everywhere.
-        None;
-        /// A thin lens: a disc-shaped aperture, sharp at the plane of focus.
-        ThinLens(ThinLens);
-    }
-}
-
-/// In the scene a lens is a kind (`ThinLens(..)` or `None`), so that other lenses can come beside it.
-impl Words for Option<ThinLens> {
-    const TYPE: Type = DepthOfField::TYPE;
-
-    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        DepthOfField::read(reader, item.without_some(), at).map(|lens| match lens {
-            DepthOfField::None => None,
-            DepthOfField::ThinLens(lens) => Some(lens),
-        })
-    }
-
-    fn form(&self, all: bool) -> Form {
-        match self {
-            None => DepthOfField::None.form(all),
-            Some(lens) => DepthOfField::ThinLens(lens.clone()).form(all),
-        }
     }
 }
 

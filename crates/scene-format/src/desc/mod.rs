@@ -8,9 +8,11 @@
 //! that the reader goes by and that the reference and the JSON Schema show.
 
 mod background;
+mod camera;
 mod effects;
 pub(crate) mod group;
 mod include;
+mod lens;
 mod light;
 mod materials;
 mod name;
@@ -24,10 +26,12 @@ mod view;
 
 pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
-pub(crate) use effects::DepthOfField;
-pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
+pub use camera::{Camera, FisheyeMapping, FovAxis, Projection};
+pub use effects::{Effects, PixelFilter, ToneMap};
 pub(crate) use group::{ITEMS, Objects};
 pub(crate) use include::IncludeWords;
+pub(crate) use lens::DepthOfField;
+pub use lens::{Focus, ThinLens};
 pub use light::{Emission, Light, SphereLight};
 pub use materials::{
     Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
@@ -50,7 +54,7 @@ pub use textures::{
 pub(crate) use textures::{MappingWords, PatternWords, is_texture};
 pub use transform::Transform;
 pub(crate) use transform::TransformWords;
-pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};
+pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
 use crate::files::FileKind;

@@ -1,23 +1,8 @@
-//! The camera, the picture's size, and how to render.
+//! The picture's size, and how to render.
 
-use super::Vec3;
 use crate::diagnostic::Spanned;
 use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
-
-scene_struct! {
-    /// A pinhole or thin-lens camera.
-    pub struct Camera as "Camera", "the camera" {
-        /// Eye point.
-        position: Spanned<Vec3> = [0.0, 0.0, 5.0] => Rule::point();
-        /// A point in the middle of the picture.
-        look_at: Spanned<Vec3> = [0.0, 0.0, 0.0] => Rule::point();
-        /// The direction that is up in the picture.
-        up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
-        /// Vertical field of view in degrees.
-        fov: Spanned<f64> = 40.0 => Rule::between("an angle", 0.0, 180.0).unit("in degrees");
-    }
-}
 
 scene_struct! {
     /// Size of the picture in pixels.
@@ -124,17 +109,6 @@ scene_words! {
         Map,
         /// By the paths themselves: right on average.
         Paths,
-    }
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Camera {
-            position: [0.0, 0.0, 5.0].into(),
-            look_at: [0.0, 0.0, 0.0].into(),
-            up: [0.0, 1.0, 0.0].into(),
-            fov: 40.0.into(),
-        }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, MaterialRef, Object, Output, Scene, VERSION, Vec3};
+use crate::desc::{Camera, Effects, FisheyeMapping, MaterialRef, Object, Output, Projection, Scene, VERSION, Vec3};
 use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
+use crate::plane::{cross, dot};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -63,6 +64,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
     if camera.is_none_or(|camera| !camera.holds_damage()) {
         reader.camera(&scene.camera, root.syntax());
+        reader.projection(&scene.camera, &scene.effects);
     }
     // Warnings about what is absent mean something only when the structure could be read.
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.is_value();
@@ -202,12 +204,53 @@ impl Reader<'_> {
         }
         self.path.clear();
     }
-}
 
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    /// What the camera's fields say must go together, and with the lens.
+    fn projection(&mut self, camera: &Camera, effects: &Effects) {
+        if self
+            .sink
+            .diagnostics
+            .iter()
+            .any(|fault| fault.severity == Severity::Error && fault.path.starts_with("camera"))
+        {
+            return;
+        }
+        for (field, span, why) in camera.of_no_use() {
+            self.path = vec![Step::Field("camera"), Step::Field(field)];
+            let message = format!("`{field}` has no use here: {why}");
+            self.report(Diagnostic::error(codes::NO_USE, span, message).hint(format!("leave `{field}` out")));
+        }
+        let other_fov = camera.fov.value != Camera::default().fov.value;
+        if let (Some(length), Projection::Perspective, true) = (&camera.focal_length, &camera.projection, other_fov) {
+            self.path = vec![Step::Field("camera"), Step::Field("focal_length")];
+            let fault =
+                Diagnostic::error(codes::EXACTLY_ONE, length.span, "the camera has both `fov` and `focal_length`");
+            self.report(fault.expected("one of them").hint("remove one of the two"));
+        }
+        if let Projection::Fisheye { fov, mapping } = &camera.projection {
+            let most = match mapping {
+                FisheyeMapping::Orthographic => Some(("Orthographic", "180 at most", 180.0)),
+                FisheyeMapping::Stereographic => Some(("Stereographic", "less than 360", 359.999)),
+                FisheyeMapping::Equidistant | FisheyeMapping::Equisolid => None,
+            };
+            if let Some((name, expected, _)) = most.filter(|(.., most)| fov.value > *most) {
+                self.path = vec![Step::Field("camera"), Step::Field("projection"), Step::Field("fov")];
+                let message = format!("the fov of a fisheye is too wide for the mapping `{name}`");
+                let fault = Diagnostic::error(codes::OUT_OF_RANGE, fov.span, message);
+                self.report(fault.expected(expected).hint("`Equidistant` goes to 360"));
+            }
+        }
+        let Some(lens) = &effects.depth_of_field else { return };
+        self.path = vec![Step::Field("effects"), Step::Field("depth_of_field")];
+        if camera.projection != Projection::Perspective {
+            let message = "`depth_of_field` has no use here: the camera's `projection` has no lens";
+            let fault = Diagnostic::error(codes::NO_USE, lens.aperture.span, message);
+            self.report(fault.hint("leave `depth_of_field` or `projection` out"));
+        } else if lens.plane_of_focus(camera).0 <= 0.0 {
+            let message = "the point in focus does not lie before the camera";
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, lens.focus.span, message);
+            self.report(fault.expected("a point that the camera looks at"));
+        }
+        self.path.clear();
+    }
 }

@@ -79,6 +79,15 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("center", &["centre", "position", "pos", "origin"]),
         ("radius", &["r", "size"]),
         ("fov", &["field_of_view", "angle", "vfov"]),
+        ("focal_length", &["focal", "focallength"]),
+        ("sensor_width", &["sensor", "film_width", "sensor_size", "film_size", "horizontal_aperture"]),
+        ("near", &["clip", "near_clip", "znear", "clip_start", "near_plane"]),
+        ("shift", &["shift_x", "shift_y", "principal_point_offset", "lens_shift"]),
+        ("projection", &["type", "kind", "camera_type", "lens_type"]),
+        ("fov_axis", &["axis", "sensor_fit"]),
+        ("focus_distance", &["focus", "focal_distance", "focaldistance"]),
+        ("focus_on", &["focal_point", "focus_object", "focus_point"]),
+        ("blades", &["aperture_blades", "num_blades"]),
         ("width", &["w", "x", "thickness", "line_width"]),
         ("height", &["h", "y"]),
         ("samples", &["spp", "samples_per_pixel"]),
@@ -403,15 +412,18 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         {
             "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
         }
-        "focal_length" | "focal" | "lens" | "sensor" | "sensor_width" | "zoom" if camera => {
-            "the view's height is said by `fov`, in degrees: 2 atan(12 / focal length in mm) for film of 36x24 mm, 27 for 50 mm"
+        "lens" | "film_gate" | "aperture_blades" if camera => {
+            "the lens is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
         }
-        "projection" | "orthographic" | "ortho" | "type" if camera => {
-            "the camera sees in perspective; nearly parallel views come from far away with a small `fov`"
+        "zoom" if camera => "how much is seen is said by `fov` in degrees, or by `focal_length` in millimetres",
+        "orthographic" | "ortho" | "ortho_scale" | "xmag" | "ymag" | "screenwindow" if camera => {
+            "parallel rays: `projection: Orthographic(height: 8)`, the height that the picture shows"
         }
-        "near" | "far" | "clip" | "near_clip" | "far_clip" | "znear" | "zfar" if camera => {
-            "there are no clip planes: leave it out"
+        "panorama" | "spherical" | "equirectangular" | "environment" | "latlong" if camera => {
+            "all directions: `projection: Panorama`"
         }
+        "fisheye" | "dome" if camera => "a round picture: `projection: Fisheye(fov: 180)`",
+        "far" | "far_clip" | "zfar" | "clip_end" if camera => "nothing is too far away to be seen: leave it out",
         "shutter" | "motion_blur" if camera => "nothing moves in a scene: leave it out",
         "rotation" | "direction" | "forward" | "matrix" | "to_world" | "transform" if camera => {
             "the camera's direction is said by `look_at`, the point that it looks at"

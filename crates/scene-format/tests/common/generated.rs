@@ -213,6 +213,53 @@ fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
 }
 
 /// A valid scene that uses much of the language.
+/// A camera, but for where it stands, and its lens.
+fn view(random: &mut Random) -> (Camera, Option<ThinLens>) {
+    let mut camera = Camera::default();
+    let fov = number(random, 1.0, 179.0);
+    camera.projection = match random.below(8) {
+        0 => Projection::Orthographic { height: length(random).into() },
+        1 => Projection::Panorama,
+        2 => {
+            let mappings = [
+                FisheyeMapping::Equidistant,
+                FisheyeMapping::Equisolid,
+                FisheyeMapping::Stereographic,
+                FisheyeMapping::Orthographic,
+            ];
+            Projection::Fisheye { fov: fov.into(), mapping: *random.pick(&mappings) }
+        }
+        _ => Projection::Perspective,
+    };
+    if matches!(camera.projection, Projection::Perspective | Projection::Orthographic { .. }) {
+        camera.shift = [number(random, -3.0, 3.0), number(random, -3.0, 3.0)].into();
+        camera.near = (random.below(2) == 0).then(|| length(random).into());
+    }
+    if camera.projection != Projection::Perspective {
+        return (camera, None);
+    }
+    if random.below(3) == 0 {
+        camera.focal_length = Some(length(random).into());
+        camera.sensor_width = length(random).into();
+    } else {
+        let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Diagonal, FovAxis::Smaller, FovAxis::Larger];
+        camera.fov = fov.into();
+        camera.fov_axis = *random.pick(&axes);
+    }
+    let lens = (random.below(2) == 0).then(|| ThinLens {
+        focus: match random.below(2) {
+            0 => Focus::Distance(length(random)).into(),
+            // The camera stands far away along x and looks back.
+            _ => Focus::On([number(random, -5.0, 5.0), 1.0, -2.0]).into(),
+        },
+        blades: (random.below(9) as u32).into(),
+        rotation: number(random, -400.0, 400.0).into(),
+        tilt: if random.below(2) == 0 { [0.0; 2].into() } else { [number(random, -20.0, 20.0), 3.0].into() },
+        ..ThinLens::new(number(random, 0.0, 10.0), 1.0)
+    });
+    (camera, lens)
+}
+
 pub fn scene(random: &mut Random) -> SceneDesc {
     let names: Vec<Arc<str>> = (0..random.below(4)).map(|index| format!("{index}{}", text(random)).into()).collect();
     let material_ref = |random: &mut Random| match random.below(3) {
@@ -415,12 +462,12 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         })
     };
     let defaults = SceneDesc::default();
+    let (seen, lens) = view(random);
     SceneDesc {
         camera: Camera {
             position: [1e7, number(random, -1.0, 1.0), 0.0].into(),
             look_at: vector(random).into(),
-            fov: number(random, 1.0, 179.0).into(),
-            ..Camera::default()
+            ..seen
         },
         image: Image { width: (1 + random.below(65536) as u32).into(), ..Image::default() },
         render: Render {
@@ -438,10 +485,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 2 => PixelFilter::Gaussian { sigma: number(random, 0.0, 3.0).into() },
                 _ => PixelFilter::BlackmanHarris { radius: number(random, 0.5, 3.0).into() },
             },
-            depth_of_field: (random.below(2) == 0).then(|| ThinLens {
-                aperture: number(random, 0.0, 10.0).into(),
-                focus_distance: length(random).into(),
-            }),
+            depth_of_field: lens,
             exposure: number(random, -5.0, 5.0).into(),
             tone_map: *random.pick(&[ToneMap::None, ToneMap::Filmic, ToneMap::AgX]),
         },

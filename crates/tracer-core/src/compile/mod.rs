@@ -1,6 +1,7 @@
 //! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built.
 //! The second hand.
 
+mod camera;
 mod curved;
 mod energy;
 mod environment;
@@ -24,7 +25,7 @@ use glam::{DAffine3, DVec3};
 pub use kept::Kept;
 use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
-use scene_format::desc::{Acceleration, Caustics, Integrator, PixelFilter, Reuse};
+use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
 use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
@@ -33,8 +34,8 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::{
-    Camera, Filter, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
-    Shape, ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, Shape, ShapeTable,
+    Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -160,7 +161,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
     let rendered = tracer_kernels::scene::Scene {
         frame,
-        camera: camera(desc, &frame),
+        camera: camera::camera(desc, &frame),
         size: [desc.image.width.value, desc.image.height.value],
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
@@ -265,32 +266,6 @@ fn curved_and_lights(
         }
     }
     (spheres, shapes, lights)
-}
-
-fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
-    let eye = DVec3::from(desc.camera.position.value);
-    let forward = (DVec3::from(desc.camera.look_at.value) - eye).normalize();
-    let right = forward.cross(DVec3::from(desc.camera.up.value).normalize()).normalize();
-    let up = right.cross(forward);
-    let half_angle = desc.camera.fov.value.to_radians() / 2.0;
-    let half_height = libm::tan(half_angle);
-    let half_width = half_height * f64::from(desc.image.width.value) / f64::from(desc.image.height.value);
-    let lens = desc.effects.depth_of_field.as_ref();
-    Camera {
-        eye: frame.point(eye),
-        forward,
-        right: right * half_width,
-        up: up * half_height,
-        lens_radius: lens.map_or(0.0, |l| frame.length(l.aperture.value / 2.0)),
-        focus_distance: lens.map_or(1.0, |l| frame.length(l.focus_distance.value)),
-        filter: match &desc.effects.antialiasing {
-            PixelFilter::None => Filter::Centre,
-            PixelFilter::Box => Filter::Box,
-            PixelFilter::Gaussian { sigma } if sigma.value == 0.0 => Filter::Centre,
-            PixelFilter::Gaussian { sigma } => Filter::Gaussian(sigma.value),
-            PixelFilter::BlackmanHarris { radius } => Filter::BlackmanHarris(radius.value),
-        },
-    }
 }
 
 /// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray; none when there

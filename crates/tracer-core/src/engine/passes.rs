@@ -280,10 +280,10 @@ impl Painter<'_> {
                 batch.counters.dropped += left_out.dropped;
                 batch.counters.beyond += left_out.beyond;
                 tile.add_layers(&batch.layers, first, common);
-                if self.backdrop {
-                    tile.add_missed(samples, &batch.layers, first, common);
-                }
                 let half = half_of(batch.items[first].sample);
+                if self.backdrop {
+                    tile.add_missed(samples, &batch.layers, first, common, half);
+                }
                 if half == 1 {
                     tile.add_half(samples, common);
                 }

@@ -21,7 +21,8 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
-    /// What camera rays of either half have met of lamps, where they have.
+    /// What camera rays of either half have met of lamps, where they have; and of the background, where the film keeps
+    /// that by itself.
     lamps: Option<Box<[Sums; 2]>>,
 }
 
@@ -74,6 +75,11 @@ impl TileHalf {
             let lamps = self.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
             lamps.iter_mut().zip(&**from).for_each(|(to, from)| add(to, from));
         }
+    }
+
+    fn add_to_lamps(&mut self, of: usize, pixel: usize, added: [i128; 3]) {
+        let lamps = self.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
+        lamps[of].add(pixel, added);
     }
 
     /// Appends it to a tile's record.
@@ -140,8 +146,14 @@ impl Tile {
             }
             let largest = f64::from(met[0].max(met[1]).max(met[2]));
             let scale = limit.filter(|&limit| largest > limit).map_or(1.0, |limit| limit / largest);
-            let lamps = half.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
-            lamps[of].add(usize::from(pixel), met.map(|x| fixed((f64::from(x) * scale) as f32)));
+            half.add_to_lamps(of, usize::from(pixel), met.map(|x| fixed((f64::from(x) * scale) as f32)));
+        }
+    }
+
+    /// Adds what a half's sample shows beside the light on surfaces, where halves are kept.
+    pub(super) fn add_to_lamps(&mut self, of: usize, pixel: usize, added: [i128; 3]) {
+        if let Some(half) = &mut self.half {
+            half.add_to_lamps(of, pixel, added);
         }
     }
 

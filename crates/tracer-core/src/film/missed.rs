@@ -9,13 +9,15 @@ use tracer_kernels::layers::LayerSamples;
 
 impl Tile {
     /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
-    /// all that they have is the background.
+    /// all that they have is the background. Where halves are kept, what is seen of it is coverage, not light, as lamps
+    /// are.
     pub(crate) fn add_missed(
         &mut self,
         [red, green, blue]: [&[f32]; 3],
         layers: &LayerSamples,
         first: usize,
         pixels: &[[u8; 2]],
+        half: usize,
     ) {
         for &[k, pixel] in pixels {
             let (k, pixel) = (usize::from(k), usize::from(pixel));
@@ -23,7 +25,9 @@ impl Tile {
             if is_hit(layers, first, k) || sample == [0.0; 3] || !counts(sample) {
                 continue;
             }
-            self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample.map(fixed));
+            let sample = sample.map(fixed);
+            self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample);
+            self.add_to_lamps(half, pixel, sample);
         }
     }
 }

@@ -4,7 +4,10 @@ use crate::support::describe::*;
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{Caustics, Output, PixelFilter, ToneMap};
-use tracer_core::{Backdrop, Film, Look, develop, srgb_encode};
+use tracer_core::{
+    Backdrop, Film, GUIDES, Layer, LayerSet, Look, RenderOptions, Unobserved, denoise, develop, develop_denoised,
+    render, srgb_encode,
+};
 
 const BACKGROUND: [f64; 3] = [0.25, 1.0, 3.0];
 
@@ -92,4 +95,30 @@ fn laid_over_something() {
             assert_eq!((clear.linear[k], clear.display[k]), (0.0, 0.0), "{k}");
         }
     }
+}
+
+/// What is black stays black when it is denoised, whatever is behind it: nothing of the background gets into what is
+/// before it, out of focus or not. With the background in place again it is the picture that is denoised as a whole, but
+/// for what filtering makes of noise.
+#[test]
+fn denoised_foregrounds_have_nothing_of_the_background() {
+    let mut desc = scene(48, Vec::new(), vec![sphere([0.0; 3], 1.0, diffuse([0.0; 3]))])
+        .background(BACKGROUND)
+        .camera([0.0, 0.0, 6.0], [0.0; 3], 40.0)
+        .lens(0.6, 4.0)
+        .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() });
+    desc.output = Output { alpha: true, ..Output::default() };
+    let layers: LayerSet = GUIDES.into_iter().chain([Layer::Alpha]).collect();
+    let options = RenderOptions { samples: Some(9), halves: true, layers: Some(layers), ..RenderOptions::default() };
+    let film = render(&compiled(&desc), &options, &Unobserved);
+    let denoised = denoise(&film).expect("it has all that is needed");
+    let look = |backdrop| Look { exposure: 0.0, tone_map: ToneMap::None, backdrop };
+    let clear = develop_denoised(&film, &look(Backdrop::Clear), &denoised);
+    assert_eq!(clear.linear, vec![0.0; clear.linear.len()]);
+    assert_eq!(clear.display, vec![0.0; clear.display.len()]);
+    let whole = develop_denoised(&film, &look(Backdrop::Background), &denoised);
+    let plain = develop(&film, &look(Backdrop::Background));
+    let pairs = whole.linear.iter().zip(&plain.linear);
+    assert!(pairs.clone().all(|(a, b)| (a - b).abs() <= 1e-5 * b), "a black ball has nothing to filter");
+    assert!(pairs.filter(|(a, _)| **a > 0.0).count() > 1000);
 }

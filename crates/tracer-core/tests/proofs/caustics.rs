@@ -20,7 +20,7 @@ use std::path::Path;
 const SCENES: usize = 31;
 
 /// On a floor at y = 0, under a lamp of radius 4 at (6, 14, 0).
-fn on_the_floor(objects: Vec<Object>) -> SceneDesc {
+pub fn on_the_floor(objects: Vec<Object>) -> SceneDesc {
     let floor = sphere([0.0, -1000.0, 0.0], 1000.0, diffuse([0.8, 0.6, 0.4]));
     scene(32, vec![lamp()], std::iter::once(floor).chain(objects).collect())
         .camera([-3.0, 14.0, 18.0], [-1.0, 0.0, 0.0], 40.0)

@@ -318,7 +318,11 @@ fn glass_that_touches_glass_is_invisible_in_a_white_furnace() {
         let half =
             |y: f64, ior: f64, mirrored: bool| block([0.0, y, 0.0], [1.4, 0.5, 1.4], glass(ior), steps(mirrored));
         let round = |kind: &str, ior: f64| flat_sided(kind, glass(ior), attitude.steps(0.0, [0.1, 0.0, 0.1]));
+        let core = |ior: f64, height: f64| block([0.1, -0.25, 0.05], [0.6, height, 0.6], glass(ior), steps(false));
         let stacks = [
+            ("a hole from face to face", vec![half(-0.25, flint, false), core(1.0 / flint, 0.5)]),
+            ("a hole written first", vec![core(1.0 / flint, 0.5), half(-0.25, flint, false)]),
+            ("water flush in glass", vec![half(-0.25, flint, false), core(water / flint, 0.5)]),
             ("two blocks", vec![half(-0.25, flint, false), half(0.25, flint, false)]),
             ("two blocks, one mirrored", vec![half(0.25, flint, true), half(-0.25, water, false)]),
             ("three blocks", vec![half(-0.25, flint, false), half(0.25, water, false), half(0.75, flint, false)]),

@@ -8,6 +8,7 @@
 mod aimed;
 mod analytic;
 mod backdrop;
+mod cameras;
 mod caustics;
 mod clamp;
 mod compiling;

@@ -6,7 +6,7 @@ use crate::support::meshes::{cube, icosphere, square};
 use crate::support::{compiled, film};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use scene_format::desc::{Light, Material, MaterialRef, Object, PixelFilter, Shading, Transform};
+use scene_format::desc::{Focus, Light, Material, MaterialRef, Object, PixelFilter, Shading, Transform};
 use std::path::{Path, PathBuf};
 use tracer_core::{Crop, Film};
 use tracer_reference::statistics::{Estimate, sidak};
@@ -285,7 +285,10 @@ fn elsewhere(desc: &SceneDesc, scale: f64, offset: f64) -> SceneDesc {
     moved.camera.look_at = place(desc.camera.look_at.value).into();
     if let Some(lens) = &mut moved.effects.depth_of_field {
         lens.aperture.value *= scale;
-        lens.focus_distance.value *= scale;
+        match &mut lens.focus.value {
+            Focus::Distance(distance) => *distance *= scale,
+            Focus::On(point) => *point = place(*point),
+        }
     }
     for light in &mut moved.lights {
         let Light::SphereLight(light) = &mut light.value;

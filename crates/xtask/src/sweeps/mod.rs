@@ -1,5 +1,6 @@
 //! `cargo xtask sweeps`: no cliffs, no pops. A parameter of a scene is changed step by step, and neither the noise of
-//! the default picture, over that of the plain path tracer at equal samples, nor its mean may jump between neighbours;
+//! the default picture, over that of the plain path tracer at equal samples, nor its mean may jump between neighbours
+//! where that of the plain path tracer does not;
 //! frames of a film may not flicker more than the plain path tracer's. How that is told: `statistics`; what is swept:
 //! `scenes`.
 
@@ -89,7 +90,10 @@ fn one(sweep: &Sweep, options: &Options, level: f64) -> anyhow::Result<usize> {
     let means: Vec<Measured> = if sweep.name == SEED {
         Vec::new()
     } else {
-        let four = |w: &[Step]| jump_of_mean([&w[0].ours, &w[1].ours, &w[2].ours, &w[3].ours]);
+        let four = |w: &[Step]| {
+            let all = [&w[0], &w[1], &w[2], &w[3]];
+            jump_of_mean(all.map(|step| &step.ours), all.map(|step| &step.plain))
+        };
         steps.windows(4).map(four).collect()
     };
     let all: Vec<f64> = steps.iter().map(|step| step.ratios[n].exp()).collect();

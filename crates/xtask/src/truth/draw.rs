@@ -8,7 +8,7 @@ use scene_format::desc::{
     Albedo, Background, Checkerboard, Color, Conductor, Diffuse, Dots, Emission, Environment, Gradient, GradientAxis,
     Instances, Light, Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial,
     Noise, NoiseKind, Object, PerAxis, PixelFilter, Placements, Reflectance, SolidMapping, Texture, TextureFilter,
-    TextureWrap, ThinLens, ToneMap, Transform, Voronoi, VoronoiFeature, Wood,
+    TextureWrap, ToneMap, Transform, Voronoi, VoronoiFeature, Wood,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -303,11 +303,6 @@ pub fn film(world: &mut World, random: &mut Random) {
         3 => PixelFilter::BlackmanHarris { radius: random.between(1.0, 2.5).into() },
         _ => PixelFilter::default(),
     };
-    if once_in(random, 6) {
-        let (aperture, focus_distance) = (random.between(0.02, 0.3), random.between(1.0, 6.0));
-        desc.effects.depth_of_field =
-            Some(ThinLens { aperture: aperture.into(), focus_distance: focus_distance.into() });
-    }
     if once_in(random, 8) {
         desc.effects.exposure = random.between(-3.0, 3.0).into();
     }

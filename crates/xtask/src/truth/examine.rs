@@ -3,7 +3,7 @@
 use super::judge::{self, Question, Told};
 use super::kinds::Case;
 use super::relation::Relation;
-use super::squares::{LIMIT, squares};
+use super::squares::{LIMIT, PICTURES, squares};
 use super::trial::{Picture, Pictures as _, Source};
 use super::world::World;
 use scene_format::desc::{Material, Object};
@@ -238,7 +238,7 @@ fn asked_at(case: &Case) -> Option<u32> {
 fn in_squares(compiled: &Compiled, samples: u32, seed: u32, threads: usize) -> (Option<Finding>, f64) {
     let mut lines = Vec::new();
     let mut upper = 0.0f64;
-    for s in squares(&compiled.ours(samples, threads), seed) {
+    for s in squares(&compiled.ours(samples, threads), seed, PICTURES) {
         upper = upper.max(s.upper());
         if s.chance() < SQUARES_LEVEL {
             lines.push(format!(

@@ -513,6 +513,7 @@ pub fn case(seed: u64, size: u32) -> Case {
     }
     if relation != Relation::Unfolded {
         draw::film(&mut world, random);
+        super::view::view(&mut world, random);
     }
     if once_in(random, 4) && !matches!(relation, Relation::Unfolded | Relation::Shells) {
         draw::name_materials(&mut world);

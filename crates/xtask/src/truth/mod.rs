@@ -25,6 +25,7 @@ pub mod shining;
 mod shrink;
 pub mod squares;
 pub mod trial;
+mod view;
 pub mod world;
 pub mod written;
 

@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Background, Emission, Instances, Light, Material, Object, Placements, Transform};
+use scene_format::desc::{Background, Emission, Focus, Instances, Light, Material, Object, Placements, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -119,6 +119,14 @@ fn flipped(world: &World) -> World {
     camera.position = mirror_x(camera.position.value).into();
     camera.look_at = mirror_x(camera.look_at.value).into();
     camera.up = mirror_x(camera.up.value).into();
+    camera.shift.value[0] = -camera.shift.value[0];
+    if let Some(lens) = &mut other.desc.effects.depth_of_field {
+        if let Focus::On(point) = &mut lens.focus.value {
+            *point = mirror_x(*point);
+        }
+        lens.tilt.value[1] = -lens.tilt.value[1];
+        lens.rotation.value = 180.0 - lens.rotation.value;
+    }
     other
 }
 

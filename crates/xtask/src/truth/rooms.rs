@@ -1,6 +1,6 @@
 //! Ten rooms in which light is hard to find, and the squares that their noise must not show.
 
-use super::squares::{LIMIT, PICTURES, Squares, squares};
+use super::squares::{LIMIT, Squares, squares};
 use super::trial::Source;
 use super::written::compiled;
 
@@ -195,11 +195,12 @@ fn window() -> String {
 ///
 /// # Errors
 /// A scene is refused; nothing has such a name.
-pub fn run(samples: &[u32], name: &str) -> anyhow::Result<usize> {
+pub fn run(samples: &[u32], name: &str, pictures: u32) -> anyhow::Result<usize> {
+    anyhow::ensure!(pictures > 3, "four pictures at least");
     let rooms: Vec<_> = all().into_iter().filter(|room| room.0.contains(name)).collect();
     anyhow::ensure!(!rooms.is_empty(), "no room has {name:?} in its name");
     println!(
-        "{PICTURES} pictures of {SIZE}x{SIZE}; ratio of squared steps at borders, and its upper bound at 95 % ({LIMIT} \
+        "{pictures} pictures of {SIZE}x{SIZE}; ratio of squared steps at borders, and its upper bound at 95 % ({LIMIT} \
          is right)"
     );
     println!("{:38} {:>7}  {:>16}  {:>16}  below zero", "room", "samples", "8 pixels", "16 pixels");
@@ -208,7 +209,7 @@ pub fn run(samples: &[u32], name: &str) -> anyhow::Result<usize> {
         let scenes = [compiled(&text)?];
         for &samples in samples {
             let source = Source { scenes: &scenes, plain: false, samples, threads: 1, flip: false };
-            let measured: [Squares; 2] = squares(&source, 1000);
+            let measured: [Squares; 2] = squares(&source, 1000, pictures);
             above += measured.iter().filter(|s| s.upper() > LIMIT).count();
             let [small, large] = measured.map(|s| format!("{:.3} < {:.3}", s.ratio, s.upper()));
             let film = source.films(1).remove(0);

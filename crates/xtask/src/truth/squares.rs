@@ -12,7 +12,7 @@ use super::trial::Source;
 use super::world::grey;
 use tracer_reference::statistics::student;
 
-/// Pictures: each is compared with the mean of the sixteen others.
+/// Pictures, unless more are asked for: each is compared with the mean of the sixteen others.
 pub const PICTURES: u32 = 17;
 
 /// The largest ratio that is right.
@@ -29,13 +29,14 @@ pub struct Squares {
     pub ratio: f64,
     /// Standard error of its logarithm.
     pub error: f64,
+    /// How many pictures it is of.
+    pub pictures: u32,
 }
 
 impl Squares {
     /// Upper bound at 95 %.
     pub fn upper(&self) -> f64 {
-        // t of 16 degrees of freedom, one side.
-        self.ratio * (1.746 * self.error).exp()
+        self.ratio * (quantile(f64::from(self.pictures - 1)) * self.error).exp()
     }
 
     /// The chance of such a ratio were it [`LIMIT`].
@@ -43,19 +44,30 @@ impl Squares {
         if self.ratio <= LIMIT || self.error.is_nan() {
             return 1.0;
         }
-        0.5 * student((self.ratio / LIMIT).ln() / self.error, f64::from(PICTURES - 1))
+        0.5 * student((self.ratio / LIMIT).ln() / self.error, f64::from(self.pictures - 1))
     }
 }
 
-/// Measures blocks of 8 and of 16 pixels.
-pub fn squares(source: &Source<'_>, first_seed: u32) -> [Squares; 2] {
-    let pictures: Vec<Vec<f64>> = (first_seed..first_seed + PICTURES).map(|seed| pixels(source, seed)).collect();
+/// 95 % of Student's t with so many degrees of freedom is below this, by halving.
+fn quantile(degrees: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 20.0);
+    for _ in 0..50 {
+        let middle = (low + high) / 2.0;
+        // Both sides of it.
+        if student(middle, degrees) > 0.1 { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Measures blocks of 8 and of 16 pixels by so many pictures.
+pub fn squares(source: &Source<'_>, first_seed: u32, count: u32) -> [Squares; 2] {
+    let pictures: Vec<Vec<f64>> = (first_seed..first_seed + count).map(|seed| pixels(source, seed)).collect();
     let width = source.scenes[0].size[0] as usize;
     let errors = errors(&pictures);
     [8, 16].map(|block| {
         let steps: Vec<[f64; 2]> = errors.iter().map(|error| steps(error, width, block as usize)).collect();
         let (ratio, error) = jackknife(&steps);
-        Squares { block, samples: source.samples, ratio, error }
+        Squares { block, samples: source.samples, ratio, error, pictures: count }
     })
 }
 
@@ -123,6 +135,13 @@ mod tests {
 
     fn noise(random: &mut Random) -> f64 {
         (0..6).map(|_| random.number()).sum::<f64>() - 3.0
+    }
+
+    #[test]
+    fn bounds_are_those_of_tables() {
+        for (degrees, t) in [(10.0, 1.812), (16.0, 1.746), (100.0, 1.660)] {
+            assert!((quantile(degrees) - t).abs() < 1e-3, "{degrees}: {}", quantile(degrees));
+        }
     }
 
     /// Independent pixels have none; pixels to which a block adds something of its own do; noise that lies on a border

@@ -9,9 +9,11 @@
 //! the distance from the origin, which know no sign; the coarser the cells, the worse the plane is known. The best
 //! known ones gather first, from their own cells and coarser ones, those whose corners are all in their plane. In each
 //! plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
+//! Triangles too narrow to have a plane, as curved walls of many pieces far from the middle of a scene have, count where
+//! all their corners are the same: a wall that two bodies share.
 
 use super::super::geometry::{Geometry, NONE};
-use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, TRANSMITS};
+use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, SAME_SIDE, TRANSMITS};
 use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -19,6 +21,9 @@ use rayon::prelude::*;
 /// More triangles than this are not looked at, copies counted; meshes with the fewest come first. Surfaces in one plane
 /// are those of boxes, rectangles and buildings, and meshes of millions of triangles must not wait for a search.
 const MOST_TRIANGLES: usize = 1 << 18;
+
+/// Of what lets light through there may be so many beside them, where several bodies do: water in a glass of fine pieces.
+const MOST_TRANSMITTING: usize = 1 << 20;
 
 /// Scenes with more curved shapes have theirs left out.
 const MOST_SHAPES: usize = 1 << 16;
@@ -57,6 +62,8 @@ struct Face {
     /// The largest coordinate.
     reach: f64,
     rank: u8,
+    /// It is too narrow for its plane to be known.
+    narrow: bool,
 }
 
 impl Face {
@@ -90,8 +97,15 @@ impl Coplanar {
     pub fn find(geometry: &Geometry, ranks: &Ranks) -> Option<Self> {
         let mut faces = faces(geometry, ranks);
         let scene = faces.iter().map(|face| face.reach).fold(0.0, f64::max);
-        faces.par_sort_by(|a, b| a.doubt(scene).total_cmp(&b.doubt(scene)).then(a.id().cmp(&b.id())));
-        let pairs = pairs_in(planes(&faces, scene), &faces);
+        let order = |face: &Face| (face.narrow, face.id());
+        faces.par_sort_by(|a, b| {
+            let doubt = a.narrow.cmp(&b.narrow).then(a.doubt(scene).total_cmp(&b.doubt(scene)));
+            doubt.then(order(a).cmp(&order(b)))
+        });
+        let flat = faces.partition_point(|face| !face.narrow);
+        let mut pairs = pairs_in(planes(&faces[..flat], scene), &faces);
+        pairs.extend(identical(&faces, flat));
+        pairs.sort_unstable_by_key(|pair| (pair.0, pair.1));
         if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs)) }
     }
 }
@@ -101,18 +115,58 @@ fn first_primitive(geometry: &Geometry) -> u32 {
     geometry.meshes.iter().map(|mesh| mesh.first_primitive).min().unwrap_or(0)
 }
 
-/// The triangles that are looked at, without those too small or too narrow to have a plane.
-fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
+/// The pairs of triangles too narrow to have a plane, those from `first` on, whose corners are the same, winner first.
+fn identical(faces: &[Face], first: usize) -> Vec<(u32, u32, f64)> {
+    let key = |face: &Face| {
+        let mut corners = face.corners.map(|corner| corner.to_array().map(f64::to_bits));
+        corners.sort_unstable();
+        corners
+    };
+    let mut order: Vec<_> = (first..faces.len()).into_par_iter().map(|k| (key(&faces[k]), k as u32)).collect();
+    order.par_sort_unstable();
+    let rank = |k: u32| (faces[k as usize].rank, faces[k as usize].id());
+    let mut pairs = Vec::new();
+    for same in order.chunk_by(|a, b| a.0 == b.0) {
+        let ids = || same.iter().map(|&(_, k)| k);
+        // Who wins, wins everywhere.
+        let Some(winner) = ids().min_by_key(|&k| rank(k)) else { continue };
+        let gap = 2.0 * faces[winner as usize].error;
+        pairs.extend(ids().filter(|&k| k != winner).map(|loser| (winner, loser, gap)));
+    }
+    pairs
+}
+
+/// Which meshes are looked at.
+fn looked_at(geometry: &Geometry, ranks: &Ranks) -> Vec<bool> {
     let mut copies = vec![0; geometry.meshes.len()];
-    geometry.instances.iter().for_each(|instance| copies[instance.mesh as usize] += 1);
+    let mut transmit = vec![false; geometry.meshes.len()];
+    let first = first_primitive(geometry);
+    for (k, instance) in geometry.instances.iter().enumerate() {
+        let mesh = &geometry.meshes[instance.mesh as usize];
+        copies[instance.mesh as usize] += 1;
+        let from = mesh.first_primitive - first;
+        let to = from + mesh.triangles.len() as u32;
+        transmit[instance.mesh as usize] |= (from..to).any(|triangle| ranks.of(triangle, k as u32) == TRANSMITS);
+    }
+    let bodies: usize = transmit.iter().zip(&copies).filter(|(transmit, _)| **transmit).map(|(_, copies)| copies).sum();
     let counts = copies.iter().zip(geometry.meshes).map(|(copies, mesh)| copies * mesh.triangles.len());
     let mut order: Vec<(usize, usize)> = counts.zip(0..).collect();
     order.sort_unstable();
-    let (mut looked_at, mut sum) = (vec![false; order.len()], 0usize);
+    let (mut looked_at, mut sum, mut transmitting) = (vec![false; order.len()], 0usize, 0usize);
     for (count, mesh) in order {
         sum = sum.saturating_add(count);
         looked_at[mesh] = sum <= MOST_TRIANGLES;
+        if !looked_at[mesh] && transmit[mesh] && bodies > 1 {
+            transmitting = transmitting.saturating_add(count);
+            looked_at[mesh] = transmitting <= MOST_TRANSMITTING;
+        }
     }
+    looked_at
+}
+
+/// The triangles that are looked at.
+fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
+    let looked_at = looked_at(geometry, ranks);
     let first = first_primitive(geometry);
     let of_instance = |index: usize| {
         let instance = &geometry.instances[index];
@@ -185,8 +239,9 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
         height,
         reach: terms.max_element(),
         rank,
+        narrow: error >= height / 512.0,
     };
-    (area > 0.0 && area.is_finite() && error < height / 512.0).then_some(face)
+    (area > 0.0 && area.is_finite()).then_some(face)
 }
 
 /// Groups of triangles in one plane, the best known one first, with how far off the planes may be.
@@ -323,8 +378,8 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     let mut touching: Vec<Vec<[u32; 2]>> = vec![Vec::new(); named.len()];
     for &(winner, loser, gap) in pairs {
         for (one, other) in [(winner, loser), (loser, winner)] {
-            if let Some(material) = touches(&faces[one as usize], &faces[other as usize]) {
-                touching[member_of(one)].push([member_of(other) as u32, material + 1]);
+            if let Some(behind) = touches(&faces[one as usize], &faces[other as usize]) {
+                touching[member_of(one)].push([member_of(other) as u32, behind]);
             }
         }
         lists[member_of(loser)].push(member_of(winner) as u32);
@@ -372,11 +427,13 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     Coplanar { triangles, shapes, members, winners, touching: all_touching }
 }
 
-/// The material of the other one, where light passes from one body into another.
+/// What lies behind the one face by the other one, where both bodies let light through: the other's material + 1, and
+/// [`SAME_SIDE`] where both lie behind.
 fn touches(face: &Face, other: &Face) -> Option<u32> {
     let transmit = face.rank == TRANSMITS && other.rank == TRANSMITS;
     let opposite = transmit && face.outward?.dot(other.outward?) < 0.0;
-    other.material.filter(|_| opposite)
+    let behind = other.material.filter(|_| transmit)? + 1;
+    Some(if opposite { behind } else { behind | SAME_SIDE })
 }
 
 /// A grid over the winners of a triangle, some one to a cell. Each reaches a quarter of a cell beyond its box: the

@@ -13,7 +13,8 @@
 //!
 //! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but
 //! the other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes
-//! from body to body would leave twice, or enter twice, and carry the square of an index too much or too little.
+//! from body to body would leave twice, or enter twice, and carry the square of an index too much or too little. Where
+//! one lies in the other and ends where that ends, water flush with the rim, light passes into both at once.
 //!
 //! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
@@ -48,6 +49,9 @@ pub struct Ranks {
 
 /// Rank of what lets light through.
 pub const TRANSMITS: u8 = 2;
+
+/// Of what is behind a face: its body lies on the same side, so that light passes into both at once.
+pub const SAME_SIDE: u32 = 1 << 31;
 
 /// Which material things have.
 #[derive(Debug, Default)]
@@ -88,7 +92,7 @@ pub struct Coplanar {
     members: Vec<Member>,
     /// Of all members: indices into `members`.
     winners: Vec<u32>,
-    /// Of bodies that touch: indices into `members`, and material + 1 of these.
+    /// Of bodies that touch: indices into `members`, and material + 1 of these, with [`SAME_SIDE`] or without.
     touching: Vec<[u32; 2]>,
 }
 
@@ -129,7 +133,7 @@ struct Member {
     normal: [f32; 3],
     /// Where those that win over it stand in `Coplanar::winners`, the first to win first.
     winners: [u32; 2],
-    /// Where those that face it from another body stand in `Coplanar::touching`.
+    /// Where those of other bodies stand in `Coplanar::touching`.
     touching: [u32; 2],
     grid: Option<Grid>,
 }
@@ -248,7 +252,8 @@ impl Coplanar {
     }
 
     /// The body that begins where some rays meet one that lets light through, for hits that were settled: its
-    /// material + 1. Nothing is written where nothing touches.
+    /// material + 1, with [`SAME_SIDE`] where it begins or ends with the first. Nothing is written where nothing
+    /// touches.
     pub fn touching(&self, rays: &Rays, active: &[u32], hits: &Hits, behind: &mut [u32]) {
         for ray in active.iter().map(|&ray| ray as usize) {
             let hit = (hits.primitive[ray], hits.instance[ray]);

@@ -1,13 +1,13 @@
-//! Camera rays: a point in the pixel by its filter, a point on the lens.
+//! Camera rays: a point in the pixel by its filter, a point on the lens; from there [`super::cameras`] knows the way.
 
+use super::cameras::View;
 use super::points::{PairPoints, PixelOf};
 use crate::engine::batch::Batch;
 use crate::lanes::{ArrayF, Bits, Lanes, Mask};
 use crate::math::{V3, exp, ln, sincos_turns};
 use crate::sampling::blocks::ITEM_PIXELS;
 use crate::sampling::sampler::Purpose;
-use crate::sampling::warp;
-use crate::scene::{Camera, Filter, NONE, Scene};
+use crate::scene::{Camera, Filter, NONE, Projection, Scene};
 
 /// Fills `batch.paths` with the camera rays of those of its items that have a bit set in `items`: of their pixels in
 /// the picture.
@@ -17,10 +17,8 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
     let camera: &Camera = &scene.camera;
     let pixel_points = PairPoints::<F>::new(seed, Purpose::Pixel, &batch.items);
     let lens_points = PairPoints::<F>::new(seed, Purpose::Lens, &batch.items);
-    let [eye, forward, right, up] =
-        [camera.eye, camera.forward, camera.right, camera.up].map(|v| v.as_vec3().to_array());
-    let (eye, forward) = (V3::<F>::splat(eye), V3::<F>::splat(forward));
-    let (right, up) = (V3::<F>::splat(right), V3::<F>::splat(up));
+    let view = View::<F>::new(camera, scene.size);
+    let has_lens = matches!(camera.projection, Projection::Perspective { lens: Some(_), .. });
     // Pixel coordinates relative to the picture's middle are small integers and halves: exact.
     let middle = scene.size.map(|side| side as f32 / 2.0);
     let [left, top] = middle.map(|middle| c(middle - 0.5));
@@ -41,23 +39,15 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
             let (u, v) = pixel_points.points(&pixel);
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
             let (x, y) = ((x + dx) * scale_x, (y + dy) * scale_y);
-            let mut direction = right.mad(x, up.mad(y, forward));
-            let mut origin = eye;
-            if camera.lens_radius > 0.0 {
-                // The plane of focus is met at focus_distance times the direction whose forward component is one.
-                let (u, v) = lens_points.points(&pixel);
-                let (lx, ly) = warp::disc(u, v);
-                let radius = c(camera.lens_radius as f32);
-                let offset = right.normalise().mad(lx * radius, up.normalise().scale(ly * radius));
-                direction = direction.scale(c(camera.focus_distance as f32)).sub(offset);
-                origin = eye.add(offset);
-            }
-            origin.store(&mut paths.origin, i);
-            direction.normalise().store(&mut paths.direction, i);
+            let lens = if has_lens { lens_points.points(&pixel) } else { (c(0.0), c(0.0)) };
+            let ray = view.ray(x, y, lens);
+            let inside = inside & ray.seen;
+            ray.origin.store(&mut paths.origin, i);
+            ray.direction.normalise().store(&mut paths.direction, i);
             V3::grey(c(1.0)).store(&mut paths.throughput, i);
             c(1.0).store(&mut paths.eta2[i..]);
             c(-1.0).store(&mut paths.pdf[i..]);
-            inverse_density::<F>(camera.filter, dx, dy).store(&mut paths.film[i..]);
+            (inverse_density::<F>(camera.filter, dx, dy) * ray.measure).store(&mut paths.film[i..]);
             slot.store(&mut paths.slot[i..]);
             F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
             F::U::splat(NONE).store(&mut paths.from_instance[i..]);

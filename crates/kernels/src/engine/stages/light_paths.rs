@@ -24,6 +24,7 @@
 //! metals that are not smooth.
 
 use super::aim;
+use super::cameras::View;
 use super::materials::{Bsdf, TWO_PI, reflect_bent};
 use super::photons::Numbers;
 use super::surface::{Surface, surface};
@@ -34,92 +35,7 @@ use crate::engine::light_paths::LightPaths;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::hash3;
-use crate::sampling::warp;
-use crate::scene::{Camera, LightTable, NONE, Scene};
-
-/// The camera, as light paths see it.
-pub struct Film<F: Lanes> {
-    eye: V3<F>,
-    forward: V3<F>,
-    right: V3<F>,
-    up: V3<F>,
-    lens_radius: f32,
-    focus_distance: F,
-    /// Half the picture's columns and rows.
-    middle: [f32; 2],
-    /// Area of a pixel at distance one.
-    pixel_area: F,
-}
-
-/// Where a point falls onto the film.
-struct OnFilm<F: Lanes> {
-    /// Column and row, in pixels from the picture's corner.
-    x: F,
-    y: F,
-    /// Cosine of the direction to the view direction; not above zero: it does not fall there.
-    cos: F,
-}
-
-impl<F: Lanes> Film<F> {
-    #[inline(always)]
-    pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
-        let splat = |v: glam::DVec3| V3::<F>::splat(v.as_vec3().to_array());
-        let middle = size.map(|side| side as f32 / 2.0);
-        let area = camera.right.length() * camera.up.length() / (f64::from(middle[0]) * f64::from(middle[1]));
-        Film {
-            eye: splat(camera.eye),
-            forward: splat(camera.forward),
-            right: splat(camera.right),
-            up: splat(camera.up),
-            lens_radius: camera.lens_radius as f32,
-            focus_distance: F::splat(if camera.lens_radius > 0.0 { camera.focus_distance as f32 } else { 1.0 }),
-            middle,
-            pixel_area: F::splat(area as f32),
-        }
-    }
-
-    /// A point of the lens.
-    #[inline(always)]
-    fn lens(&self, u: F, v: F) -> V3<F> {
-        if self.lens_radius <= 0.0 {
-            return self.eye;
-        }
-        let (x, y) = warp::disc(u, v);
-        let radius = F::splat(self.lens_radius);
-        let offset = self.right.normalise().mad(x * radius, self.up.normalise().scale(y * radius));
-        self.eye.add(offset)
-    }
-
-    /// What is seen from a point of the lens along a direction.
-    #[inline(always)]
-    fn place(&self, lens: V3<F>, direction: V3<F>) -> OnFilm<F> {
-        let c = F::splat;
-        let cos = direction.dot(self.forward);
-        let reach = self.focus_distance / F::select(c(0.0).lt(cos), cos, c(1.0));
-        let at = direction.mad(reach, lens.sub(self.eye));
-        let (x, y) = (self.along(at, self.right), self.along(at, self.up));
-        OnFilm { x: (x + c(1.0)) * c(self.middle[0]), y: (c(1.0) - y) * c(self.middle[1]), cos }
-    }
-
-    /// How far along one of the picture's sides a point of the plane of focus lies, as seen from the eye.
-    #[inline(always)]
-    fn along(&self, at: V3<F>, side: V3<F>) -> F {
-        at.dot(side) / (side.dot(side) * self.focus_distance)
-    }
-
-    /// J: the area of a surface, whose cosine to the ray this is, that a pixel's area of film sees at a distance.
-    #[inline(always)]
-    pub fn area(&self, distance: F, cos_to_view: F, cos_at_surface: F) -> F {
-        let seen = self.pixel_area * cos_to_view * cos_to_view * cos_to_view;
-        distance * distance * seen / cos_at_surface.max(F::splat(1e-6))
-    }
-
-    /// J of a camera ray's hit.
-    #[inline(always)]
-    pub fn area_of(&self, direction: V3<F>, distance: F, s: &Surface<F>) -> F {
-        self.area(distance, direction.dot(self.forward), -direction.dot(s.ng))
-    }
-}
+use crate::scene::{LightTable, NONE, Scene};
 
 /// Where glass reflects all light.
 struct Total<F> {
@@ -282,7 +198,7 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let plan = pass.plan;
-    let film = Film::<F>::new(&scene.camera, scene.size);
+    let view = View::<F>::new(&scene.camera, scene.size);
     let goes_on = event < scene.max_bounces;
     let salt = hash3(pass.seed, event, 0x00e4_e275) as u32;
     let lens_salt = hash3(pass.seed, event, 0x001e_2500) as u32;
@@ -317,38 +233,35 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
         let rough = bsdf.packs() & !s.smooth;
         if event > 0 && rough.any() {
             let (u, v) = numbers.pair(lens_salt);
-            let lens = film.lens(u, v);
-            let to = lens.sub(s.start);
-            let distance = to.dot(to).sqrt();
-            let wo = to.scale(one / distance);
-            let on_film = film.place(lens, wo.neg());
+            let place = view.place(s.start, (u, v));
+            let wo = place.wo;
             let (cos_eye, cos_y) = (s.ng.dot(wo), s.ng.dot(back));
             let margin = c(pass.light_paths.reach);
-            let (right, bottom) = (c(2.0 * film.middle[0]), c(2.0 * film.middle[1]));
+            let (right, bottom) = (c(2.0 * view.middle[0]), c(2.0 * view.middle[1]));
             let falls = rough
-                & zero.lt(on_film.cos)
+                & place.seen
                 & zero.lt(cos_eye)
                 & zero.lt(cos_y)
-                & (-margin).lt(on_film.x)
-                & on_film.x.lt(right + margin)
-                & (-margin).lt(on_film.y)
-                & on_film.y.lt(bottom + margin);
+                & (-margin).lt(place.x)
+                & place.x.lt(right + margin)
+                & (-margin).lt(place.y)
+                & place.y.lt(bottom + margin);
             if falls.any() {
                 let (f, own) = bsdf.evaluate(s.ns, wo, back, cos_y);
                 let aimed = aim::density(pass.guide, s.start, s.ns, back, falls);
-                let seen = film.area(distance, on_film.cos, cos_eye);
+                let seen = view.area(place.distance, place.cos, cos_eye) * place.measure;
                 let brings = f.mul(carried).scale(cos_y * eta2);
                 let falls = falls & zero.lt(brings.max_component());
                 let k = splats.len;
                 brings.compress(falls, &mut splats.brings, k);
                 (own + aimed).compress(falls, &mut splats.by_paths[k..]);
                 (density * cos_y * seen).compress(falls, &mut splats.by_light[k..]);
-                on_film.x.compress(falls, &mut splats.x[k..]);
-                on_film.y.compress(falls, &mut splats.y[k..]);
+                place.x.compress(falls, &mut splats.x[k..]);
+                place.y.compress(falls, &mut splats.y[k..]);
                 let k = shadows.len;
                 s.start.compress(falls, &mut shadows.origin, k);
                 wo.compress(falls, &mut shadows.direction, k);
-                distance.compress(falls, &mut shadows.t_max[k..]);
+                place.free.compress(falls, &mut shadows.t_max[k..]);
                 primitive.compress(falls, &mut shadows.from_primitive[k..]);
                 instance.compress(falls, &mut shadows.from_instance[k..]);
                 F::U::splat(NONE).compress(falls, &mut shadows.target_primitive[k..]);
@@ -474,60 +387,5 @@ mod tests {
         }
         // Most do.
         assert!(counted > 10_000 && reflections > 5_000, "{counted} {reflections}");
-    }
-
-    /// Where a point falls is where its pixel's rays come from, with and without a lens.
-    #[test]
-    fn points_fall_where_they_are_seen() {
-        use glam::DVec3;
-        for lens_radius in [0.0, 0.05] {
-            let camera = Camera {
-                eye: DVec3::new(0.1, 0.2, 0.3),
-                forward: DVec3::new(0.0, 0.6, -0.8),
-                right: DVec3::new(0.7, 0.0, 0.0),
-                up: DVec3::new(0.0, 0.4, 0.3),
-                lens_radius,
-                focus_distance: 1.7,
-                filter: crate::scene::Filter::Box,
-            };
-            let film = Film::<One>::new(&camera, [64, 48]);
-            for k in 0..100 {
-                let of = |salt: u32| (hash3(k, salt, 7) >> 40) as f32 / (1u32 << 24) as f32;
-                let (x, y) = (64.0 * of(0), 48.0 * of(1));
-                let lens = film.lens(One::splat(of(2)), One::splat(of(3)));
-                // As camera rays are made (`stages::camera`).
-                let (sx, sy) = (f64::from(x) / 32.0 - 1.0, 1.0 - f64::from(y) / 24.0);
-                let focus = if lens_radius > 0.0 { 1.7 } else { 1.0 };
-                let on_focus = camera.eye + (camera.forward + camera.right * sx + camera.up * sy) * focus;
-                let direction = V3::<One>::splat(on_focus.as_vec3().to_array()).sub(lens).normalise();
-                let at = film.place(lens, direction);
-                assert!((number(at.x) - x).abs() < 1e-3 && (number(at.y) - y).abs() < 1e-3, "{x} {y}");
-                // J by the points that are seen beside it, on a plane across the view at distance 2.
-                let on_plane = |dx: f64, dy: f64| {
-                    let f = camera.eye
-                        + (camera.forward + camera.right * (sx + dx / 32.0) + camera.up * (sy - dy / 24.0)) * focus;
-                    let mut o = [0.0f32; 3];
-                    let mut lane = [0.0];
-                    for (axis, o) in o.iter_mut().enumerate() {
-                        [lens.0, lens.1, lens.2][axis].store(&mut lane);
-                        *o = lane[0];
-                    }
-                    let o = DVec3::from_array(o.map(f64::from));
-                    let d = f - o;
-                    o + d * ((2.0 - (o - camera.eye).dot(camera.forward)) / d.dot(camera.forward))
-                };
-                let p = on_plane(0.0, 0.0);
-                let expected =
-                    (on_plane(0.5, 0.0) - on_plane(-0.5, 0.0)).cross(on_plane(0.0, 0.5) - on_plane(0.0, -0.5));
-                let mut o = [[0.0f32; 1]; 3];
-                lens.0.store(&mut o[0]);
-                lens.1.store(&mut o[1]);
-                lens.2.store(&mut o[2]);
-                let distance = (p - DVec3::new(o[0][0].into(), o[1][0].into(), o[2][0].into())).length();
-                let cos = direction.dot(V3::splat(camera.forward.as_vec3().to_array()));
-                let area = number(film.area(One::splat(distance as f32), cos, cos));
-                assert!((f64::from(area) / expected.length() - 1.0).abs() < 1e-3, "{area} {expected}");
-            }
-        }
     }
 }

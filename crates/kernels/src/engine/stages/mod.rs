@@ -2,6 +2,7 @@
 
 pub mod aim;
 pub mod camera;
+pub mod cameras;
 pub mod deposit;
 pub mod first_hits;
 pub mod light_paths;

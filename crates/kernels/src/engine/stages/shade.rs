@@ -5,7 +5,8 @@
 //! one.
 
 use super::aim;
-use super::light_paths::{Film, Turn, change, density_ratio};
+use super::cameras::View;
+use super::light_paths::{Turn, change, density_ratio};
 use super::lights::{self, LightHit, Receiver};
 use super::materials::{Bsdf, reflect_bent};
 use super::points::{PairPoints, PixelOf};
@@ -142,7 +143,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             film = F::load(&paths.film[i..]);
             if vertex == 0 {
                 let distance = F::load(&batch.hits.t[i..]);
-                film = film * Film::new(&scene.camera, scene.size).area_of(direction, distance, &s);
+                film = film * View::new(&scene.camera, scene.size).area_of(direction, distance, &s);
                 film = F::select(bsdf.packs() & !s.smooth, film, zero);
             } else {
                 film = F::select(bsdf.rough(), zero, film);

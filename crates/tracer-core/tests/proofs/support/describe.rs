@@ -47,8 +47,7 @@ impl Describe for SceneDesc {
         self
     }
     fn lens(mut self, aperture: f64, focus_distance: f64) -> Self {
-        self.effects.depth_of_field =
-            Some(ThinLens { aperture: aperture.into(), focus_distance: focus_distance.into() });
+        self.effects.depth_of_field = Some(ThinLens::new(aperture, focus_distance));
         self
     }
 }

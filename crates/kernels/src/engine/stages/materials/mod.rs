@@ -29,6 +29,7 @@ pub use specular_reflection::reflect_bent;
 use super::patterns::pattern_color;
 use super::surface::Surface;
 use super::textures::texture_color;
+use crate::bvh::SAME_SIDE;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::warp;
@@ -150,7 +151,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     }
 
     /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none.
-    /// Light passes from one body into the other, and takes on the colour of both.
+    /// Light passes from one body into the other, or into both at once ([`SAME_SIDE`]), and takes on the colour of both.
     #[inline(always)]
     fn touch(&mut self, table: &MaterialTable, behind: F::U) {
         let none = F::U::splat(0);
@@ -158,10 +159,12 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         if !on.any() {
             return;
         }
-        let other = F::U::select(on, behind - F::U::splat(1), none);
+        let both = !(behind & F::U::splat(SAME_SIDE)).eq(none);
+        let other = F::U::select(on, (behind & F::U::splat(!SAME_SIDE)) - F::U::splat(1), none);
         let [ior, _] = table.parameters.row::<F>(other);
         let [red, green, blue, ..] = table.rows.row::<F>(other);
-        self.parameter = F::select(on, self.parameter / ior, self.parameter);
+        let touching = F::select(both, self.parameter * ior, self.parameter / ior);
+        self.parameter = F::select(on, touching, self.parameter);
         self.color = V3::select(on, self.color.mul(V3(red, green, blue)), self.color);
     }
 

@@ -1,0 +1,186 @@
+//! The camera: where it stands, and how it maps what it sees to the picture.
+
+use super::Vec3;
+use crate::diagnostic::{Span, Spanned};
+use crate::plane::cross;
+use crate::schema::Rule;
+use crate::words::{scene_enum, scene_struct, scene_words};
+
+scene_struct! {
+    /// A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
+    pub struct Camera as "Camera", "the camera" {
+        /// Eye point.
+        position: Spanned<Vec3> = [0.0, 0.0, 5.0] => Rule::point();
+        /// A point in the middle of the picture.
+        look_at: Spanned<Vec3> = [0.0, 0.0, 0.0] => Rule::point();
+        /// The direction that is up in the picture.
+        up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Field of view in degrees: the picture's height, unless `fov_axis` says otherwise.
+        fov: Spanned<f64> = 40.0 => Rule::between("an angle", 0.0, 180.0).unit("in degrees");
+        /// Side of the picture that `fov` is measured along.
+        fov_axis: FovAxis = FovAxis::Vertical;
+        /// Instead of `fov`, as photographers say it: the focal length of a lens before film that is `sensor_width`
+        /// wide. 50 is normal for film of 36 mm, 24 wide, 85 a portrait. The picture's width sees 2 atan(sensor_width /
+        /// 2 focal_length). How sharp it is, `effects` say.
+        focal_length: Option<Spanned<f64>> = None => Rule::length("a length").unit("in millimetres");
+        /// Width of the film for `focal_length`.
+        sensor_width: Spanned<f64> = 36.0 => Rule::length("a length").unit("in millimetres");
+        /// Moves the film, as a view camera does: what is seen moves by so many picture heights to the right and up,
+        /// and upright walls stay parallel where `up` lies in the film. (0, 0.5) shows the upper half twice as high up.
+        shift: Spanned<[f64; 2]> = [0.0, 0.0] => Rule::within("two numbers", -1e3, 1e3).unit("in picture heights");
+        /// What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It
+        /// still shades and shows in mirrors.
+        near: Option<Spanned<f64>> = None => Rule::length("a length");
+        /// How directions become places in the picture.
+        projection: Projection = Projection::Perspective;
+    }
+}
+
+scene_words! {
+    /// The side of the picture that the field of view is measured along.
+    pub enum FovAxis, "axis of a field of view" {
+        /// The height.
+        Vertical,
+        /// The width.
+        Horizontal,
+        /// From corner to corner.
+        Diagonal,
+        /// The shorter side.
+        Smaller,
+        /// The longer side.
+        Larger,
+    }
+}
+
+scene_enum! {
+    /// How directions become places in the picture.
+    pub enum Projection, "projection" {
+        /// As the eye and lenses see: what is far is small, and straight lines are straight.
+        Perspective;
+        /// Parallel rays from the plane of `position`: nothing becomes smaller with distance, as in plans and figures.
+        /// What lies behind that plane is not seen.
+        Orthographic as "an orthographic projection" {
+            /// What the picture's height shows.
+            height: Spanned<f64> => Rule::length("a length");
+        };
+        /// All directions around the camera: 360 degrees across, 180 from top to bottom, the view in the middle, as
+        /// `Environment` is laid out.
+        Panorama;
+        /// A fisheye lens: a round picture in the middle of the frame, as large as its shorter side. Around it there
+        /// is nothing: black, and no part of `alpha`.
+        Fisheye as "a fisheye projection" {
+            /// The whole angle that the circle shows; 360 is all there is.
+            fov: Spanned<f64> = 180.0 => Rule::within("an angle", 1e-3, 360.0).unit("in degrees");
+            /// From the angle to the view direction to the distance from the middle.
+            mapping: FisheyeMapping = FisheyeMapping::Equidistant;
+        };
+    }
+}
+
+scene_words! {
+    /// From the angle t to the view direction to the distance from the middle of a fisheye's picture.
+    pub enum FisheyeMapping, "mapping of a fisheye" {
+        /// In proportion to t: the usual one, angles can be read off with a ruler.
+        Equidistant,
+        /// sin(t / 2): equal areas are equal solid angles.
+        Equisolid,
+        /// tan(t / 2): small things keep their shapes. Less than 360 degrees.
+        Stereographic,
+        /// sin(t): the hemisphere as seen from far away; weighs the sky as a level plane receives it. 180 degrees at
+        /// most.
+        Orthographic,
+    }
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Camera {
+            position: [0.0, 0.0, 5.0].into(),
+            look_at: [0.0, 0.0, 0.0].into(),
+            up: [0.0, 1.0, 0.0].into(),
+            fov: 40.0.into(),
+            fov_axis: FovAxis::Vertical,
+            focal_length: None,
+            sensor_width: 36.0.into(),
+            shift: [0.0, 0.0].into(),
+            near: None,
+            projection: Projection::Perspective,
+        }
+    }
+}
+
+impl Camera {
+    /// Unit vectors to the picture's right, up, and into it.
+    pub fn axes(&self) -> [Vec3; 3] {
+        let (position, look_at) = (self.position.value, self.look_at.value);
+        let forward = unit(std::array::from_fn(|axis| look_at[axis] - position[axis]));
+        let right = unit(cross(forward, unit(self.up.value)));
+        [right, cross(right, forward), forward]
+    }
+
+    /// Half the height and half the width of what a perspective camera sees at distance one, for a picture of this
+    /// many pixels across and down.
+    pub fn half_extents(&self, [width, height]: [u32; 2]) -> [f64; 2] {
+        let (width, height) = (f64::from(width), f64::from(height));
+        let aspect = width / height;
+        if let Some(focal_length) = &self.focal_length {
+            let half_width = self.sensor_width.value / 2.0 / focal_length.value;
+            return [half_width / aspect, half_width];
+        }
+        let half = libm::tan(self.fov.value.to_radians() / 2.0);
+        let along_width = match self.fov_axis {
+            FovAxis::Vertical => false,
+            FovAxis::Horizontal => true,
+            FovAxis::Smaller => width < height,
+            FovAxis::Larger => width > height,
+            FovAxis::Diagonal => {
+                let half_height = half / libm::hypot(aspect, 1.0);
+                return [half_height, half_height * aspect];
+            }
+        };
+        if along_width { [half / aspect, half] } else { [half, half * width / height] }
+    }
+
+    /// Fields that say something else than their defaults, and nothing beside what others say: each with its place, and
+    /// why. Defaults may be written out.
+    pub(crate) fn of_no_use(&self) -> Vec<(&'static str, Span, &'static str)> {
+        let place = |field: Option<Span>| field.unwrap_or(Span::NONE);
+        let default = Camera::default();
+        let fov = (self.fov.value != default.fov.value).then_some(self.fov.span);
+        let fov_axis = (self.fov_axis != FovAxis::Vertical).then_some(Span::NONE);
+        let focal_length = self.focal_length.as_ref().map(|length| length.span);
+        let shift = (self.shift.value != default.shift.value).then_some(self.shift.span);
+        let near = self.near.as_ref().map(|near| near.span);
+        let mut fields = Vec::new();
+        let mut none_of = |why: &'static str, list: &[(&'static str, Option<Span>)]| {
+            let there = list.iter().filter(|(_, span)| span.is_some());
+            fields.extend(there.map(|&(name, span)| (name, place(span), why)));
+        };
+        match self.projection {
+            Projection::Perspective if focal_length.is_some() => {
+                none_of("`focal_length` says how wide the view is", &[("fov_axis", fov_axis)]);
+            }
+            Projection::Perspective => {}
+            Projection::Orthographic { .. } => {
+                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                none_of("the `height` of the projection says what is seen", &angles);
+            }
+            Projection::Panorama => {
+                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                none_of("a panorama shows all directions", &angles);
+                none_of("a panorama has no plane", &[("shift", shift), ("near", near)]);
+            }
+            Projection::Fisheye { .. } => {
+                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                none_of("the projection has a `fov` of its own", &angles);
+                none_of("a fisheye has no plane", &[("shift", shift), ("near", near)]);
+            }
+        }
+        fields
+    }
+}
+
+fn unit(v: Vec3) -> Vec3 {
+    let length = libm::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    v.map(|x| x / length)
+}

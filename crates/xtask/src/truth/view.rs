@@ -1,0 +1,69 @@
+//! How a random scene is looked at: projections, lenses, moved film.
+
+use super::draw::{once_in, one_of};
+use super::world::World;
+use glam::DVec3;
+use scene_format::desc::{FisheyeMapping, Focus, FovAxis, Projection, ThinLens};
+use tracer_reference::Random;
+
+/// The camera's words, its place aside; and the lens.
+pub fn view(world: &mut World, random: &mut Random) {
+    let desc = &mut world.desc;
+    let camera = &mut desc.camera;
+    let distance = (DVec3::from(camera.look_at.value) - DVec3::from(camera.position.value)).length();
+    let height = 2.0 * distance * (camera.fov.value.to_radians() / 2.0).tan();
+    let mapping = one_of(
+        random,
+        &[
+            FisheyeMapping::Equidistant,
+            FisheyeMapping::Equisolid,
+            FisheyeMapping::Stereographic,
+            FisheyeMapping::Orthographic,
+        ],
+    );
+    camera.projection = match random.below(12) {
+        0 => Projection::Orthographic { height: height.into() },
+        1 => Projection::Panorama,
+        2 => Projection::Fisheye { fov: random.between(90.0, 180.0).into(), mapping },
+        _ => Projection::Perspective,
+    };
+    let planar = matches!(camera.projection, Projection::Perspective | Projection::Orthographic { .. });
+    if planar && once_in(random, 6) {
+        camera.shift = [random.between(-0.3, 0.3), random.between(-0.3, 0.3)].into();
+    }
+    if planar && once_in(random, 8) {
+        camera.near = Some(random.between(0.05 * distance, 0.7 * distance).into());
+    }
+    if camera.projection != Projection::Perspective {
+        camera.fov = 40.0.into();
+        return;
+    }
+    match random.below(10) {
+        0 => {
+            // The same width of a square picture.
+            let half = (camera.fov.value.to_radians() / 2.0).tan();
+            camera.sensor_width = 24.0.into();
+            camera.focal_length = Some((12.0 / half).into());
+            camera.fov = 40.0.into();
+        }
+        1 => {
+            let axes = [FovAxis::Horizontal, FovAxis::Diagonal, FovAxis::Smaller, FovAxis::Larger];
+            camera.fov_axis = one_of(random, &axes);
+        }
+        _ => {}
+    }
+    if !once_in(random, 6) {
+        return;
+    }
+    let mut lens = ThinLens::new(random.between(0.02, 0.3), random.between(1.0, 6.0));
+    if once_in(random, 3) {
+        lens.focus = Focus::On(camera.look_at.value).into();
+    }
+    if once_in(random, 3) {
+        (lens.blades, lens.rotation) = ((3 + random.below(6) as u32).into(), random.between(-90.0, 90.0).into());
+    }
+    if once_in(random, 3) {
+        lens.tilt = [random.between(-60.0, 60.0), random.between(-40.0, 40.0)].into();
+    }
+    desc.effects.depth_of_field = Some(lens);
+}
