@@ -9,10 +9,12 @@
 
 mod background;
 mod effects;
+mod fit_to;
 pub(crate) mod group;
 mod include;
 mod light;
 mod materials;
+pub(crate) mod matrix;
 mod name;
 mod object;
 mod output;
@@ -26,6 +28,7 @@ pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
 pub(crate) use effects::DepthOfField;
 pub use effects::{Effects, PixelFilter, ThinLens, ToneMap};
+pub use group::group_fault;
 pub(crate) use group::{ITEMS, Objects};
 pub(crate) use include::IncludeWords;
 pub use light::{Emission, Light, SphereLight};
@@ -48,8 +51,8 @@ pub use textures::{
     SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Voronoi, VoronoiFeature, Wood,
 };
 pub(crate) use textures::{MappingWords, PatternWords, is_texture};
-pub use transform::Transform;
 pub(crate) use transform::TransformWords;
+pub use transform::{Extent, Transform};
 pub use view::{Acceleration, Camera, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
