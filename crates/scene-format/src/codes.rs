@@ -172,12 +172,9 @@ codes! {
     ///
     /// ```ron
     /// Scene(
-    /// <<<<<<< HEAD
-    ///     background: 1,
-    /// =======
-    ///     background: 0.5,
-    /// >>>>>>> darker
-    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    ///     ///     background: 1,
+    ///     ///     background: 0.5,
+    ///     ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
     /// )
     /// ```
     MERGE_CONFLICT "E0122" "a merge that was not finished";
@@ -251,13 +248,14 @@ codes! {
     /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
-    /// `DropTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How low these reach is
-    /// known when all meshes in them have been read; drop the objects in it, or move it by `Translate`.
+    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How far these
+    /// reach is known when all meshes in them have been read; drop or fit the objects in it, or move it by `Translate`
+    /// and scale it by `Scale`.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])])
     /// ```
-    GROUP_DROP "E0211" "a group that is dropped";
+    GROUP_DROP "E0211" "a group that is dropped or fitted";
     /// A field stands beside another one that leaves it nothing to say: a `fov` where the camera's projection shows all
     /// directions, say.
     ///

@@ -184,7 +184,7 @@ impl Converter<'_, '_> {
             Type::Bool => Form::Bool(item.lexeme() == "true"),
             Type::Number | Type::Integer => Form::Lexeme(self.number(item)),
             Type::Text | Type::File => Form::Text(item.text().into_owned()),
-            Type::Pair | Type::Vector => self.vector(item),
+            Type::Pair | Type::Vector | Type::Rows => self.vector(item),
             Type::Color => match item.kind() {
                 Kind::Text => Form::Text(item.text().into_owned()),
                 Kind::List | Kind::Tuple => self.vector(item),

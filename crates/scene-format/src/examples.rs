@@ -84,7 +84,7 @@ pub(crate) const CHOICES: [&EnumDef; 31] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 105] = [
+const SNIPPETS: [(&str, &str, &str); 108] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -216,6 +216,9 @@ const SNIPPETS: [(&str, &str, &str); 105] = [
     ("TransformWords", "Scale", "Scale((1, 2, 1))"),
     ("TransformWords", "Rotate", "Rotate(axis: (0, 1, 0), degrees: 30)"),
     ("TransformWords", "DropTo", "DropTo(y: -1)"),
+    ("TransformWords", "Matrix", "Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0.2), (0, 0, -1, 0)))"),
+    ("TransformWords", "Align", "Align(to: (1, 1, 0))"),
+    ("TransformWords", "FitTo", "FitTo(height: 1.5)"),
     ("PlacementPattern", "Grid", "placements: Grid(count: (3, 1, 2), spacing: (1.5, 1, 1.5))"),
     ("PlacementPattern", "Ring", "placements: Ring(count: 7, radius: 1.5)"),
     (

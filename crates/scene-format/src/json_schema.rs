@@ -95,6 +95,7 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
         Type::Text | Type::File => json!({ "type": "string", "minLength": 1 }),
         Type::Pair => or_expression(vector(rule, 2)),
         Type::Vector => or_expression(vector(rule, 3)),
+        Type::Rows => json!({ "type": "array", "items": or_expression(vector(rule, 4)), "minItems": 3, "maxItems": 3 }),
         Type::Color => json!({ "anyOf": [
             number("number", rule),
             vector(rule, 3),

@@ -124,7 +124,7 @@ Scene(
 
 - An object's own `transform` and `placements` come first, then those of the group around it, then those of the group around that: up to
   sixteen deep, and a hundred million objects in all, copies counted. Copies of meshes share their triangles as they do elsewhere.
-- Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group has no `DropTo`.
+- Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group has no `DropTo` and no `FitTo`.
 
 `include: [\"house.ron\"]` at the scene's top takes `vars` and `materials` of other files. Among the objects, `Include(file: \"chair.ron\", vars: {
 \"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's objects and lights.

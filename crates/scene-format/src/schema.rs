@@ -19,6 +19,8 @@ pub(crate) enum Type {
     Pair,
     /// Three numbers.
     Vector,
+    /// Three rows of four numbers.
+    Rows,
     /// Three numbers, one for grey, or `"#rrggbb"`.
     Color,
     List(&'static Type),
@@ -350,8 +352,16 @@ pub(crate) fn fits(item: Item<'_, '_>, kind: &Type) -> bool {
         Type::Color => !compound,
         Type::Number | Type::Integer => matches!(item.kind(), Kind::Integer | Kind::Float),
         Type::Vector | Type::Pair => matches!(item.kind(), Kind::List | Kind::Tuple) && !compound,
+        Type::Rows => is_rows(item),
         _ => !compound && item.kind() != Kind::Text,
     }
+}
+
+/// Whether these are three rows of four, each in brackets of its own.
+pub(crate) fn is_rows(item: Item<'_, '_>) -> bool {
+    let listed = |item: Item<'_, '_>| matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
+    let four = |row: Item<'_, '_>| listed(row) && row.children().take(5).count() == 4;
+    listed(item) && item.children().take(4).count() == 3 && item.children().all(four)
 }
 
 /// A number, with its digits in groups of three when there are many.

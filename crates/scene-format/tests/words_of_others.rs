@@ -46,11 +46,65 @@ fn kinds_of_objects() {
         ("Box(size: 1, id: 1)", "has a `name`"),
         ("Box(size: 1, visible: false)", "leave the object out"),
         ("Box(size: 1, emission: 3)", "Emissive(radiance: 5)"),
-        ("Box(size: 1, transform: [Matrix([1, 0, 0])])", "placements file"),
-        ("Box(size: 1, transform: [LookAt((0, 0, 0))])", "Rotate(axis: (0, 1, 0), degrees: 90)"),
-        ("Box(size: 1, transform: [Shear(1)])", "no shear"),
+        ("Box(size: 1, transform: [Matrix([1, 0, 0])])", "write `rows: value`"),
+        ("Box(size: 1, transform: [LookAt((0, 0, 0))])", "Align(from: (0, 0, 1), to: (1, 0, 0))"),
+        ("Box(size: 1, transform: [Shear(1)])", "a `Matrix` may shear"),
+        ("Box(size: 1, transform: [Orient((0, 0, 1))])", "the nearest here is `Align(to: ..)`"),
+        ("Box(size: 1, transform: [Resize((1, 2, 3))])", "the nearest here is `FitTo(size: ..)`"),
+        ("Box(size: 1, transform: [FitTo(2)])", "write `height: 2`"),
+        ("Box(size: 1, transform: [FitTo(height: 2, width: 1)])", "remove all but one"),
+        ("Box(size: 1, transform: [FitTo(about: (0, 0, 0))])", "add `height`"),
+        ("Box(size: 1, matrix: 1)", "`transform: [Matrix(rows: "),
     ];
     check(&cases, |object| scene("", "", object));
+}
+
+/// Matrices of other programs, each told once, and mended where it is certain.
+#[test]
+fn matrices() {
+    let ours = "((2, 0, 0, 5), (0, 0, -1, 6), (0, 1, 0, 7))";
+    let cases = [
+        // Blender and Mitsuba: a fourth row.
+        ("Matrix(rows: ((2, 0, 0, 5), (0, 0, -1, 6), (0, 1, 0, 7), (0, 0, 0, 1)))", "write ((2, 0, 0, 5), "),
+        ("Matrix((2, 0, 0, 5), (0, 0, -1, 6), (0, 1, 0, 7), (0, 0, 0, 1))", "write Matrix(rows: ((2, 0, 0, 5), "),
+        ("Matrix(rows: (2, 0, 0, 5, 0, 0, -1, 6, 0, 1, 0, 7, 0, 0, 0, 1))", "write ((2, 0, 0, 5), "),
+        // glTF and pbrt: columns.
+        ("Matrix(rows: (2, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 5, 6, 7, 1))", "write ((2, 0, 0, 5), "),
+        ("matrix(2, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 5, 6, 7, 1)", "write Matrix(rows: ((2, 0, 0, 5), "),
+        ("Matrix(rows: ((2, 0, 0), (0, 0, 1), (0, -1, 0), (5, 6, 7)))", "write ((2, 0, 0, 5), "),
+        ("Matrix([(2, 0, 0, 5), (0, 0, -1, 6), (0, 1, 0, 7)])", "write Matrix(rows: [(2, 0, 0, 5), "),
+        ("Matrix(((2, 0, 0), (0, 0, -1), (0, 1, 0)))", "write Matrix(rows: ((2, 0, 0, 0), "),
+        // Rows or columns: nobody knows.
+        ("Matrix(rows: (2, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1))", "glTF and pbrt list them by columns"),
+        ("Matrix(rows: (2, 0, 0, 0, 0, 1, 0, -1, 0, 5, 6, 7))", "POV-Ray lists them by columns"),
+        ("to_world(matrix: 1)", "the nearest here is `Matrix(rows: ..)`; its rows are these, and a fourth"),
+        ("ConcatTransform([1, 0])", "`Matrix(rows: ..)`; pbrt lists columns"),
+    ];
+    check(&cases, |step| scene("", "", &format!("Box(size: 1, transform: [{step}])")));
+    for (written, _) in &cases[..8] {
+        let text = scene("", "", &format!("Box(size: 1, transform: [{written}])"));
+        let edit = errors(&text)[0].edit.clone().expect("an edit");
+        let mended =
+            format!("{}{}{}", &text[..edit.span.start as usize], edit.replacement, &text[edit.span.end as usize..]);
+        assert!(errors(&mended).is_empty(), "{mended}");
+        let turned = ours.replace("), (", ") (");
+        let same = mended.replace(['[', ']'], "(").replace("), (", ") (").contains(&turned[1..turned.len() - 9]);
+        assert!(same || written.contains("(0, 1, 0)))"), "{mended}");
+    }
+    let wrong = [
+        ("((1, 0, 0, 0), (0, 1, 0, 0), (1, 1, 0, 0))", "E0540", "it leaves nothing along one axis"),
+        ("((1, 2, 3, 0), (4, 5, 6, 0), (7, 8, 9, 0))", "E0540", "flattens everything"),
+        ("((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, inf, 0))", "E0304", "the third number of a row of the matrix"),
+        ("((1, 0, 0, 0), (0, 1, 0), (0, 0, 1, 0))", "E0206", "a row of the matrix has four numbers, not 3"),
+        ("((1, 0, 0, 0), (0, 1, 0, 0), 3)", "E0203", "a row of the matrix cannot be"),
+        ("\"=1\"", "E0203", "the rows of a matrix cannot be"),
+        ("((1, 0, 0, 0), (0, 1, 0, 0))", "E0206", "three rows of four numbers, not 2 rows of 4"),
+    ];
+    for (rows, code, message) in wrong {
+        let errors = errors(&scene("", "", &format!("Box(size: 1, transform: [Matrix(rows: {rows})])")));
+        let told: Vec<_> = errors.iter().map(|fault| (fault.code.as_str(), &*fault.message)).collect();
+        assert!(matches!(told[..], [(c, m)] if c == code && m.contains(message)), "{rows}: {told:?}");
+    }
 }
 
 #[test]

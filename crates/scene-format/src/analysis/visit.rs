@@ -122,8 +122,8 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
             }
         }
         // Components, each of which may be an expression.
-        (Type::Vector | Type::Pair | Type::Color | Type::Value, ..) => {
-            let component = if matches!(kind, Type::Value) { Type::Value } else { Type::Number };
+        (Type::Vector | Type::Pair | Type::Color | Type::Value | Type::Rows, ..) => {
+            let component = if matches!(kind, Type::Value | Type::Rows) { Type::Value } else { Type::Number };
             for child in item.children().filter(|child| child.kind() != Kind::Key) {
                 walk(child, inner(component), meet);
             }

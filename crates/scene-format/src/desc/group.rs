@@ -29,7 +29,7 @@ scene_struct! {
         /// The material of those objects in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without
-        /// `about` are about the origin. A group has no `DropTo`.
+        /// `about` are about the origin. A group has no `DropTo` and no `FitTo`.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A
         /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a
@@ -153,6 +153,28 @@ fn group(reader: &mut Reader<'_>, chosen: &Chosen<'_, '_>, at: Span) -> Option<V
     if moved(reader, words.transform, words.placements, &mut objects) { Some(objects) } else { None }
 }
 
+/// The diagnostic of a step of a group that needs to know how far the group reaches.
+pub fn group_fault(step: &Spanned<Transform>) -> Diagnostic {
+    let (message, hint) = match step.value {
+        Transform::FitTo { .. } => (
+            "a group has no extent that is known yet",
+            "fit the objects in it, or scale it by Scale(factor: 2, about: (0, 0, 0))",
+        ),
+        _ => (
+            "a group has no lowest point that is known yet",
+            "drop the objects in it, or move it by Translate((0, y, 0))",
+        ),
+    };
+    Diagnostic::error(codes::GROUP_DROP, step.span, message)
+        .expected("Translate, Scale, Rotate, Matrix or Align")
+        .hint(hint)
+}
+
+/// The first step that needs to know how far it reaches what it moves.
+fn drops(steps: &[Spanned<Transform>]) -> Option<&Spanned<Transform>> {
+    steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }))
+}
+
 /// Puts objects where a group with this transform and these placements puts them. `false`: it cannot, which is
 /// reported.
 pub(crate) fn moved(
@@ -161,18 +183,12 @@ pub(crate) fn moved(
     placements: Placements,
     objects: &mut [Spanned<Object>],
 ) -> bool {
-    let drops = |steps: &[Spanned<Transform>]| {
-        steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. })).map(|step| step.span)
-    };
     let drop = drops(&transform).or_else(|| match &placements {
         Placements::List(list) => list.iter().find_map(drops),
         _ => None,
     });
-    if let Some(at) = drop {
-        let fault = Diagnostic::error(codes::GROUP_DROP, at, "a group has no lowest point that is known yet")
-            .expected("Translate, Scale or Rotate")
-            .hint("drop the objects in it, or move it by Translate((0, y, 0))");
-        reader.report(fault);
+    if let Some(step) = drop {
+        reader.report(group_fault(step));
         return false;
     }
     if transform.is_empty() && placements == Placements::One {

@@ -10,11 +10,13 @@
 mod background;
 mod camera;
 mod effects;
+mod fit_to;
 pub(crate) mod group;
 mod include;
 mod lens;
 mod light;
 mod materials;
+pub(crate) mod matrix;
 mod name;
 mod object;
 mod output;
@@ -28,6 +30,7 @@ pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
 pub use camera::{Camera, FisheyeMapping, FovAxis, Projection};
 pub use effects::{Effects, PixelFilter, ToneMap};
+pub use group::group_fault;
 pub(crate) use group::{ITEMS, Objects};
 pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;
@@ -52,8 +55,8 @@ pub use textures::{
     SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Voronoi, VoronoiFeature, Wood,
 };
 pub(crate) use textures::{MappingWords, PatternWords, is_texture};
-pub use transform::Transform;
 pub(crate) use transform::TransformWords;
+pub use transform::{Extent, Transform};
 pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};

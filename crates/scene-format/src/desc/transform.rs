@@ -1,6 +1,8 @@
 //! The steps of an object's way into the scene.
 
 use super::Vec3;
+use super::fit_to::FitTo;
+use super::matrix::Rows;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
@@ -33,6 +35,42 @@ pub enum Transform {
         /// Height of the lowest point.
         y: f64,
     },
+    /// An affine map.
+    Matrix {
+        /// What becomes of x, y and z: three factors, and how far it moves.
+        rows: Box<[[f64; 4]; 3]>,
+    },
+    /// The least rotation that takes one direction to another.
+    Align {
+        /// The one (any length but zero).
+        from: Box<Vec3>,
+        /// The other.
+        to: Box<Vec3>,
+        /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices).
+        about: Option<Box<Vec3>>,
+    },
+    /// Scales by one factor to an extent.
+    FitTo {
+        /// Which one.
+        extent: Extent,
+        /// How long it is then.
+        length: f64,
+        /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices).
+        about: Option<Box<Vec3>>,
+    },
+}
+
+/// An extent in the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Along y.
+    Height,
+    /// Along x.
+    Width,
+    /// Along z.
+    Depth,
+    /// The largest of the three.
+    Size,
 }
 
 scene_enum! {
@@ -63,6 +101,27 @@ scene_enum! {
             /// Height of the lowest point.
             y: f64 => Rule::within("a height", -1e12, 1e12).unit("in the scene's unit");
         };
+        /// An affine map, about the origin: the point (px, py, pz) comes to a px + b py + c pz + x, and so on. It may
+        /// turn, scale, mirror, shear and move. Blender's `matrix_world` and Mitsuba's `to_world` have these rows and a
+        /// fourth, which is left out; glTF and pbrt list columns. Worlds of POV-Ray and pbrt are mirrored: there the
+        /// signs of x's row and then of x's column change.
+        Matrix as "a matrix" {
+            /// Three rows of four numbers: three factors, and how far it moves.
+            rows: Rows => Rule::within("three rows of four numbers", -1e12, 1e12);
+        };
+        /// Turns by the least rotation that takes one direction to another. Where they are opposite it is half a turn
+        /// about what is right on a `Rectangle` whose normal is `from`: x for (0, 1, 0).
+        Align as "an alignment" {
+            /// The direction that is turned (any length but zero).
+            from: Vec3 = [0.0, 1.0, 0.0] => Rule::direction();
+            /// The direction that it is turned to.
+            to: Vec3 => Rule::direction();
+            /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the
+            /// origin.
+            about: Option<Vec3> = None => Rule::point();
+        };
+        /// Scales by one factor so that the object has this extent along one axis of the world, or as its largest.
+        FitTo(FitTo);
     }
 }
 
@@ -99,6 +158,11 @@ impl Words for Transform {
                 Transform::Rotate { axis, degrees, about: about.map(Box::new) }
             }
             TransformWords::DropTo { y } => Transform::DropTo { y },
+            TransformWords::Matrix { rows } => Transform::Matrix { rows: rows.0 },
+            TransformWords::Align { from, to, about } => {
+                Transform::Align { from: Box::new(from), to: Box::new(to), about: about.map(Box::new) }
+            }
+            TransformWords::FitTo(fit) => fit.step(),
         })
     }
 
@@ -112,6 +176,14 @@ impl Words for Transform {
                 TransformWords::Rotate { axis: *axis, degrees: *degrees, about: about.as_deref().copied() }
             }
             Transform::DropTo { y } => TransformWords::DropTo { y: *y },
+            Transform::Matrix { rows } => TransformWords::Matrix { rows: Rows(rows.clone()) },
+            Transform::Align { from, to, about } => {
+                TransformWords::Align { from: **from, to: **to, about: about.as_deref().copied() }
+            }
+            Transform::FitTo { extent, length, about } => {
+                let about = about.as_deref().copied();
+                TransformWords::FitTo(FitTo { extent: *extent, length: *length, about })
+            }
         };
         let mut form = words.form(all);
         // Scale(2) says the same as Scale(factor: 2).

@@ -6,6 +6,7 @@ use super::shape_fields::one_ring;
 use super::value::hex_color;
 use crate::codes;
 use crate::desc::is_texture;
+use crate::desc::matrix::unnamed_rows;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
@@ -375,7 +376,20 @@ fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
             };
             three.map(scaling)
         }
+        "matrix" if !named => unnamed_rows(body).map(|rows| matrix(&rows)),
         _ => None,
+    }
+}
+
+fn matrix(rows: &str) -> Meant {
+    Meant {
+        kind: "Matrix",
+        noun: "matrix",
+        form: "Matrix(rows: ((a, b, c, x), (d, e, f, y), (g, h, i, z)))",
+        form_of_toml: "{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }",
+        ron: format!("rows: {rows}"),
+        toml: format!("{{ rows = {rows} }}"),
+        certain: true,
     }
 }
 

@@ -27,6 +27,12 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         "position" | "center" | "translate" | "translation" if has("transform") => {
             Some("write it as a transform: `transform = [{ Translate = [x, y, z] }]`")
         }
+        "matrix" | "to_world" | "matrix_world" if has("transform") && ron => {
+            Some("write it as a transform: `transform: [Matrix(rows: ((a, b, c, x), (d, e, f, y), (g, h, i, z)))]`")
+        }
+        "matrix" | "to_world" | "matrix_world" if has("transform") => Some(
+            "write it as a transform: `transform = [{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }]`",
+        ),
         "rotate" | "rotation" if has("transform") && ron => {
             Some("write it as a transform: `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`")
         }
@@ -132,6 +138,11 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Linear", &["linear_spline", "linearspline", "polyline", "straight", "lines", "polygon"]),
         ("CatmullRom", &["cubic_spline", "cubicspline", "quadratic_spline", "spline", "smooth", "cubic", "natural"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
+        ("Matrix", &["matrix", "matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"]),
+        ("Matrix", &["transform", "concattransform", "concat_transform"]),
+        ("Align", &["orient", "aligned", "align_to", "alignto", "rotate_to", "rotateto", "point_at", "reorient"]),
+        ("FitTo", &["fit", "resize", "normalize", "normalise", "unitize", "scale_to", "scaleto", "dimensions"]),
+        ("DropTo", &["drop", "ground", "place_on", "rest_on"]),
         ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
@@ -324,14 +335,24 @@ const LIGHTS: Hints = &[
 
 const TRANSFORMS: Hints = &[
     (
-        &["matrix", "transform", "to_world", "toworld", "affine"],
-        "write its steps: Scale, Rotate, Translate; or rows of 12 numbers in a placements file",
+        &["matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"],
+        "its rows are these, and a fourth, 0, 0, 0, 1, which is left out",
     ),
     (
-        &["lookat", "look_at", "orient", "align"],
-        "turn it by Rotate(axis: (0, 1, 0), degrees: 90); the camera alone has `look_at`",
+        &["transform", "concattransform", "concat_transform"],
+        "pbrt lists columns, so the first row takes the first number of each four; its x is mirrored: change the signs of the first row, then \
+         of the first column",
     ),
-    (&["shear", "skew"], "there is no shear step; a placements file takes rows of 12 numbers, which may shear"),
+    (
+        &["matrix"],
+        "POV-Ray and glTF list columns, so that rows and columns change places; POV-Ray's x is mirrored: change the signs of the first row, \
+         then of the first column",
+    ),
+    (
+        &["lookat", "look_at", "track", "trackto", "track_to"],
+        "Align(from: (0, 0, 1), to: (1, 0, 0)) turns one direction to another; the camera alone has `look_at`",
+    ),
+    (&["shear", "skew"], "a `Matrix` may shear: Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)))"),
     (&["mirror", "reflect", "flip"], "a negative factor mirrors: Scale((-1, 1, 1))"),
     (
         &["quaternion", "euler", "euler_xyz"],

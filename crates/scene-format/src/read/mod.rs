@@ -30,7 +30,7 @@ use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
 use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, plain, shortened};
-pub(crate) use value::{expected, hex_color, linear_from_srgb, none};
+pub(crate) use value::{expected, expected_for, hex_color, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 

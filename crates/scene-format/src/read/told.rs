@@ -53,9 +53,9 @@ pub(crate) fn shortened(text: &str) -> String {
 
 /// ``the `focus_distance` of a thin lens``: names that are no words are set off.
 pub(crate) fn plain(noun: &str) -> String {
-    let words: Vec<String> =
-        noun.split(' ').map(|word| if word.contains('_') { format!("`{word}`") } else { word.to_owned() }).collect();
-    words.join(" ")
+    let off = |k: usize, word: &str| word.contains('_') || k == 1 && matches!(word, "from" | "to");
+    let word = |(k, word): (usize, &str)| if off(k, word) { format!("`{word}`") } else { word.to_owned() };
+    noun.split(' ').enumerate().map(word).collect::<Vec<String>>().join(" ")
 }
 
 /// `this sphere` from `a sphere`; `the camera` stays.

@@ -21,6 +21,8 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
     match item.syntax() {
         Syntax::Ron => words,
         syntax => in_braces(&words, syntax)
+            .replace("((a, b, c, x), (d, e, f, y), (g, h, i, z))", "[[a, b, c, x], [d, e, f, y], [g, h, i, z]]")
+            .replace("(a, b, c, x)", "[a, b, c, x]")
             .replace("(x, y, z)", "[x, y, z]")
             .replace("(x, y)", "[x, y]")
             .replace("(r, g, b)", "[r, g, b]")
@@ -53,6 +55,8 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Pair, what) => format!("{what}: (x, y)"),
         (Type::Vector, "") => "three numbers: (x, y, z)".to_owned(),
         (Type::Vector, what) => format!("{what}: (x, y, z)"),
+        (Type::Rows, what) => format!("{what}: ((a, b, c, x), (d, e, f, y), (g, h, i, z))"),
+        (Type::List(Type::Number), "a row") => "four numbers: (a, b, c, x)".to_owned(),
         (Type::Color | Type::Optional(Type::Color), _) => {
             let channels = if words.is_empty() { "channels" } else { "channels " };
             return with_unit(

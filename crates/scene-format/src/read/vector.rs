@@ -78,7 +78,7 @@ impl Reader<'_> {
             count if count > MANY => "so many".to_owned(),
             count => count.to_string(),
         };
-        let right_word = if right == 2 { "two" } else { "three" };
+        let right_word = ["two", "three", "four"].get(right.wrapping_sub(2)).copied().unwrap_or("more");
         let message = format!("{} has {right_word} numbers, not {numbers}", plain(at.noun));
         let mut fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message).expected(expected_for(at, item));
         if let Some(mended) = with_decimal_points(item, right) {

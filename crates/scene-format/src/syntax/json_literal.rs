@@ -208,7 +208,7 @@ impl<'p> Parser<'p> {
         }
         let word = &self.text[start..start + length];
         // A comment may follow, which is told by itself.
-        let ends = |b: &u8| b.is_ascii_whitespace() || matches!(b, b',' | b']' | b'}' | b')' | b'/' | b'#');
+        let ends = |b: &u8| b.is_ascii_whitespace() || matches!(b, b',' | b';' | b']' | b'}' | b')' | b'/' | b'#');
         let alone = self.text.as_bytes().get(start + length).is_none_or(ends);
         match word {
             "true" | "false" if alone => {

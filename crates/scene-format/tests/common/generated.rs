@@ -128,7 +128,7 @@ fn material(random: &mut Random) -> Material {
 
 fn transform(random: &mut Random) -> Transform {
     let about = (random.below(2) == 0).then(|| Box::new(vector(random)));
-    match random.below(4) {
+    match random.below(7) {
         0 => Transform::Translate(vector(random)),
         1 => {
             let uniform = random.below(2) == 0;
@@ -136,6 +136,24 @@ fn transform(random: &mut Random) -> Transform {
             Transform::Scale { factor: if uniform { [factor[0]; 3] } else { factor }, about }
         }
         2 => Transform::Rotate { axis: [1.0, random.unit(), 0.0], degrees: number(random, -360.0, 360.0), about },
+        3 => {
+            // Larger on the diagonal than beside it: it can be undone.
+            let row = |k: usize, random: &mut Random| {
+                let mut row = [(); 4].map(|()| number(random, -1.0, 1.0));
+                row[k] = number(random, 3.0, 5.0) * [1.0, -1.0][random.below(2)];
+                row
+            };
+            Transform::Matrix { rows: Box::new([0, 1, 2].map(|k| row(k, random))) }
+        }
+        4 => {
+            let from = if random.below(2) == 0 { [0.0, 1.0, 0.0] } else { [random.unit(), 0.5, 0.0] };
+            Transform::Align { from: Box::new(from), to: Box::new([1.0, 0.0, random.unit()]), about }
+        }
+        5 => Transform::FitTo {
+            extent: *random.pick(&[Extent::Height, Extent::Width, Extent::Depth, Extent::Size]),
+            length: length(random),
+            about,
+        },
         _ => Transform::DropTo { y: number(random, -1e3, 1e3) },
     }
 }
@@ -186,7 +204,7 @@ fn name(random: &mut Random) -> Name {
 fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
     let moves = |random: &mut Random| {
         let mut steps = transforms(random);
-        steps.retain(|step| !matches!(step.value, Transform::DropTo { .. }));
+        steps.retain(|step| !matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }));
         steps.insert(0, Transform::Translate(vector(random)).into());
         steps
     };

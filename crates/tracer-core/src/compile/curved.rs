@@ -2,7 +2,7 @@
 //! [`tracer_kernels::shapes`]).
 
 use super::materials::MaterialBuilder;
-use super::placing::{copies, place as place_matrix, sides};
+use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3};
@@ -129,15 +129,15 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
         let (transform, placements) = (object.value.transform(), object.value.placements());
         let material = builder.resolve(object.value.material(), diagnostics);
         let emissive = builder.emissive(material).cloned();
-        // A placements file is read even when something else is wrong: all faults in one run.
-        let copies = copies(desc, placements, diagnostics);
         if let Some(fault) = fault {
             diagnostics.push(fault);
+            // A placements file is read even when something else is wrong: all faults in one run.
+            place_all(desc, transform, placements, &Subject::unknown(noun), diagnostics);
             continue;
         }
-        let lowest = |map: &DAffine3| unit.bounds(&(*map * local))[0].y;
-        let map = place_matrix(transform, local.translation, &lowest) * local;
-        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+        let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
+        let subject = Subject { noun, local, middle: local.translation, reach: Some(&reach) };
+        let maps = place_all(desc, transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
         if emissive.is_some() && (unit != UnitShape::Sphere || !maps.iter().all(is_similar)) {

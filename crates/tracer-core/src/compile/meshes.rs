@@ -7,7 +7,7 @@
 
 use super::kept::{Kept, build_tree, load_mesh};
 use super::materials::MaterialBuilder;
-use super::placing::{check, copies, place as place_matrix};
+use super::placing::{Subject, check, place_all};
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -181,18 +181,20 @@ pub struct Placed {
 pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
     let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
     for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
-        // A placements file is read even when the mesh is missing: all faults in one run.
-        let copies = copies(desc, object.placements, diagnostics);
         let Some(data) = file.map(|f| &loaded.files[f]) else {
+            // A placements file is read even when the mesh is missing: all faults in one run.
+            let unknown = Subject::unknown(object.noun);
+            place_all(desc, object.transform, object.placements, &unknown, diagnostics);
             placed.maps.push(Vec::new());
             placed.boxes.push([DVec3::ZERO; 2]);
             continue;
         };
-        let lowest = |map: &DAffine3| {
+        let reach = |map: &DAffine3, axis: usize| {
             let map = *map * object.local;
-            let row = map.matrix3.row(1);
-            let heights = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation.y);
-            heights.reduce(|| f64::INFINITY, f64::min)
+            let row = map.matrix3.row(axis);
+            let along = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation[axis]);
+            let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+            along.map(|x| [x, x]).reduce(|| [f64::INFINITY, f64::NEG_INFINITY], both)
         };
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in data.positions.iter().map(|p| DVec3::from(*p)) {
@@ -202,8 +204,8 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
             Geometry::Made(shape) => shape.middle().map_or(0.5 * (low + high), DVec3::from),
             _ => object.local.transform_point3(DVec3::from(data.barycentre())),
         };
-        let map = place_matrix(object.transform, middle, &lowest) * object.local;
-        let maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+        let subject = Subject { noun: object.noun, local: object.local, middle, reach: Some(&reach) };
+        let maps = place_all(desc, object.transform, object.placements, &subject, diagnostics);
         let at = object.transform.first().map_or(object.span, |t| t.span);
         check(&maps, at, object.noun, diagnostics);
         placed.maps.push(maps);

@@ -2,32 +2,157 @@
 
 use super::patterns;
 use glam::{DAffine3, DMat3, DVec3};
-use scene_format::desc::{Placements, Transform};
+use scene_format::desc::{Extent, Placements, Transform, group_fault};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use tracer_mesh::placements::{load_placements, rotation};
 
-/// Applies the transforms first to last. `barycentre` is the fixed point of those that name none: it moves along.
-/// `lowest` gives the smallest y of the shape under a map (asked only by `DropTo`).
-pub fn place(transforms: &[Spanned<Transform>], barycentre: DVec3, lowest: &dyn Fn(&DAffine3) -> f64) -> DAffine3 {
+/// What steps ask of what they move.
+pub struct Subject<'a> {
+    /// What it is called.
+    pub noun: &'a str,
+    /// From its own frame to the one that it is written in.
+    pub local: DAffine3,
+    /// The fixed point of steps that name none, where it is written.
+    pub middle: DVec3,
+    /// How far it reaches where a map puts what is written; `None`: nobody knows, it is a group.
+    pub reach: Option<Reach<'a>>,
+}
+
+/// How far a thing reaches along an axis of the world (0, 1 or 2) under a map, from and to.
+pub type Reach<'a> = &'a dyn Fn(&DAffine3, usize) -> [f64; 2];
+
+impl Subject<'_> {
+    /// A group, about the origin.
+    const GROUP: Subject<'static> =
+        Subject { noun: "group", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: None };
+
+    /// A thing that is not known, since something else is wrong with it, of which no fault is told.
+    pub fn unknown(noun: &str) -> Subject<'_> {
+        Subject { noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&|_, _| [0.0, 1.0]) }
+    }
+
+    /// The same under a map: what placements move.
+    fn under<T>(&self, map: &DAffine3, then: impl FnOnce(&Subject<'_>) -> T) -> T {
+        let Some(reach) = self.reach else { return then(&Subject::GROUP) };
+        let reach = |placement: &DAffine3, axis: usize| reach(&(*placement * *map), axis);
+        then(&Subject { noun: self.noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&reach) })
+    }
+}
+
+/// From an object's own frame to the world: its transforms and, after them, each copy's.
+pub fn place_all(
+    desc: &SceneDesc,
+    transforms: &[Spanned<Transform>],
+    placements: &Placements,
+    subject: &Subject<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DAffine3> {
+    let map = place(transforms, subject, diagnostics);
+    let copies = subject.under(&map, |moved| copies(desc, placements, moved, diagnostics));
+    let map = map * subject.local;
+    copies.into_iter().map(|copy| copy * map).collect()
+}
+
+/// Applies the transforms first to last. A step that cannot be done is left out, and told.
+fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnostics: &mut Diagnostics) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
         let here = |about: &Option<Box<[f64; 3]>>, map: &DAffine3| {
-            about.as_deref().map_or_else(|| map.transform_point3(barycentre), |about| DVec3::from(*about))
+            about.as_deref().map_or_else(|| map.transform_point3(subject.middle), |about| DVec3::from(*about))
         };
         let step = match &transform.value {
-            Transform::Translate(by) => DAffine3::from_translation(DVec3::from(*by)),
+            Transform::Translate(by) => Ok(DAffine3::from_translation(DVec3::from(*by))),
             Transform::Scale { factor, about } => {
-                about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(about, &map))
+                Ok(about_point(DMat3::from_diagonal(DVec3::from(*factor)), here(about, &map)))
             }
             Transform::Rotate { axis, degrees, about } => {
-                about_point(rotation(DVec3::from(*axis), *degrees), here(about, &map))
+                Ok(about_point(rotation(DVec3::from(*axis), *degrees), here(about, &map)))
             }
-            Transform::DropTo { y } => DAffine3::from_translation(DVec3::new(0.0, y - lowest(&map), 0.0)),
+            Transform::DropTo { y } => match subject.reach {
+                Some(reach) => Ok(DAffine3::from_translation(DVec3::new(0.0, y - reach(&map, 1)[0], 0.0))),
+                None => Err(Box::new(group_fault(transform))),
+            },
+            Transform::Matrix { rows } => Ok(of_rows(rows)),
+            Transform::Align { from, to, about } => {
+                Ok(about_point(alignment(DVec3::from(**from), DVec3::from(**to)), here(about, &map)))
+            }
+            Transform::FitTo { extent, length, about } => {
+                let at = transform.span;
+                let factor = match subject.reach {
+                    Some(reach) => fit(*extent, *length, subject.noun, at, &|axis| reach(&map, axis)),
+                    None => Err(Box::new(group_fault(transform))),
+                };
+                factor.map(|factor| about_point(DMat3::from_diagonal(DVec3::splat(factor)), here(about, &map)))
+            }
         };
-        map = step * map;
+        match step {
+            Ok(step) => map = step * map,
+            // A million copies have one fault.
+            Err(fault) if diagnostics.last() == Some(&*fault) => {}
+            Err(fault) => diagnostics.push(*fault),
+        }
     }
     map
+}
+
+/// Rows of four numbers, the last of which moves.
+fn of_rows(rows: &[[f64; 4]; 3]) -> DAffine3 {
+    let [[a, b, c, x], [d, e, f, y], [g, h, i, z]] = *rows;
+    DAffine3 { matrix3: DMat3::from_cols_array(&[a, d, g, b, e, h, c, f, i]), translation: DVec3::new(x, y, z) }
+}
+
+/// The least rotation from one direction to another, of any length but zero. Where they are opposite it is half a turn
+/// about the first one's right ([`sides`]).
+fn alignment(from: DVec3, to: DVec3) -> DMat3 {
+    let unit = |n: DVec3| (n / n.abs().max_element()).normalize();
+    let (from, to) = (unit(from), unit(to));
+    let (across, cosine) = (from.cross(to), from.dot(to));
+    if cosine > -0.5 {
+        // Rodrigues' formula, where the axis is not needed.
+        let outer = DMat3::from_cols(across * across.x, across * across.y, across * across.z) * (1.0 / (1.0 + cosine));
+        let turned =
+            DMat3::from_cols_array(&[0.0, across.z, -across.y, -across.z, 0.0, across.x, across.y, -across.x, 0.0]);
+        return DMat3::from_diagonal(DVec3::splat(cosine)) + turned + outer;
+    }
+    // Near to half a turn: the axis, and what is across it and either direction.
+    let axis = if across.length() > 1e-14 { across.normalize() } else { sides(from)[0] };
+    let axis = (axis - from * axis.dot(from)).normalize();
+    let frame = |n: DVec3| DMat3::from_cols(n, axis, n.cross(axis).normalize());
+    let to = (to - axis * axis.dot(to)).normalize();
+    frame(to) * frame(from).transpose()
+}
+
+/// The factor by which a thing with this reach along each axis comes to an extent.
+fn fit(
+    extent: Extent,
+    length: f64,
+    noun: &str,
+    at: Span,
+    reach: &dyn Fn(usize) -> [f64; 2],
+) -> Result<f64, Box<Diagnostic>> {
+    let (mut extents, mut largest) = ([0.0; 3], 0.0_f64);
+    for (axis, extent) in extents.iter_mut().enumerate() {
+        let [low, high] = reach(axis);
+        *extent = high - low;
+        largest = largest.max(low.abs()).max(high.abs());
+    }
+    let (found, name, along) = match extent {
+        Extent::Height => (extents[1], "height", "along y"),
+        Extent::Width => (extents[0], "width", "along x"),
+        Extent::Depth => (extents[2], "depth", "along z"),
+        Extent::Size => (extents[0].max(extents[1]).max(extents[2]), "size", "along any axis"),
+    };
+    // What is flat is so but for rounding.
+    if found > 1e-12 * largest {
+        return Ok(length / found);
+    }
+    let fault = Diagnostic::error(codes::NO_EXTENT, at, format!("the {noun} has no {name} that could be fitted"))
+        .expected(format!("an extent of more than zero {along}"));
+    Err(Box::new(match extent {
+        Extent::Size => fault,
+        _ => fault.hint("fit another of `height`, `width`, `depth` and `size`, or turn it before"),
+    }))
 }
 
 /// A linear map with this fixed point.
@@ -39,10 +164,15 @@ fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
 const MOST_COPIES: u64 = 100_000_000;
 
 /// The maps of the copies, in the world. A fault of a group is told once, whatever stands in it.
-pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagnostics) -> Vec<DAffine3> {
+fn copies(
+    desc: &SceneDesc,
+    placements: &Placements,
+    subject: &Subject<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DAffine3> {
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
-        Placements::List(list) => list.iter().map(|steps| place(steps, DVec3::ZERO, &|_| 0.0)).collect(),
+        Placements::List(list) => list.iter().map(|steps| place(steps, subject, diagnostics)).collect(),
         Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {
@@ -52,11 +182,11 @@ pub fn copies(desc: &SceneDesc, placements: &Placements, diagnostics: &mut Diagn
         },
         Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
         Placements::Within(within) => {
-            let mut maps = copies(desc, &within.own, diagnostics);
+            let mut maps = copies(desc, &within.own, subject, diagnostics);
             let mut found = Diagnostics::new();
             for group in within.groups.outwards() {
-                let step = place(&group.transform, DVec3::ZERO, &|_| 0.0);
-                let around = copies(desc, &group.placements, &mut found);
+                let step = place(&group.transform, &Subject::GROUP, &mut found);
+                let around = copies(desc, &group.placements, &Subject::GROUP, &mut found);
                 if maps.len() as u64 * around.len() as u64 > MOST_COPIES {
                     let at = group.placements.files().first().map_or(Span::NONE, |file| file.span);
                     let message = format!("groups make more than {MOST_COPIES} copies of an object");
@@ -115,6 +245,19 @@ mod tests {
         near(rotation(DVec3::ONE, 120.0) * DVec3::X, [0.0, 1.0, 0.0]);
     }
 
+    /// Where steps put a thing whose lowest point is at (0, -1, 0).
+    fn placed(steps: &[Spanned<Transform>], middle: DVec3) -> DAffine3 {
+        let low = |map: &DAffine3, axis: usize| {
+            let y = map.transform_point3(DVec3::new(0.0, -1.0, 0.0))[axis];
+            [y, y + 1.0]
+        };
+        let mut found = Diagnostics::new();
+        let map =
+            place(steps, &Subject { noun: "cube", local: DAffine3::IDENTITY, middle, reach: Some(&low) }, &mut found);
+        assert!(found.is_empty(), "{found:?}");
+        map
+    }
+
     #[test]
     fn scale_and_rotate_act_about_the_barycentre_which_moves_along() {
         let steps = [
@@ -123,7 +266,7 @@ mod tests {
             Transform::Rotate { axis: [0.0, 0.0, 1.0], degrees: 90.0, about: None },
         ]
         .map(Spanned::from);
-        let map = place(&steps, DVec3::new(1.0, 0.0, 0.0), &|_| 0.0);
+        let map = placed(&steps, DVec3::new(1.0, 0.0, 0.0));
         near(map.transform_point3(DVec3::new(1.0, 0.0, 0.0)), [11.0, 0.0, 0.0]);
         near(map.transform_point3(DVec3::new(2.0, 0.0, 0.0)), [11.0, 2.0, 0.0]);
     }
@@ -140,7 +283,10 @@ mod tests {
         ])"#;
         let loaded = scene_format::load_str("s", text, scene_format::Syntax::Ron, std::path::Path::new(""), &[]);
         let desc = loaded.expect("a scene").scene;
-        let of = |object: usize| copies(&desc, desc.objects[object].value.placements(), &mut Diagnostics::new());
+        let of = |object: usize| {
+            let placements = desc.objects[object].value.placements();
+            place_all(&desc, &[], placements, &Subject::unknown("sphere"), &mut Diagnostics::new())
+        };
         let centres: Vec<DVec3> = of(0).iter().map(|map| map.transform_point3(DVec3::ZERO)).collect();
         let inner = [[2.0, 0.0, 1.0], [0.0, 6.0, 1.0], [0.0, 0.0, 0.0], [0.0, 3.0, 1.0]];
         assert_eq!(centres.len(), 8);
@@ -157,7 +303,133 @@ mod tests {
             Transform::DropTo { y: -20.0 },
         ]
         .map(Spanned::from);
-        let map = place(&steps, DVec3::ONE, &|m| m.transform_point3(DVec3::new(0.0, -1.0, 0.0)).y);
+        let map = placed(&steps, DVec3::ONE);
         near(map.transform_point3(DVec3::new(1.0, -1.0, 1.0)), [3.0, -20.0, -3.0]);
+    }
+
+    /// Rows are rows, whatever came before.
+    #[test]
+    fn a_matrix_takes_points_by_its_rows() {
+        let rows = Box::new([[1.0, 2.0, 3.0, 10.0], [4.0, 5.0, 6.0, 20.0], [7.0, 8.0, 10.0, 30.0]]);
+        let steps = [Transform::Translate([1.0, 0.0, 0.0]), Transform::Matrix { rows }].map(Spanned::from);
+        let map = placed(&steps, DVec3::ONE);
+        near(map.transform_point3(DVec3::new(0.0, 1.0, -1.0)), [10.0 + 1.0 + 2.0 - 3.0, 20.0 + 3.0, 30.0 + 5.0]);
+    }
+
+    #[test]
+    fn alignments_are_the_least_rotations() {
+        let mut random = 1u64;
+        let mut unit = || loop {
+            let p = DVec3::from_array([(); 3].map(|()| {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                (random >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+            }));
+            if p.length() > 0.1 && p.length() < 1.0 {
+                break p.normalize();
+            }
+        };
+        for k in 0..2000 {
+            let from = unit();
+            // All angles, those near 0 and 180 degrees among them.
+            let other = unit();
+            let to = match k % 4 {
+                0 => other,
+                1 => (from + other * libm::pow(10.0, f64::from(-(k % 17)))).normalize(),
+                2 => (other * libm::pow(10.0, f64::from(-(k % 17))) - from).normalize(),
+                _ => -from,
+            };
+            let turn = alignment(from * libm::pow(10.0, f64::from(k % 25 - 12)), to * 3.0);
+            assert!((turn * from - to).length() < 1e-14, "{from} {to}");
+            let product = turn * turn.transpose() - DMat3::IDENTITY;
+            assert!(product.to_cols_array().iter().all(|x| x.abs() < 1e-14), "{from} {to}: {turn}");
+            assert!((turn.determinant() - 1.0).abs() < 1e-14);
+            // The trace tells the angle: no more than that between the two.
+            let trace = turn.x_axis.x + turn.y_axis.y + turn.z_axis.z;
+            assert!((trace - (1.0 + 2.0 * from.dot(to))).abs() < 1e-14, "{from} {to}");
+        }
+        // Half a turn about x; nothing at all.
+        near(alignment(DVec3::Y, DVec3::NEG_Y) * DVec3::X, [1.0, 0.0, 0.0]);
+        near(alignment(DVec3::Z, DVec3::NEG_Z) * DVec3::X, [1.0, 0.0, 0.0]);
+        near(alignment(DVec3::X, DVec3::NEG_X) * DVec3::Z, [0.0, 0.0, 1.0]);
+        assert_eq!(alignment(DVec3::Y, DVec3::Y * 5.0), DMat3::IDENTITY);
+    }
+
+    /// A cube from (-1, -1, -1) to (1, 1, 1).
+    fn cube(map: &DAffine3, axis: usize) -> [f64; 2] {
+        let rows = map.matrix3.row(axis).abs();
+        let reach = rows.x + rows.y + rows.z;
+        [map.translation[axis] - reach, map.translation[axis] + reach]
+    }
+
+    #[test]
+    fn things_are_fitted_to_an_extent_of_the_world() {
+        let stretched = Transform::Scale { factor: [1.0, 2.0, -3.0], about: None };
+        let turned = Transform::Rotate { axis: [0.0, 1.0, 0.0], degrees: 90.0, about: None };
+        let fitted = |extent, about: Option<[f64; 3]>| {
+            let fit = Transform::FitTo { extent, length: 12.0, about: about.map(Box::new) };
+            let steps = [Transform::Translate([5.0, 0.0, 0.0]), stretched.clone(), turned.clone(), fit];
+            let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&cube) };
+            let mut found = Diagnostics::new();
+            let map = place(&steps.map(Spanned::from), &subject, &mut found);
+            assert!(found.is_empty(), "{found:?}");
+            ([0, 1, 2].map(|axis| cube(&map, axis)), map.translation)
+        };
+        for (extent, axis, factor) in
+            [(Extent::Width, 0, 2.0), (Extent::Height, 1, 3.0), (Extent::Depth, 2, 6.0), (Extent::Size, 0, 2.0)]
+        {
+            let (reach, middle) = fitted(extent, None);
+            assert!((reach[axis][1] - reach[axis][0] - 12.0).abs() < 1e-12);
+            near(middle, [5.0, 0.0, 0.0]);
+            near(fitted(extent, Some([0.0; 3])).1, [5.0 * factor, 0.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn what_has_no_extent_cannot_be_fitted() {
+        let flat = |map: &DAffine3, axis: usize| {
+            let rows = map.matrix3.row(axis).abs();
+            [map.translation[axis] - rows.x - rows.z, map.translation[axis] + rows.x + rows.z]
+        };
+        let subject = Subject { noun: "rectangle", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&flat) };
+        let fit = |extent| Transform::FitTo { extent, length: 1.0, about: None };
+        let turn = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: 90.0, about: None };
+        let back = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: -90.0, about: None };
+        let faults = |steps: Vec<Transform>, subject: &Subject<'_>| {
+            let steps: Vec<_> = steps.into_iter().map(Spanned::from).collect();
+            let mut found = Diagnostics::new();
+            place(&steps, subject, &mut found);
+            found.iter().map(|fault| (fault.code, fault.message.clone())).collect::<Vec<_>>()
+        };
+        let told = vec![(codes::NO_EXTENT, "the rectangle has no height that could be fitted".to_owned())];
+        assert_eq!(faults(vec![fit(Extent::Height)], &subject), told);
+        let far = Transform::Translate([1e9, 1e9, 0.0]);
+        assert_eq!(faults(vec![far, turn.clone(), back, fit(Extent::Height)], &subject), told);
+        assert!(faults(vec![turn, fit(Extent::Height), fit(Extent::Size)], &subject).is_empty());
+        // A group that was built in code.
+        for step in [fit(Extent::Size), Transform::DropTo { y: 0.0 }] {
+            assert_eq!(faults(vec![step], &Subject::GROUP)[0].0, codes::GROUP_DROP);
+        }
+    }
+
+    /// Copies are dropped and fitted where their own steps have put them.
+    #[test]
+    fn copies_are_dropped_and_fitted_one_by_one() {
+        let steps = [
+            vec![Transform::Translate([0.0, 7.0, 0.0]), Transform::DropTo { y: 1.0 }],
+            vec![Transform::FitTo { extent: Extent::Height, length: 8.0, about: None }],
+        ];
+        let list = steps.into_iter().map(|steps| steps.into_iter().map(Spanned::from).collect::<Vec<_>>());
+        let placements = Placements::List(Box::new(list.collect()));
+        let own = [Transform::Scale { factor: [1.0, 2.0, 1.0], about: None }].map(Spanned::from);
+        let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&cube) };
+        let desc = scene_format::load_str(
+            "s",
+            "Scene(objects: [Box(size: 1)])",
+            scene_format::Syntax::Ron,
+            std::path::Path::new(""),
+            &[],
+        );
+        let maps = place_all(&desc.expect("a scene").scene, &own, &placements, &subject, &mut Diagnostics::new());
+        assert_eq!(maps.iter().map(|map| cube(map, 1)).collect::<Vec<_>>(), [[1.0, 5.0], [-4.0, 4.0]]);
     }
 }

@@ -4,7 +4,7 @@
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{Emission, Instances, Name, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
@@ -127,6 +127,36 @@ fn normals_stay_upright_when_a_mesh_is_stretched() {
                 let f = DVec3::from(factor);
                 let expected = (p / (f * f)).normalize();
                 assert!(normal.distance(expected) < 1e-6, "{factor:?} at {p}: {normal} not {expected}");
+            }
+        }
+    }
+}
+
+/// A matrix that shears and mirrors leaves the outside outside, and normals upright: A^-T of those of the ball.
+#[test]
+fn normals_stay_upright_under_any_matrix() {
+    let file = icosphere(2).obj("icosphere-2");
+    let plain = volume(&compiled(&stretched(&file, [1.0; 3], Shading::Flat)));
+    for rows in [
+        [[1.0, 0.7, 0.0, 0.5], [0.0, 1.0, -0.4, 0.0], [0.3, 0.0, -0.8, 0.1]],
+        [[0.0, 1.5, 0.0, 0.0], [1.0, 0.0, 0.2, -2.0], [0.0, 0.6, 1.0, 0.0]],
+        [[0.0, 0.0, 1.0, 0.0], [1.0, 0.5, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]],
+    ] {
+        let [a, b, c] = rows.map(|[x, y, z, _]| DVec3::new(x, y, z));
+        let linear = DMat3::from_cols(a, b, c).transpose();
+        let moved = DVec3::from(rows.map(|row| row[3]));
+        let steps = vec![Transform::Matrix { rows: Box::new(rows) }];
+        let object = mesh(&file, diffuse([0.5; 3]), Shading::Smooth, steps);
+        let scene = compiled(&scene(8, vec![], vec![object]).camera([0.0, 0.0, 9.0], [0.0; 3], 40.0));
+        let there = volume(&scene) / plain;
+        assert!((there / linear.determinant().abs() - 1.0).abs() < 1e-6, "{rows:?}: {there}");
+        for triangle in 0..scene.triangles.vertices.len() as u32 {
+            let corners = scene.triangles.corners(triangle).expect("a triangle");
+            let normals = scene.triangles.corner_normals(triangle).expect("a smooth triangle");
+            for (corner, normal) in corners.iter().zip(normals) {
+                let ball = linear.inverse() * (*corner / scene.frame.scale + scene.frame.centre - moved);
+                let expected = (linear.inverse().transpose() * ball).normalize();
+                assert!((ball.length() - 1.0).abs() < 1e-6 && normal.distance(expected) < 1e-6, "{rows:?} at {ball}");
             }
         }
     }

@@ -97,7 +97,12 @@ fn stretch() -> Vec<Transform> {
     ]
 }
 
-/// Of each material each shape, some of them stretched, turned and mirrored.
+/// A matrix that shears and mirrors, with (1.5, 1, 0) where it was.
+fn shear() -> Vec<Transform> {
+    vec![Transform::Matrix { rows: Box::new([[1.0, 0.4, 0.0, -0.4], [0.0, 1.0, 0.3, 0.0], [0.2, 0.0, -1.0, -0.3]]) }]
+}
+
+/// Of each material each shape, some of them stretched, turned, mirrored and sheared.
 #[test]
 fn curved_shapes_as_the_reference_sees_them() {
     let samples = Samples { engine: 256, reference: 256 };
@@ -116,7 +121,7 @@ fn curved_shapes_as_the_reference_sees_them() {
         let closed = vec![
             cylinder([-1.6, 0.01, 0.4], [-1.2, 1.5, 0.0], 0.45, true, m()),
             cone([0.2, 0.01, 0.7], [0.0, 1.4, 0.5], [0.6, 0.15], true, m()),
-            turned(capsule([1.2, 0.8, 0.0], [1.9, 1.2, 0.3], 0.4, m()), stretch()),
+            turned(capsule([1.2, 0.8, 0.0], [1.9, 1.2, 0.3], 0.4, m()), shear()),
             turned(sphere([0.2, 1.9, -0.6], 0.6, m()), stretch()),
         ];
         assert_same_picture(&format!("closed, {name}"), &view(closed), samples);

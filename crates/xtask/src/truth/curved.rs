@@ -3,16 +3,40 @@
 use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
-use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Material, Name, Object, Placements, Transform};
+use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Extent, Material, Name, Object, Placements, Transform};
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
-/// Steps that turn a shape about its middle, and sometimes mirror it or make it longer.
-pub(super) fn steps(random: &mut Random) -> Vec<Spanned<Transform>> {
+/// Steps that turn a shape about its middle, and sometimes mirror, stretch or shear it. `size`: an extent that it may
+/// have, whatever its form.
+pub(super) fn steps(middle: Point, size: f64, random: &mut Random) -> Vec<Spanned<Transform>> {
     let axis = random.direction().to_array();
     let turn = Transform::Rotate { axis, degrees: random.between(0.0, 360.0), about: None };
-    let stretch = Transform::Scale { factor: [1.0, random.between(0.4, 1.0), -1.0], about: None };
-    if once_in(random, 3) { vec![turn.into(), stretch.into()] } else { vec![turn.into()] }
+    let about = once_in(random, 2).then(|| Box::new(middle));
+    let more = match random.below(9) {
+        0..=2 => Transform::Scale { factor: [1.0, random.between(0.4, 1.0), -1.0], about: None },
+        3 => sheared(middle, random),
+        4 => Transform::Align {
+            from: Box::new(if once_in(random, 2) { [0.0, 1.0, 0.0] } else { random.direction().to_array() }),
+            to: Box::new(random.direction().to_array()),
+            about,
+        },
+        5 => Transform::FitTo { extent: Extent::Size, length: random.between(0.6, 1.0) * size, about },
+        _ => return vec![turn.into()],
+    };
+    vec![turn.into(), more.into()]
+}
+
+/// A matrix that shears, and sometimes mirrors, with a fixed point, and makes nothing larger by more than a tenth.
+pub(super) fn sheared(middle: Point, random: &mut Random) -> Transform {
+    let mirrored = if once_in(random, 2) { -1.0 } else { 1.0 };
+    let (shear, flat) = (random.between(-0.4, 0.4), random.between(0.5, 0.9));
+    let linear = [[0.9, shear, 0.0], [0.0, flat, 0.0], [0.1 * shear, 0.0, 0.8 * mirrored]];
+    let rows = [0, 1, 2].map(|k: usize| {
+        let [a, b, c] = linear[k];
+        [a, b, c, middle[k] - a * middle[0] - b * middle[1] - c * middle[2]]
+    });
+    Transform::Matrix { rows: Box::new(rows) }
 }
 
 /// Adds a curved shape within a sphere, written where it is or copied there. Glass is closed.
@@ -25,7 +49,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let [from, to] = [-long, long].map(|way| [0, 1, 2].map(|k: usize| middle[k] + way * axis[k]));
     let caps = glass || once_in(random, 2);
     let material = inline(material);
-    let transform = if once_in(random, 2) { steps(random) } else { Vec::new() };
+    let transform = if once_in(random, 2) { steps(middle, radius, random) } else { Vec::new() };
     let there = vec![Transform::Translate(center).into()];
     let placements =
         if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
@@ -114,7 +138,7 @@ pub fn ball(world: &mut World, center: Point, radius: f64, material: Material, r
     world.sphere([0.0; 3], radius, material);
     if let Some(object) = world.desc.objects.last_mut() {
         let there = vec![Transform::Translate(center).into()];
-        *object.value.transform_mut() = steps(random);
+        *object.value.transform_mut() = steps([0.0; 3], radius, random);
         *object.value.placements_mut() = Placements::List(Box::new(std::iter::once(there).collect()));
     }
 }

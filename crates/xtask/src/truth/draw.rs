@@ -5,10 +5,10 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Background, Checkerboard, Color, Conductor, Diffuse, Dots, Emission, Environment, Gradient, GradientAxis,
-    Instances, Light, Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial,
-    Noise, NoiseKind, Object, PerAxis, PixelFilter, Placements, Reflectance, SolidMapping, Texture, TextureFilter,
-    TextureWrap, ToneMap, Transform, Voronoi, VoronoiFeature, Wood,
+    Albedo, Background, Checkerboard, Color, Conductor, Diffuse, Dots, Emission, Environment, Extent, Gradient,
+    GradientAxis, Instances, Light, Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, Metal, Mirror,
+    NamedMaterial, Noise, NoiseKind, Object, PerAxis, PixelFilter, Placements, Reflectance, SolidMapping, Texture,
+    TextureFilter, TextureWrap, ToneMap, Transform, Voronoi, VoronoiFeature, Wood,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -231,11 +231,16 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
     let form = random.below(4);
     let size = 0.7 * radius;
     let factor = if once_in(random, 4) { [size, 0.6 * size, -size] } else { [size; 3] };
-    let steps = vec![
+    let mut steps = vec![
         Transform::Scale { factor, about: None },
         Transform::Rotate { axis: random.direction().to_array(), degrees: random.between(0.0, 360.0), about: None },
         Transform::Translate(center),
     ];
+    if once_in(random, 4) {
+        // Whatever is as high as wide and deep, turned or not, or nearly so.
+        let extent = one_of(random, &[Extent::Height, Extent::Width, Extent::Depth]);
+        steps.push(Transform::FitTo { extent, length: 0.8 * size, about: None });
+    }
     if form == 0 {
         return world.written_out(&shape, material, steps);
     }

@@ -15,7 +15,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let glass = material.transmits();
     let curve = if once_in(random, 2) { Curve::CatmullRom } else { Curve::Linear };
     let segments = if once_in(random, 2) { 128 } else { 3 + random.below(30) as u32 };
-    let transform = if once_in(random, 4) { Vec::new() } else { steps(random) };
+    let transform = if once_in(random, 4) { Vec::new() } else { steps([0.0; 3], radius, random) };
     let there = vec![Transform::Translate(center).into()];
     let placements = Placements::List(Box::new(std::iter::once(there).collect()));
     let (material, name) = (inline(material), Name::default());
