@@ -117,7 +117,7 @@ mod tests {
                 for x in 0..9 {
                     let cell = parser.screen().cell((2 + y / 2) as u16, (3 + x) as u16).expect("a cell");
                     assert_eq!(cell.contents(), "▀");
-                    let shown = if y % 2 == 0 { cell.fgcolor() } else { cell.bgcolor() };
+                    let shown = if y.is_multiple_of(2) { cell.fgcolor() } else { cell.bgcolor() };
                     assert_eq!(shown, colour(picture.at(x, y)), "{x} {y}");
                 }
             }

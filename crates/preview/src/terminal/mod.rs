@@ -153,6 +153,8 @@ struct Session {
     /// Stops beside the scene's exposure.
     exposure: f64,
     help: bool,
+    /// The stage that is shown, and the first frame of it that was.
+    first: [u64; 2],
     note: Option<(String, Instant)>,
     /// Something has changed since it was drawn.
     stale: bool,
@@ -164,7 +166,18 @@ impl Session {
     fn new(shared: Arc<Shared>, screen: Screen) -> Self {
         let (undo, now) = (Mutex::default(), Instant::now());
         let (pose, note) = (None, None);
-        Session { shared, screen, undo, pose, exposure: 0.0, help: false, note, stale: true, not_before: now }
+        Session {
+            shared,
+            screen,
+            undo,
+            pose,
+            exposure: 0.0,
+            help: false,
+            first: [0; 2],
+            note,
+            stale: true,
+            not_before: now,
+        }
     }
 
     /// The studio makes no more pixels than can be seen, and no longer lines.
@@ -360,9 +373,11 @@ impl Session {
         }
         let frame = state.frame.clone();
         let of_stage = frame.as_ref().filter(|frame| state.stage.as_ref().is_some_and(|s| s.number == frame.stage));
-        let noise = state
-            .noise
-            .filter(|(number, noise)| *noise > 0.0 && frame.as_ref().is_some_and(|frame| frame.number == *number));
+        if let Some(frame) = frame.as_ref().filter(|frame| frame.stage != self.first[0]) {
+            self.first = [frame.stage, frame.number];
+        }
+        // It comes a frame or two later.
+        let noise = state.noise.filter(|(number, noise)| *noise > 0.0 && *number >= self.first[1]);
         let name = shared.options.scene.file_name().unwrap_or_default().to_string_lossy();
         let status = Status {
             name: &name,

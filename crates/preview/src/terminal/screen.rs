@@ -117,7 +117,7 @@ impl Screen {
             let Some(row) = usize::from(self.size.rows).checked_sub(k).filter(|&row| row > 0) else { break };
             let _ = write!(text, "\x1b[{row};1H");
             if let Some(colour) = line.1 {
-                let _ = write!(text, "\x1b[1;{colour}m");
+                let _ = write!(text, "\x1b[{colour}m");
             }
             text.push_str(&line.0);
             text.push_str("\x1b[0m\x1b[K");

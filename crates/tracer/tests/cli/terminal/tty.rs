@@ -119,7 +119,7 @@ impl Tty {
     pub fn point(&self, x: u16, y: u16) -> Option<[u8; 3]> {
         let seen = self.seen.lock().expect("no panic");
         let cell = seen.screen.screen().cell(y / 2, x)?;
-        let colour = if y % 2 == 0 { cell.fgcolor() } else { cell.bgcolor() };
+        let colour = if y.is_multiple_of(2) { cell.fgcolor() } else { cell.bgcolor() };
         match colour {
             vt100::Color::Rgb(r, g, b) if cell.contents() == "▀" => Some([r, g, b]),
             _ => None,
