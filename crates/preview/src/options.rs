@@ -6,7 +6,7 @@ use std::net::IpAddr;
 use std::path::{Path, PathBuf};
 use tracer_core::{Film, Look};
 
-/// What to preview, and where.
+/// What to preview.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The scene file.
@@ -21,12 +21,17 @@ pub struct Options {
     pub size: Option<[u32; 2]>,
     /// Threads that render; 0: one for each core.
     pub threads: usize,
+    /// What opens a file at a line; `None`: the page names the place.
+    pub editor: Option<Editor>,
+}
+
+/// Where the page is given away.
+#[derive(Clone, Copy, Debug)]
+pub struct Listen {
     /// The address to listen at.
     pub address: IpAddr,
     /// The port; 0: one that is free.
     pub port: u16,
-    /// What opens a file at a line; `None`: the page names the place.
-    pub editor: Option<Editor>,
 }
 
 /// A kind of file that the page offers to save.

@@ -1,6 +1,14 @@
-//! Pictures for the page: a film, developed, as bytes for a canvas.
+//! Pictures for page and terminal: a film, developed, as bytes for a canvas.
 
-use tracer_core::{Film, Look, develop};
+use crate::shared::Stage;
+use tracer_core::{Backdrop, Film, Look, develop};
+
+/// The look of a scene where it is shown: there is nothing to lay the picture over.
+pub fn look(stage: Option<&Stage>) -> Look {
+    let look = stage.map_or(Look::default(), |stage| stage.scene.look);
+    let backdrop = if look.backdrop == Backdrop::Clear { Backdrop::Background } else { look.backdrop };
+    Look { backdrop, ..look }
+}
 
 /// Four bytes a pixel, row by row from the top, as a canvas takes them: the code values that a PNG has.
 pub fn developed(film: &Film, look: &Look) -> Vec<u8> {

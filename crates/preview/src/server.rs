@@ -2,9 +2,9 @@
 
 use crate::answers::{App, Refusal, camera, open, picture, pixel, read, refused, state};
 use crate::guard::Guard;
-use crate::options::{Host, Options};
+use crate::options::{Host, Listen, Options};
 use crate::shared::Shared;
-use crate::{studio, watch};
+use crate::work;
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{Query, Request, State as Extract};
@@ -83,9 +83,9 @@ impl Preview {
     ///
     /// # Errors
     /// When its place is taken, or the system lacks something.
-    pub fn start(options: Options, host: Box<dyn Host>) -> Result<Self, StartError> {
+    pub fn start(options: Options, listen: Listen, host: Box<dyn Host>) -> Result<Self, StartError> {
         let system = |what: &str, error: &dyn std::fmt::Display| StartError::System(format!("cannot {what}: {error}"));
-        let asked = SocketAddr::new(options.address, options.port);
+        let asked = SocketAddr::new(listen.address, listen.port);
         let listener = TcpListener::bind(asked).map_err(|source| StartError::Listen { at: asked, source })?;
         listener.set_nonblocking(true).map_err(|source| StartError::Listen { at: asked, source })?;
         let at = listener.local_addr().map_err(|source| StartError::Listen { at: asked, source })?;
@@ -111,11 +111,7 @@ impl Preview {
             runtime.shutdown_background();
         });
         let server = server.map_err(|error| system("start a thread", &error))?;
-        let worker = Arc::clone(&shared);
-        let studio =
-            thread("studio").spawn(move || studio::run(&worker)).map_err(|error| system("start a thread", &error))?;
-        let watched = Arc::clone(&shared);
-        thread("watch").spawn(move || watch::run(watched)).map_err(|error| system("start a thread", &error))?;
+        let studio = work::begin(&shared).map_err(|error| system("start a thread", &error))?;
         Ok(Preview { shared, at, token, end: Some(end), server: Some(server), studio: Some(studio) })
     }
 
@@ -239,12 +235,8 @@ fn query<T: DeserializeOwned>(uri: &Uri) -> Result<T, Refusal> {
 
 /// Goes on with a picture that is done, to twice its samples.
 fn more(shared: &Shared) -> Response {
-    let asked = {
-        let state = shared.state();
-        let done = state.phase == crate::shared::Phase::Done;
-        state.frame.as_ref().filter(|_| done).map(|frame| frame.samples.saturating_mul(2))
-    };
-    let Some(asked) = asked else { return refused(StatusCode::CONFLICT, "the picture is not done yet") };
-    shared.order(|orders| orders.samples = Some(asked));
-    StatusCode::NO_CONTENT.into_response()
+    match work::twice(shared) {
+        Ok(()) => StatusCode::NO_CONTENT.into_response(),
+        Err(why) => refused(StatusCode::CONFLICT, why),
+    }
 }

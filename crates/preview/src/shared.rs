@@ -2,10 +2,10 @@
 
 use crate::files::Watched;
 use crate::options::{Host, Options};
-use crate::told::Told;
+use crate::told::{Told, WIDTH};
 use scene_format::SceneDesc;
 use serde::{Deserialize, Serialize};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 use tokio::sync::watch;
@@ -93,6 +93,22 @@ pub struct State {
     /// When the rendering began, and how long it took when it had ended.
     pub began: Instant,
     pub took: Option<f64>,
+    /// Since when it rests, if it does.
+    pub paused: Option<Instant>,
+}
+
+impl State {
+    /// The rendering begins now.
+    pub fn begin(&mut self) {
+        let now = Instant::now();
+        (self.began, self.took, self.paused) = (now, None, self.paused.map(|_| now));
+    }
+
+    /// Seconds that the rendering takes, rests left out.
+    pub fn seconds(&self) -> f64 {
+        let now = self.paused.unwrap_or_else(Instant::now);
+        self.took.unwrap_or_else(|| now.saturating_duration_since(self.began).as_secs_f64())
+    }
 }
 
 /// What the studio is to do next; the last word of each kind counts.
@@ -104,12 +120,15 @@ pub struct Orders {
     pub pose: Option<Option<Pose>>,
     /// A picture that is done is to have so many samples.
     pub samples: Option<u32>,
+    /// Nobody sees more pixels than these: a larger picture is made so small that it fits.
+    pub fit: Option<[u32; 2]>,
     pub quit: bool,
 }
 
 impl Orders {
     fn is_empty(&self) -> bool {
-        !self.reload && self.pose.is_none() && self.samples.is_none() && !self.quit
+        let none = self.pose.is_none() && self.samples.is_none() && self.fit.is_none();
+        !self.reload && none && !self.quit
     }
 }
 
@@ -129,6 +148,10 @@ pub struct Shared {
     orders: Mutex<Orders>,
     ordered: Condvar,
     waiting: AtomicU64,
+    /// The rendering rests.
+    paused: AtomicBool,
+    /// Columns that there are for diagnostics.
+    pub columns: AtomicUsize,
     /// Camera samples done, of all.
     pub done: AtomicU64,
     pub total: AtomicU64,
@@ -148,6 +171,7 @@ impl Shared {
             begun: 0,
             began: Instant::now(),
             took: None,
+            paused: None,
         };
         Shared {
             watched: Mutex::new(Watched::new(&options.scene)),
@@ -158,6 +182,8 @@ impl Shared {
             orders: Mutex::new(Orders { reload: true, ..Orders::default() }),
             ordered: Condvar::new(),
             waiting: AtomicU64::new(NONE),
+            paused: AtomicBool::new(false),
+            columns: AtomicUsize::new(WIDTH),
             done: AtomicU64::new(0),
             total: AtomicU64::new(0),
         }
@@ -184,13 +210,40 @@ impl Shared {
         self.version.subscribe()
     }
 
-    /// Orders something. What is being made ends early.
+    /// Has the rendering rest, or go on.
+    pub fn pause(&self, rest: bool) {
+        if self.paused.swap(rest, Ordering::Relaxed) == rest {
+            return;
+        }
+        self.change(|state| match (rest, state.paused.take()) {
+            (true, _) => state.paused = Some(Instant::now()),
+            (false, Some(since)) => state.began += since.elapsed(),
+            (false, None) => {}
+        });
+        // Whoever waits holds the lock while it looks, and so does not miss this.
+        drop(lock(&self.orders));
+        self.ordered.notify_all();
+    }
+
+    /// Waits while the rendering rests and is still wanted.
+    pub fn rest(&self, draft: bool) {
+        if !self.paused.load(Ordering::Relaxed) {
+            return;
+        }
+        let mut orders = lock(&self.orders);
+        while self.paused.load(Ordering::Relaxed) && self.is_wanted(draft) {
+            orders = self.ordered.wait(orders).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Orders something. What is being made ends early, and what rests goes on.
     pub fn order(&self, add: impl FnOnce(&mut Orders)) {
+        self.pause(false);
         let mut orders = lock(&self.orders);
         add(&mut orders);
         let urgency = match *orders {
             Orders { reload: true, .. } | Orders { quit: true, .. } => CHANGED,
-            Orders { pose: Some(_), .. } => MOVED,
+            Orders { pose: Some(_), .. } | Orders { fit: Some(_), .. } => MOVED,
             _ => NONE,
         };
         self.waiting.store(urgency, Ordering::Relaxed);

@@ -3,7 +3,7 @@
 
 use crate::files::{News, Stamp};
 use crate::options::Options;
-use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, lock};
+use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, State, lock};
 use crate::told::{Told, file_of, told};
 use scene_format::codes;
 use scene_format::diagnostic::{Source, keep_first};
@@ -33,7 +33,7 @@ pub fn run(shared: &Arc<Shared>) {
     let teller = Arc::clone(shared);
     // Without it there is no noise to be seen, and all else goes on.
     let _ = std::thread::Builder::new().name("noise".to_owned()).spawn(move || tell_noise(&teller, &frames));
-    let mut studio = Studio { shared, read: None, pose: None, stages: 0, kept: Kept::default(), noise };
+    let mut studio = Studio { shared, read: None, pose: None, fit: None, stages: 0, kept: Kept::default(), noise };
     loop {
         let orders = shared.orders();
         if orders.quit {
@@ -77,6 +77,8 @@ struct Studio<'a> {
     read: Option<Read>,
     /// The camera as the page has moved it.
     pose: Option<Pose>,
+    /// Pixels that can be seen, where there are bounds.
+    fit: Option<[u32; 2]>,
     stages: u64,
     /// What has not changed since the last scene.
     kept: Kept,
@@ -88,16 +90,25 @@ impl Studio<'_> {
         if let Some(pose) = orders.pose {
             self.pose = pose;
         }
+        self.fit = orders.fit.or(self.fit);
         let anew = orders.reload && self.reload();
         // Over what is wrong the last picture stays as it is; the camera is moved when all is well again.
         if self.shared.state().phase == Phase::Wrong && !anew {
             return;
         }
-        if anew || orders.pose.is_some() {
+        if anew || orders.pose.is_some() || self.is_resized() {
             self.make();
         } else if let Some(samples) = orders.samples {
             self.go_on(samples);
         }
+    }
+
+    /// Whether the picture that is there has another size than is wanted now.
+    fn is_resized(&self) -> bool {
+        let Some(read) = &self.read else { return false };
+        let desc = described(&read.desc, self.pose, self.fit, &self.shared.options);
+        let size = [desc.image.width.value, desc.image.height.value];
+        self.shared.state().stage.as_ref().is_none_or(|stage| stage.scene.size != size)
     }
 
     /// Adds samples to a picture that is done.
@@ -115,7 +126,7 @@ impl Studio<'_> {
             state.phase = Phase::Rendering;
             state.asked = samples;
             state.begun = u64::from(frame.samples) * size[0] * size[1];
-            (state.began, state.took) = (Instant::now(), None);
+            state.begin();
         });
         // What the scene has for an end is behind it: a noise goal, a time.
         let options = RenderOptions { samples: Some(samples), noise: Some(f64::MIN_POSITIVE), ..self.options() };
@@ -128,6 +139,11 @@ impl Studio<'_> {
                 state.told.push(Told::plain(format!("error: cannot go on with this picture: {misfit}")));
             }),
         }
+    }
+
+    /// Columns for what is told.
+    fn width(&self) -> usize {
+        self.shared.columns.load(Ordering::Relaxed)
     }
 
     fn options(&self) -> RenderOptions {
@@ -157,7 +173,7 @@ impl Studio<'_> {
         let Loaded { scene, warnings } = match load(&options.scene, options) {
             Ok(loaded) => loaded,
             Err(error) => {
-                let (told, files) = faults(error, &options.scene);
+                let (told, files) = faults(error, &options.scene, self.width());
                 self.is_wrong(told, files, began);
                 return false;
             }
@@ -172,7 +188,7 @@ impl Studio<'_> {
         if self.read.as_ref().is_some_and(|read| read.written != written) {
             self.pose = None;
         }
-        let warnings = told(&warnings, &scene.sources, &options.scene);
+        let warnings = told(&warnings, &scene.sources, &options.scene, self.width());
         self.read = Some(Read { desc: scene, warnings, written, stamps });
         true
     }
@@ -193,10 +209,11 @@ impl Studio<'_> {
     /// Compiles and renders.
     fn make(&mut self) {
         let began = SystemTime::now();
+        let width = self.width();
         let Some(read) = &mut self.read else { return };
         self.shared.change(|state| state.phase = Phase::Loading);
         let options = &self.shared.options;
-        let desc = described(&read.desc, self.pose, options);
+        let desc = described(&read.desc, self.pose, self.fit, options);
         if let Some(why) = too_large(&desc, self.shared.host.free_memory()) {
             let files = tracer_core::named_files(&desc);
             return self.is_wrong(vec![Told::plain(why)], files, began);
@@ -204,7 +221,7 @@ impl Studio<'_> {
         let scene = match tracer_core::compile_keeping(&desc, &self.kept) {
             Ok(scene) => scene,
             Err(CompileError { diagnostics }) => {
-                let mut faults = told(&diagnostics, &desc.sources, &options.scene);
+                let mut faults = told(&diagnostics, &desc.sources, &options.scene, width);
                 faults.extend(read.warnings.iter().cloned());
                 return self.is_wrong(faults, tracer_core::named_files(&desc), began);
             }
@@ -216,7 +233,7 @@ impl Studio<'_> {
         read.stamps = watched.stamps();
         drop(watched);
         let mut warnings = read.warnings.clone();
-        warnings.extend(told(&scene.warnings, &desc.sources, &options.scene));
+        warnings.extend(told(&scene.warnings, &desc.sources, &options.scene, width));
         let written = read.written;
         self.stages += 1;
         self.shared.done.store(0, Ordering::Relaxed);
@@ -225,7 +242,7 @@ impl Studio<'_> {
             state.told = warnings;
             state.written = Some(written);
             (state.asked, state.begun) = (scene.samples, 0);
-            (state.began, state.took) = (Instant::now(), None);
+            state.begin();
         });
         self.render(desc, scene);
     }
@@ -254,7 +271,7 @@ impl Studio<'_> {
         if !self.shared.is_wanted(false) {
             return;
         }
-        self.shared.change(|state| state.began = Instant::now());
+        self.shared.change(State::begin);
         let film = tracer_core::render(&stage.scene, &self.options(), &self.observer(number, None));
         self.is_done(number, film);
     }
@@ -291,6 +308,7 @@ struct Watching<'a> {
 
 impl Observer for Watching<'_> {
     fn progress(&self, progress: Progress) -> ControlFlow<()> {
+        self.shared.rest(self.draft.is_some());
         if self.draft.is_none() {
             self.shared.done.store(progress.samples_done, Ordering::Relaxed);
             self.shared.total.store(progress.samples_total, Ordering::Relaxed);
@@ -324,7 +342,7 @@ fn load(path: &Path, options: &Options) -> Result<Loaded, LoadError> {
 }
 
 /// What is wrong with a scene that did not load and with the files that it names, and those files.
-fn faults(error: LoadError, scene: &Path) -> (Vec<Told>, Vec<PathBuf>) {
+fn faults(error: LoadError, scene: &Path, width: usize) -> (Vec<Told>, Vec<PathBuf>) {
     let folder = scene.parent().unwrap_or(Path::new(""));
     match error {
         LoadError::Io { source, .. } => {
@@ -342,7 +360,7 @@ fn faults(error: LoadError, scene: &Path) -> (Vec<Told>, Vec<PathBuf>) {
             keep_first(&mut diagnostics);
             let files = files.iter().map(|file| folder.join(&file.path));
             let files = files.chain(sources.iter().skip(1).filter_map(|source| file_of(source, scene))).collect();
-            (told(&diagnostics, &sources, scene), files)
+            (told(&diagnostics, &sources, scene, width), files)
         }
     }
 }
@@ -353,10 +371,15 @@ fn more_files(desc: &SceneDesc, scene: &Path) -> Vec<PathBuf> {
     more.filter_map(|source| file_of(source, scene)).collect()
 }
 
-/// The scene with what options and page say.
-fn described(desc: &SceneDesc, pose: Option<Pose>, options: &Options) -> SceneDesc {
+/// The scene with what options and page say, no larger than can be seen.
+fn described(desc: &SceneDesc, pose: Option<Pose>, fit: Option<[u32; 2]>, options: &Options) -> SceneDesc {
     let mut desc = desc.clone();
     if let Some([width, height]) = options.size {
+        desc.image.width = width.into();
+        desc.image.height = height.into();
+    }
+    if let Some(fit) = fit {
+        let [width, height] = fitted([desc.image.width.value, desc.image.height.value], fit);
         desc.image.width = width.into();
         desc.image.height = height.into();
     }
@@ -370,6 +393,13 @@ fn described(desc: &SceneDesc, pose: Option<Pose>, options: &Options) -> SceneDe
         desc.camera.fov = fov.into();
     }
     desc
+}
+
+/// The largest size of the same shape that is neither larger nor beyond these bounds.
+fn fitted(size: [u32; 2], bounds: [u32; 2]) -> [u32; 2] {
+    let scale = |k: usize| f64::from(bounds[k]) / f64::from(size[k].max(1));
+    let scale = scale(0).min(scale(1)).min(1.0);
+    size.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
 }
 
 /// Why a picture cannot be shown: later the system would end the program.

@@ -6,8 +6,8 @@ use scene_format::{Diagnostic, Severity};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Columns of an excerpt; longer lines are cut around the caret.
-const WIDTH: usize = 110;
+/// Columns of an excerpt where nobody asks for fewer; longer lines are cut around the caret.
+pub const WIDTH: usize = 110;
 
 /// A diagnostic, told.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -43,9 +43,10 @@ impl Told {
     }
 }
 
-/// All diagnostics; of many that are alike the first one tells. `scene`: the file of the first source.
-pub fn told(diagnostics: &[Diagnostic], sources: &[Source], scene: &Path) -> Vec<Told> {
-    texts(diagnostics, sources, Style { color: false, width: WIDTH })
+/// All diagnostics; of many that are alike the first one tells. `scene`: the file of the first source,
+/// `width`: columns of an excerpt.
+pub fn told(diagnostics: &[Diagnostic], sources: &[Source], scene: &Path, width: usize) -> Vec<Told> {
+    texts(diagnostics, sources, Style { color: false, width })
         .into_iter()
         .map(|(index, text)| {
             let diagnostic = &diagnostics[index];

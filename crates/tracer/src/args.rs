@@ -12,7 +12,7 @@ pub use denoise::DenoiseArgs;
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use merge::MergeArgs;
-pub use preview::PreviewArgs;
+pub use preview::{PreviewArgs, TerminalName};
 
 use crate::commands::Template;
 use crate::write::Bits;
@@ -64,7 +64,7 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// Merge parts of a rendering into pictures
     Merge(MergeArgs),
-    /// See a scene in the browser, again at every save
+    /// See a scene in the browser or here, again at every save
     #[command(alias = "watch")]
     Preview(PreviewArgs),
     /// Find everything that is wrong with a scene
@@ -201,7 +201,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render scenes/fig4.ron -o fig4.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --crop, --seed, --exposure, --every, --part and more.";
+`tracer man render` has --crop, --layers, --seed, --exposure, --part and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Args)]
@@ -213,6 +213,9 @@ pub struct RenderArgs {
     /// Picture: .png .exr .hdr .pfm, or - (repeatable)
     #[arg(short, long = "output", value_name = "FILE", help = "Picture: .png .exr .hdr .pfm, - [default: SCENE.png]")]
     pub output: Vec<PathBuf>,
+    /// Open the picture when it is done
+    #[arg(long, conflicts_with = "part")]
+    pub open: bool,
     /// Kind of picture for `-o -`: png, exr, hdr or pfm
     #[arg(long, value_name = "KIND")]
     pub format: Option<String>,

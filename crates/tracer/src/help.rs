@@ -29,9 +29,22 @@ pub fn command() -> Command {
         })
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
-            ["syntax", "diagnostics", "seed", "exposure", "every", "format", "bits", "stats", "part", "split", "crop"]
-                .into_iter()
-                .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
+            [
+                "syntax",
+                "diagnostics",
+                "seed",
+                "exposure",
+                "every",
+                "format",
+                "bits",
+                "stats",
+                "part",
+                "split",
+                "crop",
+                "layers",
+            ]
+            .into_iter()
+            .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
         })
 }
 

@@ -14,6 +14,7 @@ pub mod lanes;
 pub mod loading;
 pub mod memory;
 pub mod merge_report;
+pub mod opening;
 pub mod progress;
 pub mod report;
 pub mod shell;

@@ -6,13 +6,13 @@ pub mod picture;
 pub mod pixel;
 pub mod state;
 
+use crate::camera::Undo;
 use crate::guard::Guard;
 use crate::layers::LastLayer;
 use crate::shared::Shared;
 use axum::body::Body;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use camera::Undo;
 use picture::Pins;
 use serde::Deserialize;
 use std::sync::{Arc, Mutex};

@@ -3,14 +3,14 @@
 use super::{App, Refusal, aside, refused};
 use crate::layers;
 use crate::options::Kind;
-use crate::picture::developed;
+use crate::picture::{developed, look};
 use crate::shared::{Frame, lock};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use scene_format::desc::ToneMap;
 use serde::Deserialize;
 use std::sync::Arc;
-use tracer_core::{Backdrop, Layer, LayerSet, Look};
+use tracer_core::{Layer, LayerSet, Look};
 
 /// The tone maps, as the page names them.
 const TONES: [(&str, ToneMap); 3] = [("none", ToneMap::None), ("filmic", ToneMap::Filmic), ("agx", ToneMap::AgX)];
@@ -115,12 +115,7 @@ pub async fn frame(app: &Arc<App>, asked: AskedFrame) -> Response {
         },
     };
     let Some(frame) = frame else { return refused(StatusCode::CONFLICT, "there is no picture yet") };
-    let mut scene_look = stage.as_ref().map_or(Look::default(), |stage| stage.scene.look);
-    // A page has nothing to lay the picture over.
-    if scene_look.backdrop == Backdrop::Clear {
-        scene_look.backdrop = Backdrop::Background;
-    }
-    let look = match (AskedLook { exposure: asked.exposure, tone: asked.tone }).look(scene_look) {
+    let look = match (AskedLook { exposure: asked.exposure, tone: asked.tone }).look(look(stage.as_deref())) {
         Ok(look) => look,
         Err((status, why)) => return refused(status, &why),
     };

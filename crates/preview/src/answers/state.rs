@@ -112,7 +112,7 @@ impl<'s> Shown<'s> {
             samples_done: shared.done.load(Ordering::Relaxed),
             samples_total: shared.total.load(Ordering::Relaxed),
             asked: state.asked,
-            seconds: state.took.unwrap_or_else(|| state.began.elapsed().as_secs_f64()),
+            seconds: state.seconds(),
             look: look.map(|look| ShownLook { exposure: look.exposure, tone: tone_name(look.tone_map) }),
             camera: state.stage.as_ref().map(|stage| Pose::of(&stage.desc)),
             written: state.written,

@@ -109,18 +109,17 @@ fn two_pages_ask_beside_each_other() {
 fn a_port_that_is_taken_is_told() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = taken.local_addr().expect("an address").port();
-    let options = |port| tracer_preview::Options {
+    let options = tracer_preview::Options {
         scene: "none.ron".into(),
         syntax: None,
         overrides: Vec::new(),
         samples: None,
         size: None,
         threads: 1,
-        address: std::net::Ipv4Addr::LOCALHOST.into(),
-        port,
         editor: None,
     };
-    let error = tracer_preview::Preview::start(options(port), Box::new(support::Program)).err().expect("it is taken");
+    let listen = tracer_preview::Listen { port, ..support::ANY_PORT };
+    let error = tracer_preview::Preview::start(options, listen, Box::new(support::Program)).err().expect("it is taken");
     assert_eq!(
         error.to_string(),
         format!("port {port} is taken by another program; name another one, or none for any that is free")

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tracer_core::{Film, Look, develop};
-use tracer_preview::{Editor, Host, Kind, Options, Preview};
+use tracer_preview::{Editor, Host, Kind, Listen, Options, Preview};
 
 /// A scene that renders in a moment.
 pub const SCENE: &str = "// ball
@@ -22,6 +22,9 @@ Scene(
     objects: [Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: (0.8, 0.2, 0.2)))],
 )
 ";
+
+/// Here, at a port that is free.
+pub const ANY_PORT: Listen = Listen { address: IpAddr::V4(Ipv4Addr::LOCALHOST), port: 0 };
 
 /// What comes late because other tests run beside it must not fail: nothing here takes a second by itself.
 pub const PATIENCE: Duration = Duration::from_secs(60);
@@ -83,12 +86,10 @@ impl Sandbox {
             samples: None,
             size: None,
             threads: 1,
-            address: IpAddr::V4(Ipv4Addr::LOCALHOST),
-            port: 0,
             editor: None::<Editor>,
         };
         change(&mut options);
-        let preview = Preview::start(options, Box::new(Program)).expect("it starts");
+        let preview = Preview::start(options, ANY_PORT, Box::new(Program)).expect("it starts");
         Sandbox { folder, preview }
     }
 

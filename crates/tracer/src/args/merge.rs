@@ -54,6 +54,7 @@ impl MergeArgs {
         RenderArgs {
             scene,
             output: self.output.clone(),
+            open: false,
             format: self.format.clone(),
             bits: self.bits,
             samples: None,

@@ -1,16 +1,31 @@
 //! The words of `tracer preview`.
 
 use super::{Size, SyntaxName, count, size};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::net::IpAddr;
 use std::path::PathBuf;
 
 const PREVIEW_EXAMPLES: &str = "\
 Examples:
-  tracer preview scenes/fig4.ron --open
-  tracer preview scene.ron --port 8000 --editor code
+  tracer preview scenes/fig4.ron --open --editor code
+  tracer preview --terminal scenes/fig4.ron
 
 Prints the address of the page; docs/preview.md tells the rest.";
+
+/// How a picture is drawn in a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TerminalName {
+    /// As well as the terminal can.
+    Auto,
+    /// kitty's graphics.
+    Kitty,
+    /// iTerm2's inline images.
+    Iterm,
+    /// Sixel.
+    Sixel,
+    /// Half blocks.
+    Blocks,
+}
 
 /// `tracer preview`
 #[derive(Debug, Args)]
@@ -21,6 +36,12 @@ pub struct PreviewArgs {
     /// Open the page in the browser
     #[arg(long)]
     pub open: bool,
+    /// Draw in the terminal, as well as it can or as told: kitty, iterm, sixel, blocks
+    #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "auto", hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["open", "port", "address", "editor"])]
+    #[arg(help = "Draw in the terminal [kitty, iterm, sixel, blocks]")]
+    pub terminal: Option<TerminalName>,
     /// Port [default: one that is free]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
@@ -37,7 +58,7 @@ pub struct PreviewArgs {
     pub set: Vec<String>,
     /// Syntax of the scene [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
+    #[arg(help = "Syntax: ron, toml, json [default: by its name]")]
     pub syntax: Option<SyntaxName>,
     /// Samples per pixel
     #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]

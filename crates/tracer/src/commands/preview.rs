@@ -1,18 +1,20 @@
-//! `tracer preview`: the picture in the browser while the scene is edited.
+//! `tracer preview`: the picture in the browser, or in the terminal, while the scene is edited.
 
-use crate::args::PreviewArgs;
+use crate::args::{PreviewArgs, TerminalName};
 use crate::checkpoint::{picture_notes, provenance};
+use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
 use crate::loading::expect_scene;
 use crate::memory;
+use crate::opening::open;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, encode, save};
 use scene_format::{Override, SceneDesc};
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::process::{Command, ExitCode, Stdio};
+use std::process::ExitCode;
 use tracer_core::{Film, Look, develop};
-use tracer_preview::{Editor, Host, Kind, Options, Preview, StartError};
+use tracer_preview::{Editor, Host, Kind, Listen, Options, Preview, StartError};
 
 pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     expect_scene(&args.scene)?;
@@ -27,15 +29,17 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
         samples: args.samples,
         size: args.size.map(|size| [size.width, size.height]),
         threads: args.threads.map_or(0, usize::from),
-        address: args.address,
-        port: args.port,
         editor,
     };
-    let preview =
-        Preview::start(options, Box::new(Program { set: args.set.clone() })).map_err(|error| match error {
-            StartError::Listen { .. } => Failure::wrong(format!("--port, --address: {error}")),
-            StartError::System(_) => Failure::could_not(error.to_string()),
-        })?;
+    let program = Box::new(Program { set: args.set.clone() });
+    if let Some(how) = args.terminal {
+        return in_terminal(args, options, program, how);
+    }
+    let listen = Listen { address: args.address, port: args.port };
+    let preview = Preview::start(options, listen, program).map_err(|error| match error {
+        StartError::Listen { .. } => Failure::wrong(format!("--port, --address: {error}")),
+        StartError::System(_) => Failure::could_not(error.to_string()),
+    })?;
     let address = preview.address();
     let mut out = std::io::stdout().lock();
     writeln!(out, "{address}")?;
@@ -49,10 +53,59 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
         }
     }
     if args.open {
-        open(&address).unwrap_or_else(|why| shell.say(&format!("warning: {why}; open the address yourself")));
+        let told = |why| shell.say(&format!("warning: cannot open the page: {why}; open the address yourself"));
+        open(&address).unwrap_or_else(told);
     }
     preview.wait();
     Ok(ExitCode::from(exit::FAILED))
+}
+
+/// Draws in the terminal until a key or a signal ends it.
+#[cfg(unix)]
+fn in_terminal(
+    args: &PreviewArgs,
+    options: Options,
+    program: Box<Program>,
+    how: TerminalName,
+) -> Result<ExitCode, Failure> {
+    use tracer_preview::terminal::{self, End, Protocol};
+    let elsewhere = elsewhere(args);
+    if !std::io::stdout().is_terminal() {
+        return Err(Failure::wrong(format!("--terminal: standard output is no terminal; {elsewhere}")));
+    }
+    if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
+        return Err(Failure::wrong(format!(
+            "--terminal: this terminal cannot place a picture (TERM=dumb); {elsewhere}"
+        )));
+    }
+    let wanted = match how {
+        TerminalName::Auto => None,
+        TerminalName::Kitty => Some(Protocol::Kitty),
+        TerminalName::Iterm => Some(Protocol::Iterm),
+        TerminalName::Sixel => Some(Protocol::Sixel),
+        TerminalName::Blocks => Some(Protocol::Blocks),
+    };
+    let end = terminal::run(options, program, wanted)
+        .map_err(|error| Failure::could_not(format!("cannot draw in the terminal: {error}; {elsewhere}")))?;
+    Ok(ExitCode::from(match end {
+        End::Quit => exit::DONE,
+        End::Interrupted => exit::INTERRUPTED,
+        End::Gone => exit::HUNG_UP,
+        // As shells count.
+        End::Signal(signal) => u8::try_from(128 + signal).unwrap_or(exit::FAILED),
+    }))
+}
+
+/// There is none yet that it was tried in.
+#[cfg(not(unix))]
+fn in_terminal(args: &PreviewArgs, _: Options, _: Box<Program>, _: TerminalName) -> Result<ExitCode, Failure> {
+    Err(Failure::could_not(format!("--terminal: on this system it does not draw in terminals; {}", elsewhere(args))))
+}
+
+/// What shows the picture where a terminal cannot.
+fn elsewhere(args: &PreviewArgs) -> String {
+    let scene = quoted(&args.scene.display().to_string());
+    format!("`tracer preview {scene}` shows it in the browser, `tracer render {scene}` writes it")
 }
 
 /// What the preview asks of the program.
@@ -78,21 +131,4 @@ impl Host for Program {
     fn free_memory(&self) -> Option<u64> {
         memory::available()
     }
-}
-
-/// Opens an address in the person's browser.
-fn open(address: &str) -> Result<(), String> {
-    let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
-        ("open", &[])
-    } else if cfg!(windows) {
-        ("cmd", &["/C", "start", ""])
-    } else {
-        ("xdg-open", &[])
-    };
-    let mut command = Command::new(program);
-    command.args(arguments).arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    let mut child = command.spawn().map_err(|error| format!("cannot start {program}: {error}"))?;
-    // Somebody has to wait for it, or it stays in the system's table when it has ended.
-    let waits = std::thread::Builder::new().name("browser".to_owned()).spawn(move || child.wait());
-    waits.map(drop).map_err(|error| format!("cannot wait for {program}: {error}"))
 }

@@ -18,5 +18,7 @@ mod parts;
 mod render;
 mod report;
 mod support;
+#[cfg(unix)]
+mod terminal;
 mod tutorial;
 mod unmeant;

@@ -194,6 +194,18 @@ fn a_scene_alone_is_enough() {
     sandbox.write("scene.png", "no picture");
     sandbox.run(&["scene.ron"]).ends(2).says(&["scene.png is there already and is no picture"]);
     assert_eq!(sandbox.text("scene.png"), "no picture");
+    // Nor is what the scene is made of written over.
+    sandbox.run(&["scene.ron", "-o", "reads.png"]).ends(0);
+    let before = sandbox.read("reads.png");
+    let reads = SCENE.replace(
+        "Sphere(center: (0, -100, 0), radius: 100)",
+        "Rectangle(material: Diffuse(albedo: Texture(file: \"reads.png\")))",
+    );
+    sandbox.write("reads.ron", reads);
+    for arguments in [&["reads.ron"][..], &["render", "reads.ron"]] {
+        sandbox.run(arguments).ends(2).says(&["reads.png would replace a file of the scene; name another file"]);
+    }
+    assert_eq!(sandbox.read("reads.png"), before);
     sandbox.run(&["render", "-"]).ends(2).says(&["standard input has no name"]);
 }
 
@@ -219,4 +231,46 @@ fn set_takes_bare_words_colours_and_vectors() {
     let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
     sandbox.run(&[&["render", "scene.ron", "-o", "a.png"][..], &sets].concat()).ends(0);
     sandbox.run(&["check", "scene.ron", "--set", "fov=3"]).ends(2).says(&["did you mean `camera.fov`?"]);
+}
+
+/// A folder with an `xdg-open` that writes down what it is asked for, and ends with this code.
+#[cfg(target_os = "linux")]
+fn with_xdg_open(sandbox: &Sandbox, code: i32) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::create_dir_all(sandbox.path("bin")).expect("a folder");
+    sandbox.write("bin/xdg-open", format!("#!/bin/sh\necho \"$@\" > opened\nexit {code}\n"));
+    std::fs::set_permissions(sandbox.path("bin/xdg-open"), PermissionsExt::from_mode(0o755)).expect("permissions");
+    sandbox.path("bin").display().to_string()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_that_is_done_is_opened() {
+    let sandbox = Sandbox::new();
+    let bin = with_xdg_open(&sandbox, 0);
+    let run = |arguments: &[&str], path: &str| Ran::of(sandbox.command(arguments).env("PATH", path));
+    let opened = || {
+        let text = sandbox.text("opened");
+        std::fs::remove_file(sandbox.path("opened")).expect("it was opened");
+        text.trim_end().to_owned()
+    };
+    let canonical = |name: &str| sandbox.path(name).display().to_string();
+    run(&["scene.ron", "--open"], &bin).ends(0).silent();
+    assert_eq!(opened(), canonical("scene.png"));
+    // One that every program shows.
+    run(&["render", "scene.ron", "-o", "a.exr", "-o", "b.png", "--open"], &bin).ends(0);
+    assert_eq!(opened(), canonical("b.png"));
+    run(&["render", "scene.ron", "-o", "a.exr", "--open"], &bin).ends(0);
+    assert_eq!(opened(), canonical("a.exr"));
+    run(&["scene.ron"], &bin).ends(0);
+    assert!(!sandbox.path("opened").exists(), "nobody asked");
+
+    // That nobody can show it is said, and the picture is there.
+    with_xdg_open(&sandbox, 3);
+    let says = "warning: cannot open scene.png: xdg-open found nothing that can (exit status: 3); open it yourself";
+    run(&["scene.ron", "--open"], &bin).ends(0).says(&[says]);
+    run(&["scene.ron", "--open"], "/nowhere").ends(0).says(&["there is no xdg-open here", "open it yourself"]);
+    run(&["render", "scene.ron", "-o", "-", "--format", "png", "--open"], &bin)
+        .ends(2)
+        .says(&["--open is for pictures"]);
 }

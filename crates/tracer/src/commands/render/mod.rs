@@ -133,6 +133,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
         files.push(FileReport { path, format: "film", bytes: written.bytes, sha256: written.sha256 });
     }
     let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
+    let to_open = args.open.then(|| outputs::to_open(&files)).flatten();
     let mut report =
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     if let Some(report) = &mut report {
@@ -164,6 +165,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
         write_report(path, report.to_json())?;
+    }
+    if let Some(picture) = to_open.filter(|_| !interrupted) {
+        outputs::open(&picture, shell);
     }
     if interrupted {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };

@@ -4,6 +4,7 @@ use super::place;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::loading::is_dash;
+use crate::report::FileReport;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
@@ -101,6 +102,9 @@ pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
             "--format is for `-o -` and names without an extension; others say their kind by it",
         ));
     }
+    if args.open && outputs.iter().all(|output| output.place == Place::Stdout) {
+        return Err(Failure::wrong("--open is for pictures in files; standard output goes to another program"));
+    }
     if args.bits.is_some() && !outputs.iter().any(|output| matches!(output.encoding, Encoding::Png(_))) {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
     }
@@ -111,6 +115,21 @@ pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
         )));
     }
     Ok(outputs)
+}
+
+/// The picture that `--open` shows: one that all programs show, if there is one.
+pub(super) fn to_open(files: &[FileReport]) -> Option<PathBuf> {
+    let pictures = || files.iter().filter(|file| file.path != "-");
+    pictures().find(|file| file.format == "png").or_else(|| pictures().next()).map(|file| PathBuf::from(&file.path))
+}
+
+/// Shows a picture. It is written, so that nobody shows it is no failure.
+pub(super) fn open(picture: &Path, shell: &Shell) {
+    // What begins with a dash would be an option.
+    let path = std::path::absolute(picture).unwrap_or_else(|_| picture.to_owned());
+    if let Err(why) = crate::opening::open(path) {
+        shell.say(&format!("warning: cannot open {}: {why}; open it yourself", picture.display()));
+    }
 }
 
 fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
