@@ -6,6 +6,8 @@ mod commands;
 mod compare;
 mod denoise;
 mod examples;
+#[cfg(unix)]
+mod farm;
 mod faults;
 mod fmt;
 mod goals;
