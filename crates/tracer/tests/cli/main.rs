@@ -15,6 +15,8 @@ mod golden;
 mod habits;
 #[cfg(unix)]
 mod interrupt;
+#[cfg(unix)]
+mod kubernetes;
 mod layers;
 mod parts;
 mod render;

@@ -1,7 +1,9 @@
-//! `tracer farm slurm` with a real Slurm on this machine: `cargo xtask prove slurm` installs it and runs this. It must be
-//! root, as Slurm's daemons are.
+//! `tracer farm slurm` with a real Slurm on this machine, and the lines of docs/scale.md that need more than a shell:
+//! `cargo xtask prove slurm` installs what they need and runs this. It must be root, as Slurm's daemons are.
 
 mod cluster;
+mod manual;
+mod ssh;
 
 use cluster::{Cluster, NODES};
 use serde_json::Value;
@@ -37,6 +39,8 @@ fn a_farm_with_slurm() {
     told("the cluster stands");
     proof.the_bytes_of_one_machine();
     told("array and merge make the bytes of one machine, in a folder of an odd name");
+    proof.by_hand();
+    told("the lines by hand, too");
     proof.what_fails_is_tried_again_and_named();
     told("a part that fails is tried again, one that fails always is named, and the merge says that it is missing");
     let samples = proof.samples_of_seconds(5.0);
@@ -129,6 +133,22 @@ impl Proof {
         assert!(self.tracer(&["farm", "status", &job], 0).contains("merged: "));
     }
 
+    /// The lines of docs/scale.md, but for the cores: a node has one here.
+    fn by_hand(&self) {
+        let bin = self.cluster.path("bin");
+        fs::create_dir(&bin).expect("a folder");
+        std::os::unix::fs::symlink(TRACER, bin.join("tracer")).expect("a link");
+        self.write("scene.ron", &SCENE.replace("samples: 8", "samples: 32"));
+        self.write("parts.sbatch", &manual::block("### `parts.sbatch`").replace("task=16", "task=1"));
+        let lines = format!("PATH=\"{}:$PATH\"; export PATH\n{}", bin.display(), manual::block("### Submitted"));
+        self.cluster.run("sh", &["-euc", &lines]);
+        let is_there = || self.cluster.path("work/scene.exr").exists();
+        self.cluster.wait("the picture", || is_there() && self.cluster.run("squeue", &["-h"]).is_empty());
+        self.tracer(&["render", "scene.ron", "-q", "-o", "hand.exr"], 0);
+        assert_eq!(self.read("scene.exr"), self.read("hand.exr"));
+        self.write("scene.ron", SCENE);
+    }
+
     fn what_fails_is_tried_again_and_named(&self) {
         let script = format!(
             "#!/bin/sh\ncase \"$*\" in *'--part 2/3'*) echo 'error: no luck' >&2; exit 5;; *'--part 1/3'*)\n\
@@ -174,13 +194,14 @@ impl Proof {
         self.cluster.kill_node(&node);
         // The second part's limit is near: Slurm sends this to the script alone.
         self.wait_for_samples("n.farm", 2, 0);
-        let task = |part: u32| format!("{}_{part}", self.status("n.farm").1["arrays"][0].as_str().expect("a job"));
+        let job = self.status("n.farm").1["arrays"][0].as_str().expect("a job").to_owned();
+        let task = |part: u32| format!("{job}_{part}");
         self.cluster.run("scancel", &["--signal=USR1", "--batch", &task(2)]);
         self.cluster.wait("part 2 in the queue", || self.status("n.farm").1["parts"][1]["state"] == "waiting");
         let held = self.status("n.farm").1["parts"][1]["samples"][0].as_u64().expect("samples");
         assert!(held > 0);
-        // Slurm misses a job when the daemon is back, some seconds after the job's start at the earliest.
-        std::thread::sleep(std::time::Duration::from_secs(2));
+        // Slurm gives the node up after some seconds, and the part goes to the queue; then the node is back.
+        self.cluster.wait("part 1 in the queue", || self.status("n.farm").1["parts"][0]["state"] == "waiting");
         self.cluster.start_node(&node);
         // Both go on where they were.
         let (_, now) = self.wait_for_samples("n.farm", 1, before);
@@ -190,7 +211,6 @@ impl Proof {
         self.cluster.wait("part 1 stopped", || self.status("n.farm").1["parts"][0]["state"] == "stopped");
         let kept = self.status("n.farm").1["parts"][0]["samples"][0].as_u64().expect("samples");
         assert!(kept >= now, "{kept} of {now}");
-        self.wait_for_samples("n.farm", 2, held);
         self.slurm("n.exr", "2", &more);
         self.wait_for("n.farm", 0);
         for part in [1, 2] {
