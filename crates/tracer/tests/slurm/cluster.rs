@@ -1,46 +1,27 @@
 //! A Slurm of two nodes on this machine, with its own key, ports and folder: nothing of it is outside the folder, and
 //! nothing of it runs when it is dropped, or when this program is killed.
 
+use crate::reaper::{MARK, Reaper};
 use std::fs;
 use std::io::Read;
 use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The nodes' names.
 pub const NODES: [&str; 2] = ["n1", "n2"];
-/// In the environment of all that belongs to the cluster: its folder.
-const MARK: &str = "TRACER_PROOF";
 /// In that of what belongs to a node; what Slurm starts there has its own word for it.
 const NODE: [&str; 2] = ["TRACER_PROOF_NODE", "SLURMD_NODENAME"];
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Kills whatever has the mark until nothing has, once its standard input is closed: by us, or by our end.
-const REAPER: &str = r#"
-trap '' INT TERM HUP
-cat >/dev/null
-while :; do
-    found=
-    for file in /proc/[0-9]*/environ; do
-        if tr '\0' '\n' <"$file" 2>/dev/null | grep -qxF "$1"; then
-            process=${file#/proc/}
-            found="$found ${process%/environ}"
-        fi
-    done
-    [ -n "$found" ] || exit 0
-    kill -KILL $found 2>/dev/null
-    sleep 0.1
-done
-"#;
-
 pub struct Cluster {
+    // Before the folder: what still runs writes there.
+    reaper: Option<Reaper>,
     folder: TempDir,
-    reaper: Child,
-    reaper_input: Option<ChildStdin>,
     daemons: Vec<Child>,
 }
 
@@ -48,12 +29,8 @@ impl Cluster {
     /// Starts all daemons, and waits until both nodes are idle.
     pub fn start() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mark = format!("{MARK}={}", folder.path().display());
-        let mut reaper = Command::new("sh");
-        reaper.args(["-c", REAPER, "reaper", &mark]).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
-        let mut reaper = reaper.spawn().expect("a shell");
-        let reaper_input = reaper.stdin.take();
-        let mut cluster = Cluster { folder, reaper, reaper_input, daemons: Vec::new() };
+        let reaper = Some(Reaper::new(folder.path()));
+        let mut cluster = Cluster { reaper, folder, daemons: Vec::new() };
         for name in ["state", "spool", "run", "log", "work"] {
             fs::create_dir(cluster.path(name)).expect("a folder");
         }
@@ -186,8 +163,7 @@ impl Cluster {
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        drop(self.reaper_input.take());
-        let _ = self.reaper.wait();
+        drop(self.reaper.take());
         for daemon in &mut self.daemons {
             let _ = daemon.wait();
         }

@@ -3,6 +3,7 @@
 
 mod cluster;
 mod manual;
+mod reaper;
 mod ssh;
 
 use cluster::{Cluster, NODES};
@@ -199,7 +200,7 @@ impl Proof {
         self.cluster.run("scancel", &["--signal=USR1", "--batch", &task(2)]);
         self.cluster.wait("part 2 in the queue", || self.status("n.farm").1["parts"][1]["state"] == "waiting");
         let held = self.status("n.farm").1["parts"][1]["samples"][0].as_u64().expect("samples");
-        assert!(held > 0);
+        assert!(held > 0 && !self.cluster.path("work/n.farm/state/2.failed").exists());
         // Slurm gives the node up after some seconds, and the part goes to the queue; then the node is back.
         self.cluster.wait("part 1 in the queue", || self.status("n.farm").1["parts"][0]["state"] == "waiting");
         self.cluster.start_node(&node);

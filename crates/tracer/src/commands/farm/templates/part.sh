@@ -60,13 +60,16 @@ stop_if_asked() {
         # Without progress it would go round for ever.
         [ "$film" -nt "$state.began" ] || give_up 'the time limit is too short to trace anything'
         say 'the time limit is near; what was traced is kept, and the part is queued again'
-        scontrol requeue "${SLURM_ARRAY_JOB_ID}_$part" && exit 143
+        # Slurm ends all of the job for it, and scontrol must live to say whether it was done.
+        (trap '' TERM && exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$part") && exit 143
+        if [ "$asked" = end ]; then exit 143; fi
         give_up 'out of time, and Slurm does not queue it again'
         ;;
     esac
 }
 
 mkdir -p "$folder/parts" "$folder/state" || exit 1
+rm -f "$state.failed"
 say "job ${SLURM_ARRAY_JOB_ID}_$part, started again ${SLURM_RESTART_COUNT:-0} times by Slurm"
 while :; do
     : >"$state.began"
