@@ -2,6 +2,7 @@
 
 mod bench;
 mod denoise;
+mod farm;
 mod fmt;
 mod golden;
 mod merge;
@@ -9,6 +10,7 @@ mod preview;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use denoise::DenoiseArgs;
+pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use merge::MergeArgs;
@@ -24,7 +26,7 @@ use std::time::Duration;
 use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
-More: bench-acceleration, bench-figures, schema, completions, man
+More: bench-acceleration, bench-figures, lsp, schema, completions, man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100
@@ -64,6 +66,8 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// Merge parts of a rendering into pictures
     Merge(MergeArgs),
+    /// Render on many machines: slurm, status, cancel
+    Farm(FarmArgs),
     /// See a scene in the browser or here, again at every save
     #[command(alias = "watch")]
     Preview(PreviewArgs),

@@ -17,7 +17,7 @@ const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{option
 const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 /// The commands that a screen of help names in its line "More" alone.
-const MORE: [&str; 5] = ["bench-acceleration", "bench-figures", "schema", "completions", "man"];
+const MORE: [&str; 6] = ["bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
 
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
@@ -26,6 +26,16 @@ pub fn command() -> Command {
         .mut_subcommands(|command| command.help_template(TEMPLATE))
         .mut_subcommand("golden", |golden| {
             golden.help_template(TEMPLATE_OF_COMMANDS).mut_subcommands(|command| command.help_template(TEMPLATE))
+        })
+        .mut_subcommand("farm", |farm| {
+            farm.help_template(TEMPLATE_OF_COMMANDS)
+                .mut_subcommands(|command| command.help_template(TEMPLATE))
+                .mut_subcommand("slurm", |command| {
+                    ["syntax", "diagnostics", "seed", "exposure", "bits", "split", "crop", "layers", "denoise"]
+                        .into_iter()
+                        .chain(["pause", "program"])
+                        .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
+                })
         })
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {

@@ -11,9 +11,10 @@ use std::time::{Duration, Instant};
 /// The exit code that the first signal asks for; 0: there was none.
 static ASKED: AtomicU8 = AtomicU8::new(0);
 
-/// A terminal that goes away sends SIGHUP, and so does the shell in it: within this time it is one wish.
+/// A terminal that goes away sends SIGHUP, and so does the shell in it; a scheduler sends SIGTERM to all processes of a
+/// job, and so does the script that it has started. Within this time it is one wish.
 #[cfg(unix)]
-const ONE_HANGUP: Duration = Duration::from_secs(1);
+const ONE_WISH: Duration = Duration::from_secs(1);
 
 /// From now on Ctrl-C and the signals that end a program are wishes.
 ///
@@ -33,15 +34,16 @@ fn by_system(shell: Shell) -> std::io::Result<()> {
         [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal == SIGTERM || ignored >> (signal - 1) & 1 == 0);
     let mut signals = signal_hook::iterator::Signals::new(asked)?;
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
-        let mut hung_up: Option<Instant> = None;
+        let mut last: Option<(i32, Instant)> = None;
         for signal in &mut signals {
+            let again = last.is_some_and(|(before, at)| before == signal && at.elapsed() < ONE_WISH);
+            if again && signal != SIGINT {
+                continue;
+            }
+            last = Some((signal, Instant::now()));
             match signal {
                 SIGTERM => came("SIGTERM", exit::TERMINATED, shell),
-                SIGHUP if hung_up.is_some_and(|at| at.elapsed() < ONE_HANGUP) => {}
-                SIGHUP => {
-                    hung_up = Some(Instant::now());
-                    came("SIGHUP", exit::HUNG_UP, shell);
-                }
+                SIGHUP => came("SIGHUP", exit::HUNG_UP, shell),
                 _ => came("Ctrl-C", exit::INTERRUPTED, shell),
             }
         }

@@ -175,8 +175,14 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     let clamp = |limit: Option<f32>| limit.map_or("None".to_owned(), |limit| limit.to_string());
     compare("render.clamp", clamp(head.clamp), clamp(asked.clamp));
     compare("the set of layers", told::layers(head), asked.layers.clone());
+    note_differences(&mut found, &head.notes, asked.notes);
+    found
+}
+
+/// What is not the same in notes as [`notes`] gives them; where nothing else was found, that it is the scene.
+pub fn note_differences(found: &mut Vec<String>, there: &[Note], here: &[Note]) {
     let (there, here): (BTreeMap<_, _>, BTreeMap<_, _>) =
-        (head.notes.iter().cloned().collect(), asked.notes.iter().cloned().collect());
+        (there.iter().cloned().collect(), here.iter().cloned().collect());
     let names = here.keys().chain(there.keys().filter(|name| !here.contains_key(*name)));
     for name in names {
         let (old, new) = (there.get(name), here.get(name));
@@ -185,7 +191,7 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
         }
         let value = |value: Option<&String>| value.map_or("not told", String::as_str).to_owned();
         if name.starts_with(SETTING) {
-            compare_notes(&mut found, name, &value(old), &value(new));
+            compare_notes(found, name, &value(old), &value(new));
         } else if let Some(part) = name.strip_prefix(PART) {
             found.push(format!("`{part}` of the scene has changed"));
         } else if let Some(file) = name.strip_prefix(FILE) {
@@ -199,7 +205,6 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     if found.is_empty() && there.get(WHOLE) != here.get(WHOLE) {
         found.push("the scene has changed".to_owned());
     }
-    found
 }
 
 fn compare_notes(found: &mut Vec<String>, what: &str, there: &str, here: &str) {

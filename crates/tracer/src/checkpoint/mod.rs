@@ -8,7 +8,7 @@ mod read;
 mod told;
 
 pub use flushing::Flushing;
-pub use identity::{Asked, Extent, differences, notes, now, sha256_of};
+pub use identity::{Asked, Extent, differences, note_differences, notes, now, sha256_of};
 pub use picture::{look, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};

@@ -8,6 +8,7 @@ mod compare_folders;
 mod completions;
 mod convert;
 mod explain;
+mod farm;
 mod fix;
 mod fmt;
 pub mod golden;
@@ -37,6 +38,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
     match command {
         Command::Render(args) => render::run(args, shell, started),
         Command::Merge(args) => merge::run(args, shell, started),
+        Command::Farm(args) => farm::run(&args.command, shell),
         Command::Preview(args) => preview::run(args, shell),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),

@@ -3,10 +3,11 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 17] = [
+pub const COMMANDS: [&str; 18] = [
     "render",
     "preview",
     "merge",
+    "farm",
     "check",
     "info",
     "convert",
@@ -29,8 +30,9 @@ fn version_and_help() {
     let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
     assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
     let of_golden = ["run", "accept", "new"].map(|command| vec!["golden", command, "--help"]);
+    let of_farm = ["slurm", "status", "cancel"].map(|command| vec!["farm", command, "--help"]);
     let of_all = COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]);
-    for arguments in of_all.chain(of_golden) {
+    for arguments in of_all.chain(of_golden).chain(of_farm) {
         let help = Ran::of(sandbox.command(&arguments).env("COLUMNS", "80")).ends(0).silent().out_text();
         assert!(help.lines().count() <= 24, "{arguments:?} does not fit a screen:\n{help}");
         assert!(help.lines().all(|line| line.chars().count() <= 80), "{arguments:?} is too wide:\n{help}");

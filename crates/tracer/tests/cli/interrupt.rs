@@ -85,10 +85,9 @@ fn the_system_may_end_it_too() {
         let mut command = sandbox.command(&["render", "scene.ron", "-o", "a.pfm", "--samples", "100000000", "-v"]);
         let (mut child, mut stderr) = started(&mut command);
         send(signal, &child);
-        if signal == "HUP" {
-            // A terminal that goes away sends it, and so does the shell in it: that is one wish.
-            send(signal, &child);
-        }
+        // A terminal that goes away sends SIGHUP, and so does the shell in it; Slurm sends SIGTERM to all of a job, and
+        // so does the script that it has started: that is one wish.
+        send(signal, &child);
         let status = child.wait().expect("it ends");
         let mut said = String::new();
         stderr.read_to_string(&mut said).expect("text");

@@ -6,6 +6,8 @@ mod commands;
 mod compare;
 mod denoise;
 mod examples;
+#[cfg(unix)]
+mod farm;
 mod faults;
 mod fmt;
 mod goals;
@@ -13,6 +15,8 @@ mod golden;
 mod habits;
 #[cfg(unix)]
 mod interrupt;
+#[cfg(unix)]
+mod kubernetes;
 mod layers;
 mod parts;
 mod render;

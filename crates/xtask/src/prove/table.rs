@@ -28,6 +28,14 @@ const MITSUBA: &[Need] =
 /// A browser, and what drives it: chromium of Debian, playwright-core of npm.
 const BROWSER: &[Need] = &[Program("chromium", "chromium"), Program("node", "nodejs"), Program("npm", "npm")];
 
+/// Slurm's daemons and its keys; GNU parallel and an ssh to go over.
+const SLURM: &[Need] = &[
+    Program("sbatch", "slurm-wlm"),
+    File("/usr/sbin/munged", "munge"),
+    Program("parallel", "parallel"),
+    File("/usr/sbin/sshd", "openssh-server"),
+];
+
 /// All of them. CONTRIBUTING.md has a row for each.
 pub const PROOFS: &[Proof] = &[
     proof(
@@ -73,6 +81,14 @@ pub const PROOFS: &[Proof] = &[
         "twenty random scenes against the truth; a minute",
         &[],
         &["cargo test --locked --workspace --test truth"],
+    ),
+    proof(
+        "slurm",
+        Always,
+        "`tracer farm` with a Slurm of its own, and parts by GNU parallel over ssh: nodes that die, limits, failures, \
+         the same bytes; a minute",
+        SLURM,
+        &["cargo test --locked --workspace --test slurm"],
     ),
     proof(
         "pairs-long",

@@ -5,7 +5,7 @@ mod goals;
 mod kept;
 pub(super) mod outputs;
 mod parts;
-mod repeat;
+pub(super) mod repeat;
 pub(super) mod rescue;
 
 use crate::args::RenderArgs;
@@ -230,6 +230,15 @@ impl Clock {
         self.last = now;
         seconds
     }
+}
+
+/// The scene of a rendering in so many parts, with what the options say; what no part could be made of is told here.
+pub(super) fn of_parts(args: &RenderArgs, parts: u32, shell: &Shell) -> Result<SceneDesc, Failure> {
+    let desc = described(args, shell)?;
+    let crop = crop(args, &desc)?;
+    let part = parts::part_of(args, &desc, crop, [1, parts], &format!("--parts {parts}"))?;
+    check_memory(part.crop, &desc, args.denoise.is_on())?;
+    Ok(desc)
 }
 
 /// The scene with what the options say.

@@ -183,7 +183,7 @@ pub(super) fn kept(args: &RenderArgs) -> impl Iterator<Item = (&'static str, &Pa
 ///
 /// # Errors
 /// The first place that would.
-pub(super) fn spare_inputs(outputs: &[Output], args: &RenderArgs, files: &[PathBuf]) -> Result<(), Failure> {
+pub fn spare_inputs(outputs: &[Output], args: &RenderArgs, files: &[PathBuf]) -> Result<(), Failure> {
     let scene = Some(&args.scene.scene).filter(|scene| !is_dash(scene)).map(|scene| ("the scene", scene));
     let inputs: Vec<(&str, &PathBuf)> =
         scene.into_iter().chain(files.iter().map(|f| ("a file of the scene", f))).collect();

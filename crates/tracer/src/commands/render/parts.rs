@@ -65,6 +65,20 @@ pub(super) fn place(args: &RenderArgs) -> Result<Place, Failure> {
 /// There are not so many; a goal of the scene's that no part can know of.
 pub(super) fn part(args: &RenderArgs, desc: &SceneDesc, crop: Crop) -> Result<Option<Part>, Failure> {
     let Some([k, n]) = args.part else { return Ok(None) };
+    part_of(args, desc, crop, [k, n], &format!("--part {k}/{n}")).map(Some)
+}
+
+/// The k-th of n parts, as the option says that is to be named where there are not so many.
+///
+/// # Errors
+/// As [`part`].
+pub(super) fn part_of(
+    args: &RenderArgs,
+    desc: &SceneDesc,
+    crop: Crop,
+    [k, n]: [u32; 2],
+    option: &str,
+) -> Result<Part, Failure> {
     let render = &desc.render;
     for (name, is_set) in [("noise", render.noise.is_some()), ("time", render.time.is_some())] {
         if is_set {
@@ -83,11 +97,11 @@ pub(super) fn part(args: &RenderArgs, desc: &SceneDesc, crop: Crop) -> Result<Op
     } else {
         Split::Rows
     });
-    Part::of(crop, samples, split, k, n).map(Some).ok_or_else(|| {
+    Part::of(crop, samples, split, k, n).ok_or_else(|| {
         let (by_samples, by_rows) = (most(Split::Samples), most(Split::Rows));
         let asked = if args.split.is_none() { String::new() } else { format!(" --split {}", split_name(split)) };
         Failure::wrong(format!(
-            "--part {k}/{n}{asked}: there are {by_samples} parts by samples, {by_rows} by rows of 16 pixels, and no \
+            "{option}{asked}: there are {by_samples} parts by samples, {by_rows} by rows of 16 pixels, and no \
              more"
         ))
     })

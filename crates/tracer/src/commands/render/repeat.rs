@@ -8,7 +8,13 @@ use tracer_core::{Crop, LayerSet};
 
 /// Says size, samples and seed even where the scene said them: the scene may change them, the command stays right.
 pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
-    let mut words = vec!["tracer".to_owned(), "render".to_owned(), args.scene.scene.to_string_lossy().into_owned()];
+    let words = std::iter::once("tracer".to_owned()).chain(words(args, desc));
+    words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+}
+
+/// The same as words, without the program.
+pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String> {
+    let mut words = vec!["render".to_owned(), args.scene.scene.to_string_lossy().into_owned()];
     let mut option = |name: &str, value: String| words.extend([name.to_owned(), value]);
     for path in &args.output {
         option("-o", path.to_string_lossy().into_owned());
@@ -54,5 +60,5 @@ pub(super) fn command(args: &RenderArgs, desc: &SceneDesc) -> String {
         option("--split", super::parts::split_name(split.into()).to_owned());
     }
     words.extend(denoise);
-    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+    words
 }
