@@ -147,15 +147,15 @@ fn spread(desc: &SceneDesc, point: [f64; 3]) -> f64 {
     (squares / n - (x * x + y * y) / (n * n)).max(0.0).sqrt()
 }
 
-/// Turned by -60 degrees about the picture's right, the plane of focus through (0, 0, -5) holds (0, y, z) with
-/// y = (z + 5) / tan 60: points of it are sharp, others are blurred as far as they lie from it.
+/// Turned by -60 degrees about the picture's right, the plane of focus through (0, 0, -5) leans away: it holds (0, y, z)
+/// with y = -(z + 5) / tan 60. Points of it are sharp, others are blurred as far as they lie from it.
 #[test]
 fn tilted_lenses_are_sharp_in_their_plane() {
     let mut desc = empty(Projection::Perspective, [64, 64]).camera([0.0; 3], [0.0, 0.0, -1.0], 60.0);
     let lens = ThinLens { tilt: [-60.0, 0.0].into(), ..ThinLens::new(0.8, 5.0) };
     desc.effects.depth_of_field = Some(lens.clone());
     let tan = 60f64.to_radians().tan();
-    let on_plane = |z: f64| [0.3, (z + 5.0) / tan, z];
+    let on_plane = |z: f64| [0.3, -(z + 5.0) / tan, z];
     for z in [-3.5, -5.0, -7.0] {
         assert!(spread(&desc, on_plane(z)) < 0.6, "{z}: {}", spread(&desc, on_plane(z)));
     }
@@ -163,7 +163,7 @@ fn tilted_lenses_are_sharp_in_their_plane() {
     assert!(spread(&desc, [0.3, 1.5, -5.0]) > 1.5);
     // The point in focus may be anywhere.
     desc.effects.depth_of_field = Some(ThinLens { focus: Focus::On([0.0, 1.0, -4.0]).into(), ..lens });
-    assert!(spread(&desc, [0.5, 1.0 - 1.5 / tan, -5.5]) < 0.6 && spread(&desc, on_plane(-7.0)) > 1.5);
+    assert!(spread(&desc, [0.5, 1.0 + 1.5 / tan, -5.5]) < 0.6 && spread(&desc, on_plane(-7.0)) > 1.5);
 }
 
 fn all() -> Vec<(&'static str, SceneDesc)> {
