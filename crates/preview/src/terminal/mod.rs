@@ -21,7 +21,7 @@ use crate::camera::{self, Refused, Undo};
 use crate::options::{Host, Options};
 use crate::shared::{Phase, Pose, Shared};
 use crate::{picture, work};
-use ask::{Abilities, Environment, QUESTIONS};
+use ask::{ASKS_KITTY, Abilities, Environment, QUESTIONS};
 use device::{Device, Leaving, Panics, leave};
 use input::{Input, Key, Token};
 use screen::{Screen, View};
@@ -76,11 +76,14 @@ pub fn run(options: Options, host: Box<dyn Host>, wanted: Option<Protocol>) -> i
     let _leaving = Leaving;
     device.enter()?;
     let mut input = Input::default();
-    let (abilities, early) = match asked(&mut device, &mut input, &signals)? {
+    let environment = Environment::of_process();
+    let kitty = if wanted.is_none() && !environment.is_multiplexed() { ASKS_KITTY } else { "" };
+    let questions = format!("{kitty}{QUESTIONS}");
+    let (abilities, early) = match asked(&questions, &mut device, &mut input, &signals)? {
         Answers::Told(abilities, early) => (abilities, early),
         Answers::End(end) => return Ok(end),
     };
-    let screen = Screen::new(&abilities, &Environment::of_process(), wanted, device.size());
+    let screen = Screen::new(&abilities, &environment, wanted, device.size());
     device.on_leaving(screen.farewell());
     let shared = Arc::new(Shared::new(options, host));
     let mut session = Session::new(Arc::clone(&shared), screen);
@@ -101,11 +104,11 @@ enum Answers {
 }
 
 /// Asks the terminal what it can.
-fn asked(device: &mut Device, input: &mut Input, signals: &Signals) -> io::Result<Answers> {
+fn asked(questions: &str, device: &mut Device, input: &mut Input, signals: &Signals) -> io::Result<Answers> {
     let mut abilities = Abilities::default();
     let mut early = Vec::new();
     let until = Instant::now() + PATIENCE;
-    if device.write(QUESTIONS.as_bytes(), || signals.end().is_some() || Instant::now() > until).is_err() {
+    if device.write(questions.as_bytes(), || signals.end().is_some() || Instant::now() > until).is_err() {
         return Ok(Answers::End(End::Gone));
     }
     while let Some(left) = until.checked_duration_since(Instant::now()) {
