@@ -9,6 +9,7 @@ mod device;
 mod inline;
 mod input;
 mod layout;
+mod orbit;
 mod scaled;
 mod screen;
 mod signals;
@@ -276,8 +277,8 @@ impl Session {
             Key::Left | Key::Char('h') => self.orbit(-TURN, 0.0),
             Key::Up | Key::Char('k') => self.orbit(0.0, TURN),
             Key::Down | Key::Char('j') => self.orbit(0.0, -TURN),
-            Key::Char('+' | '=') => self.moved(|pose| camera::dolly(pose, 1.0 / NEARER)),
-            Key::Char('-' | '_') => self.moved(|pose| camera::dolly(pose, NEARER)),
+            Key::Char('+' | '=') => self.moved(|pose| orbit::dolly(pose, 1.0 / NEARER)),
+            Key::Char('-' | '_') => self.moved(|pose| orbit::dolly(pose, NEARER)),
             Key::Char('r') => {
                 self.pose = None;
                 self.shared.order(|orders| orders.pose = Some(None));
@@ -305,7 +306,7 @@ impl Session {
     }
 
     fn orbit(&mut self, right: f64, above: f64) {
-        self.moved(|pose| camera::orbit(pose, right, above));
+        self.moved(|pose| orbit::orbit(pose, right, above));
     }
 
     /// The camera as the person has it: what is rendered is behind while it moves.

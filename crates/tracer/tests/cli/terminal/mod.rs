@@ -127,6 +127,19 @@ fn narrow_terminals_and_those_that_change_have_room_for_it() {
     assert_eq!(tty.ends().0, Some(0));
 }
 
+/// At its own size this would take an hour.
+#[test]
+fn a_picture_is_rendered_no_larger_than_it_is_seen() {
+    let sandbox = sandbox();
+    sandbox.write("wall.ron", SCENE.replace("width: 80, height: 46", "width: 8000, height: 4600"));
+    let mut command = sandbox.command(&["preview", "--terminal", "--samples", "256", "wall.ron"]);
+    let mut tty = Tty::start(quiet(&mut command, TRUE_COLOUR), [80, 24], [0, 0], XTERM);
+    tty.until(|tty| tty.text().contains("256 samples") && tty.text().contains("done in"));
+    assert_eq!((tty.point(0, 0), tty.point(79, 45)), (Some(RED), Some(RED)));
+    tty.press("q");
+    assert_eq!(tty.ends().0, Some(0));
+}
+
 #[test]
 fn the_camera_moves_and_is_written_and_the_file_put_back() {
     let sandbox = sandbox();
