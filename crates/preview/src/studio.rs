@@ -425,3 +425,17 @@ fn too_large(desc: &SceneDesc, free: Option<u64>) -> Option<String> {
         )
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_seen_bounds_the_size_and_keeps_the_shape() {
+        assert_eq!(fitted([512, 512], [80, 46]), [46, 46]);
+        assert_eq!(fitted([1920, 1080], [80, 46]), [80, 45]);
+        assert_eq!(fitted([64, 20], [80, 46]), [64, 20]);
+        assert_eq!(fitted([4000, 1], [80, 46]), [80, 1]);
+        assert_eq!(fitted([1, 1], [0, 0]), [1, 1]);
+    }
+}

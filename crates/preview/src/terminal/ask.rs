@@ -26,10 +26,13 @@ pub enum Depth {
 
 /// What all questions are; the last one is answered by every terminal.
 ///
-/// In order: kitty's graphics (a picture of one pixel, not to be shown), name and version, whether output can be
-/// synchronized, the size of a cell, whether a colour of 24 bits stays what it is, attributes.
-pub const QUESTIONS: &str = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[>q\x1b[?2026$p\x1b[16t\
-     \x1b[48;2;1;2;3m\x1bP$qm\x1b\\\x1b[0m\x1b[c";
+/// In order: name and version, whether output can be synchronized, the size of a cell, whether a colour of 24 bits
+/// stays what it is, attributes.
+pub const QUESTIONS: &str = "\x1b[>q\x1b[?2026$p\x1b[16t\x1b[48;2;1;2;3m\x1bP$qm\x1b\\\x1b[0m\x1b[c";
+
+/// Whether it knows kitty's graphics, to be asked before: a picture of one pixel, not to be shown. Not in tmux, which
+/// takes it for a title of its window.
+pub const ASKS_KITTY: &str = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\";
 
 /// The environment as far as it tells of a terminal.
 #[derive(Clone, Debug, Default)]
@@ -54,6 +57,16 @@ impl Environment {
             multiplexed: !get("TMUX").is_empty() || !get("STY").is_empty(),
         }
     }
+
+    /// Whether tmux or screen is known to be between.
+    pub fn is_multiplexed(&self) -> bool {
+        self.multiplexed || is_multiplexer(&self.term)
+    }
+}
+
+/// Whether this begins as the names of tmux and screen do.
+fn is_multiplexer(name: &str) -> bool {
+    ["tmux", "screen"].iter().any(|known| name.to_lowercase().starts_with(known))
 }
 
 /// What a terminal has told.
@@ -93,8 +106,7 @@ impl Abilities {
 
     /// Whether tmux or screen is between, which know nothing of pictures, or little. Over ssh only the names tell.
     pub fn is_multiplexed(&self, environment: &Environment) -> bool {
-        let begins = |text: &str| ["tmux", "screen"].iter().any(|name| text.to_lowercase().starts_with(name));
-        environment.multiplexed || begins(&environment.term) || begins(&self.version)
+        environment.is_multiplexed() || is_multiplexer(&self.version)
     }
 
     /// The best way to show a picture.

@@ -38,30 +38,26 @@ impl Kitty {
         Kitty { numbers: [2 * own + 1, 2 * own + 2], shown: None }
     }
 
-    /// Shows a picture at the cursor, over so many cells where the size of one is not known, and takes the old one
-    /// away.
-    pub fn draw(&mut self, png: &[u8], cells: Option<[u16; 2]>) -> String {
+    /// What sends a picture, shows it at the cursor, over so many cells where the size of one is not known, and takes
+    /// the old one away. Only the second depends on the cursor.
+    pub fn draw(&mut self, png: &[u8], cells: Option<[u16; 2]>) -> [String; 3] {
         let next = self.shown.map_or(0, |shown| 1 - shown);
+        let number = self.numbers[next];
         let data = STANDARD.encode(png);
-        let mut text = String::with_capacity(data.len() + data.len() / 256 + 128);
-        // Silent (q), and the cursor stays (C).
-        let _ = write!(text, "\x1b_Ga=T,f=100,t=d,i={},p=1,q=2,C=1", self.numbers[next]);
-        if let Some([columns, rows]) = cells {
-            let _ = write!(text, ",c={columns},r={rows}");
-        }
+        let mut sends = String::with_capacity(data.len() + data.len() / 256 + 128);
         let mut chunks = data.as_bytes().chunks(CHUNK).peekable();
         let mut first = true;
         while let Some(chunk) = chunks.next() {
             let more = u8::from(chunks.peek().is_some());
-            let _ = if first { write!(text, ",m={more};") } else { write!(text, "\x1b_Gm={more},q=2;") };
-            text.push_str(&String::from_utf8_lossy(chunk));
-            text.push_str("\x1b\\");
-            first = false;
+            let keys = if std::mem::take(&mut first) { format!("a=t,f=100,t=d,i={number},") } else { String::new() };
+            // Silent (q).
+            let _ = write!(sends, "\x1b_G{keys}q=2,m={more};{}\x1b\\", String::from_utf8_lossy(chunk));
         }
-        if let Some(old) = self.shown.replace(next) {
-            text.push_str(&self.delete(old));
-        }
-        text
+        let over = cells.map_or(String::new(), |[columns, rows]| format!(",c={columns},r={rows}"));
+        // The cursor stays (C).
+        let shows = format!("\x1b_Ga=p,i={number},p=1,q=2,C=1{over}\x1b\\");
+        let removes = self.shown.replace(next).map_or(String::new(), |old| self.delete(old));
+        [sends, shows, removes]
     }
 
     /// Takes the picture off the screen, and its memory from the terminal.
@@ -131,24 +127,32 @@ mod tests {
         let picture = picture();
         let png = png(&picture).expect("a PNG");
         let mut kitty = Kitty::new();
-        let first = commands(&kitty.draw(&png, None));
+        let [sends, shows, removes] = kitty.draw(&png, None);
+        let first = commands(&sends);
         assert!(first.len() > 3, "in parts");
-        assert!(first[0].0.starts_with("a=T,f=100,t=d,i=") && first[0].0.contains(",q=2,C=1,m=1"), "{}", first[0].0);
+        assert!(first[0].0.starts_with("a=t,f=100,t=d,i=") && first[0].0.ends_with(",q=2,m=1"), "{}", first[0].0);
         let (last, others) = first.split_last().expect("some");
-        assert!(others.iter().all(|(keys, data)| keys.contains("m=1") && data.len() == CHUNK));
-        assert!(last.0.contains("m=0") && last.1.len() <= CHUNK);
+        assert!(others.iter().all(|(keys, data)| keys.ends_with("m=1") && data.len() == CHUNK));
+        assert!(last.0 == "q=2,m=0" && last.1.len() <= CHUNK);
         let data: String = first.iter().map(|(_, data)| data.as_str()).collect();
         assert_eq!(decoded(&STANDARD.decode(data).expect("base64")), picture);
+        let number = |keys: &str| {
+            let number = keys.split(',').find_map(|key| key.strip_prefix("i="));
+            number.expect("a number").to_owned()
+        };
+        let old = number(&first[0].0);
+        assert_eq!(commands(&shows)[0].0, format!("a=p,i={old},p=1,q=2,C=1"));
+        assert_eq!(removes, "");
 
-        let number = |keys: &str| keys.split(',').find(|key| key.starts_with("i=")).expect("a number").to_owned();
-        let second = commands(&kitty.draw(&png, Some([10, 5])));
-        assert!(second[0].0.contains(",c=10,r=5,"), "{}", second[0].0);
-        let (old, new) = (number(&first[0].0), number(&second[0].0));
+        let [sends, shows, removes] = kitty.draw(&png, Some([10, 5]));
+        let new = number(&commands(&sends)[0].0);
         assert_ne!(old, new);
-        assert_eq!(second.last().expect("some").0, format!("a=d,d=I,{old},q=2"));
-        let third = commands(&kitty.draw(&png, None));
-        assert_eq!((number(&third[0].0), &third.last().expect("some").0), (old.clone(), &format!("a=d,d=I,{new},q=2")));
-        assert_eq!(commands(&kitty.clear()), [(format!("a=d,d=I,{old},q=2"), String::new())]);
+        assert_eq!(commands(&shows)[0].0, format!("a=p,i={new},p=1,q=2,C=1,c=10,r=5"));
+        assert_eq!(commands(&removes)[0].0, format!("a=d,d=I,i={old},q=2"));
+        let [sends, _, removes] = kitty.draw(&png, None);
+        assert_eq!(number(&commands(&sends)[0].0), old);
+        assert_eq!(commands(&removes)[0].0, format!("a=d,d=I,i={new},q=2"));
+        assert_eq!(commands(&kitty.clear()), [(format!("a=d,d=I,i={old},q=2"), String::new())]);
         assert_eq!(kitty.clear(), "");
         assert_eq!(commands(&kitty.farewell()).len(), 2);
     }

@@ -9,6 +9,7 @@ mod device;
 mod inline;
 mod input;
 mod layout;
+mod orbit;
 mod scaled;
 mod screen;
 mod signals;
@@ -21,7 +22,7 @@ use crate::camera::{self, Refused, Undo};
 use crate::options::{Host, Options};
 use crate::shared::{Phase, Pose, Shared};
 use crate::{picture, work};
-use ask::{Abilities, Environment, QUESTIONS};
+use ask::{ASKS_KITTY, Abilities, Environment, QUESTIONS};
 use device::{Device, Leaving, Panics, leave};
 use input::{Input, Key, Token};
 use screen::{Screen, View};
@@ -76,11 +77,14 @@ pub fn run(options: Options, host: Box<dyn Host>, wanted: Option<Protocol>) -> i
     let _leaving = Leaving;
     device.enter()?;
     let mut input = Input::default();
-    let (abilities, early) = match asked(&mut device, &mut input, &signals)? {
+    let environment = Environment::of_process();
+    let kitty = if wanted.is_none() && !environment.is_multiplexed() { ASKS_KITTY } else { "" };
+    let questions = format!("{kitty}{QUESTIONS}");
+    let (abilities, early) = match asked(&questions, &mut device, &mut input, &signals)? {
         Answers::Told(abilities, early) => (abilities, early),
         Answers::End(end) => return Ok(end),
     };
-    let screen = Screen::new(&abilities, &Environment::of_process(), wanted, device.size());
+    let screen = Screen::new(&abilities, &environment, wanted, device.size());
     device.on_leaving(screen.farewell());
     let shared = Arc::new(Shared::new(options, host));
     let mut session = Session::new(Arc::clone(&shared), screen);
@@ -101,11 +105,11 @@ enum Answers {
 }
 
 /// Asks the terminal what it can.
-fn asked(device: &mut Device, input: &mut Input, signals: &Signals) -> io::Result<Answers> {
+fn asked(questions: &str, device: &mut Device, input: &mut Input, signals: &Signals) -> io::Result<Answers> {
     let mut abilities = Abilities::default();
     let mut early = Vec::new();
     let until = Instant::now() + PATIENCE;
-    if device.write(QUESTIONS.as_bytes(), || signals.end().is_some() || Instant::now() > until).is_err() {
+    if device.write(questions.as_bytes(), || signals.end().is_some() || Instant::now() > until).is_err() {
         return Ok(Answers::End(End::Gone));
     }
     while let Some(left) = until.checked_duration_since(Instant::now()) {
@@ -273,8 +277,8 @@ impl Session {
             Key::Left | Key::Char('h') => self.orbit(-TURN, 0.0),
             Key::Up | Key::Char('k') => self.orbit(0.0, TURN),
             Key::Down | Key::Char('j') => self.orbit(0.0, -TURN),
-            Key::Char('+' | '=') => self.moved(|pose| camera::dolly(pose, 1.0 / NEARER)),
-            Key::Char('-' | '_') => self.moved(|pose| camera::dolly(pose, NEARER)),
+            Key::Char('+' | '=') => self.moved(|pose| orbit::dolly(pose, 1.0 / NEARER)),
+            Key::Char('-' | '_') => self.moved(|pose| orbit::dolly(pose, NEARER)),
             Key::Char('r') => {
                 self.pose = None;
                 self.shared.order(|orders| orders.pose = Some(None));
@@ -302,7 +306,7 @@ impl Session {
     }
 
     fn orbit(&mut self, right: f64, above: f64) {
-        self.moved(|pose| camera::orbit(pose, right, above));
+        self.moved(|pose| orbit::orbit(pose, right, above));
     }
 
     /// The camera as the person has it: what is rendered is behind while it moves.

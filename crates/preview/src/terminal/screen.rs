@@ -145,17 +145,17 @@ impl Screen {
             Protocol::Kitty | Protocol::Iterm => {
                 let Ok(png) = png(picture) else { return String::new() };
                 let cells = (!self.grid.known).then_some(placed.covered);
-                let words = match self.protocol {
+                let [sends, shows, removes] = match self.protocol {
                     Protocol::Kitty => self.kitty.draw(&png, cells),
-                    _ => iterm(&png, placed.covered),
+                    _ => [String::new(), iterm(&png, placed.covered), String::new()],
                 };
-                // The cursor of the terminal is not that of tmux.
-                if self.tmux {
-                    let [save, restore] = [format!("\x1b7{cursor}"), "\x1b8".to_owned()];
-                    through_tmux(&save) + &self.handed_on(&words) + &through_tmux(&restore)
+                let shows = if self.tmux {
+                    // The cursor of the terminal is not that of tmux, which moves it whenever it likes.
+                    through_tmux(&format!("\x1b7{cursor}{shows}\x1b8"))
                 } else {
-                    cursor + &words
-                }
+                    cursor + &shows
+                };
+                self.handed_on(&sends) + &shows + &self.handed_on(&removes)
             }
         }
     }

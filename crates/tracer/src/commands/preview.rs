@@ -10,7 +10,7 @@ use crate::opening::open;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, encode, save};
 use scene_format::{Override, SceneDesc};
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 use tracer_core::{Film, Look, develop};
@@ -68,6 +68,7 @@ fn in_terminal(
     program: Box<Program>,
     how: TerminalName,
 ) -> Result<ExitCode, Failure> {
+    use std::io::IsTerminal;
     use tracer_preview::terminal::{self, End, Protocol};
     let elsewhere = elsewhere(args);
     if !std::io::stdout().is_terminal() {

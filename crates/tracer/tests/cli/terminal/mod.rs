@@ -73,7 +73,7 @@ fn the_picture_follows_the_file_and_the_terminal_is_left_as_it_was() {
     tty.press("q");
     let (code, bytes) = tty.ends();
     assert_eq!(code, Some(0));
-    assert!(!bytes.windows(6).any(|six| six == b"\x1b_Ga=T"), "no pictures where none can be shown");
+    assert!(!bytes.windows(6).any(|six| six == b"\x1b_Ga=t"), "no pictures where none can be shown");
 }
 
 #[test]
@@ -123,6 +123,19 @@ fn narrow_terminals_and_those_that_change_have_room_for_it() {
     tty.resize([1, 1]);
     tty.resize([9, 2]);
     tty.until(|tty| tty.point(3, 0) == Some(RED));
+    tty.press("q");
+    assert_eq!(tty.ends().0, Some(0));
+}
+
+/// At its own size this would take an hour.
+#[test]
+fn a_picture_is_rendered_no_larger_than_it_is_seen() {
+    let sandbox = sandbox();
+    sandbox.write("wall.ron", SCENE.replace("width: 80, height: 46", "width: 8000, height: 4600"));
+    let mut command = sandbox.command(&["preview", "--terminal", "--samples", "256", "wall.ron"]);
+    let mut tty = Tty::start(quiet(&mut command, TRUE_COLOUR), [80, 24], [0, 0], XTERM);
+    tty.until(|tty| tty.text().contains("256 samples") && tty.text().contains("done in"));
+    assert_eq!((tty.point(0, 0), tty.point(79, 45)), (Some(RED), Some(RED)));
     tty.press("q");
     assert_eq!(tty.ends().0, Some(0));
 }
@@ -207,7 +220,7 @@ fn each_terminal_gets_what_it_can_show() {
     const KITTY: Answers = &[("\x1b_Gi=31", "\x1b_Gi=31;OK\x1b\\"), ("\x1b[c", "\x1b[?62;c")];
     const SIXEL: Answers = &[("\x1b[?2026$p", "\x1b[?2026;2$y"), ("\x1b[c", "\x1b[?62;4;22c")];
     const WEZTERM: Answers = &[("\x1b[>q", "\x1bP>|WezTerm 1\x1b\\"), ("\x1b[c", "\x1b[?65;4c")];
-    let (kitty, sixel, iterm) = ("\x1b_Ga=T,f=100", "\x1bP0;1;0q\"1;1;", "\x1b]1337;File=inline=1");
+    let (kitty, sixel, iterm) = ("\x1b_Ga=t,f=100", "\x1bP0;1;0q\"1;1;", "\x1b]1337;File=inline=1");
     let cases: [(&str, Answers, &str, &str); 6] = [
         ("--terminal", KITTY, kitty, "\x1b_Ga=d"),
         ("--terminal", SIXEL, sixel, "\x1b[?2026h"),
@@ -226,6 +239,8 @@ fn each_terminal_gets_what_it_can_show() {
         let bytes = String::from_utf8_lossy(&bytes).into_owned();
         assert_eq!(code, Some(0), "{how}");
         assert!(bytes.contains(also), "{how}");
+        // What is told is not asked for.
+        assert_eq!(bytes.contains("a=q"), how == "--terminal", "{how}");
         for other in [kitty, sixel, iterm, "▀"].into_iter().filter(|other| *other != picture) {
             assert!(!bytes.contains(other), "{how} has {other:?}");
         }
@@ -236,7 +251,10 @@ fn each_terminal_gets_what_it_can_show() {
     let mut tty = Tty::start(quiet(&mut command, &tmux), [80, 24], [10, 20], KITTY);
     tty.until(|tty| tty.wrote("▀"));
     tty.press("q");
-    assert_eq!(tty.ends().0, Some(0));
+    let (code, bytes) = tty.ends();
+    assert_eq!(code, Some(0));
+    // tmux would take a question for the title of its window.
+    assert!(!bytes.windows(2).any(|two| two == b"\x1b_"), "no words of kitty's");
 }
 
 #[test]
