@@ -45,7 +45,7 @@ pub mod texture;
 
 pub use compile::{CompileError, Kept, check_files, compile, compile_keeping, named_files};
 pub use denoise::{DENOISE_REACH, DenoiseError, Denoised, GUIDES, denoise, lacks as denoise_lacks};
-pub use develop::{Backdrop, Image, Look, develop, develop_denoised, srgb_encode};
+pub use develop::{Backdrop, Image, Look, develop, develop_denoised, srgb_decode, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};

@@ -196,7 +196,10 @@ impl Reader<'_> {
             fault.hint = if value > 2.0 && value.fract() == 0.0 {
                 "channels go from 0 to 1; write \"#rrggbb\" for values up to 255".to_owned()
             } else {
-                "a surface cannot reflect more than it gets".to_owned()
+                match at.name {
+                    "backdrop" => "1 is white paper; nothing on a screen is brighter".to_owned(),
+                    _ => "a surface cannot reflect more than it gets".to_owned(),
+                }
             };
         }
         // Zero and infinity are what other programs write for "no limit".

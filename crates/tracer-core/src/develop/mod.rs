@@ -3,7 +3,7 @@
 mod srgb;
 mod tone_map;
 
-pub use srgb::srgb_encode;
+pub use srgb::{srgb_decode, srgb_encode};
 pub use tone_map::{agx, filmic};
 
 use crate::denoise::Denoised;

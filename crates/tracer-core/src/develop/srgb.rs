@@ -7,6 +7,11 @@ pub fn srgb_encode(linear: f64) -> f64 {
     if linear <= LARGEST_OF_LINE { 12.92 * linear } else { 1.055 * libm::pow(linear, EXPONENT) - 0.055 }
 }
 
+/// Linear light of an sRGB code value, both in 0..=1: the inverse of [`srgb_encode`].
+pub fn srgb_decode(code: f64) -> f64 {
+    if code <= 12.92 * LARGEST_OF_LINE { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) }
+}
+
 /// Up to here the curve is a line.
 const LARGEST_OF_LINE: f64 = 0.003_130_8;
 const EXPONENT: f64 = 1.0 / 2.4;
@@ -85,6 +90,13 @@ mod tests {
         // 18 % grey is code value 118 of 255.
         assert_eq!((srgb_encode(0.18) * 255.0).round(), 118.0);
         assert!((srgb_encode(0.003_130_8) - 0.003_130_8 * 12.92).abs() < 1e-6);
+        for k in 0..=1000 {
+            let x = f64::from(k) / 1000.0;
+            assert!(
+                (srgb_encode(srgb_decode(x)) - x).abs() < 1e-6 && (srgb_decode(srgb_encode(x)) - x).abs() < 1e-6,
+                "{x}"
+            );
+        }
     }
 
     /// Numbers in 0..=1: all ends of the table's parts with their neighbours, and a million in between, as many in each

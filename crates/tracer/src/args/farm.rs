@@ -137,6 +137,7 @@ impl FarmSlurmArgs {
             every: self.every,
             resume: None,
             report: None,
+            open: false,
             stats: false,
             quiet: false,
         }

@@ -18,7 +18,7 @@ use std::fs::File;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, film_faults};
+use tracer_core::{Backdrop, Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, film_faults};
 
 pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     let as_rendered = args.as_render();
@@ -44,6 +44,9 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let look = look(notes).ok_or_else(|| {
         Failure::wrong(format!("{} does not tell how its picture is developed; render it again", first.display()))
     })?;
+    if look.backdrop == Backdrop::Clear {
+        outputs::tell_of_alpha(&outputs, shell);
+    }
     let layers = picture_layers(notes).unwrap_or(film.layers());
     let (image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
     let developed = started.elapsed().as_secs_f64();

@@ -7,4 +7,4 @@ mod picture;
 
 pub use false_colours::{false_colours, magma};
 pub use metrics::{Difference, Metric, Place, difference};
-pub use picture::{Kind, Picture, PictureError};
+pub use picture::{Kind, Picture, PictureError, before_checkerboard};

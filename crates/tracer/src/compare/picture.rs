@@ -3,7 +3,7 @@
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
-use tracer_core::srgb_encode;
+use tracer_core::{srgb_decode, srgb_encode};
 
 /// What the numbers of a picture are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +87,18 @@ impl Picture {
     }
 }
 
+/// The checkerboard that editors show behind pictures with alpha, linear: two greys, so that whatever covers more or
+/// less is another picture, black things and white ones, too.
+fn checkerboard([x, y]: [usize; 2]) -> f64 {
+    if (x / 8 + y / 8) % 2 == 0 { 0.5 } else { 0.25 }
+}
+
+/// A pixel (column, row) of a picture with alpha, sRGB and not multiplied, as it is seen over the checkerboard: sRGB.
+pub fn before_checkerboard(color: [f32; 3], alpha: f32, at: [usize; 2]) -> [f64; 3] {
+    let alpha = f64::from(alpha);
+    color.map(|x| srgb_encode((srgb_decode(x.into()) * alpha + (1.0 - alpha) * checkerboard(at)).clamp(0.0, 1.0)))
+}
+
 fn decode(bytes: &[u8]) -> Result<Picture, String> {
     let format = image::guess_format(bytes).map_err(|_| "it is no PNG, JPEG, EXR, HDR or PFM".to_owned())?;
     let kind = match format {
@@ -105,10 +117,17 @@ fn decode(bytes: &[u8]) -> Result<Picture, String> {
     if width == 0 || height == 0 {
         return Err("it has no pixels".to_owned());
     }
-    let values = if kind == Kind::Display && picture.color().has_alpha() {
-        // As seen before black, so that what covers less is another picture.
+    let values = if picture.color().has_alpha() {
         let pixels = picture.into_rgba32f();
-        pixels.as_raw().as_chunks::<4>().0.iter().flat_map(|&[r, g, b, a]| [r * a, g * a, b * a]).collect()
+        let over = |(k, &[r, g, b, a]): (usize, &[f32; 4])| {
+            let at = [k % width as usize, k / width as usize];
+            match kind {
+                Kind::Display => before_checkerboard([r, g, b], a, at).map(|x| x as f32),
+                // Multiplied already.
+                Kind::Linear => [r, g, b].map(|x| x + (1.0 - a) * checkerboard(at) as f32),
+            }
+        };
+        pixels.as_raw().as_chunks::<4>().0.iter().enumerate().flat_map(over).collect()
     } else {
         picture.into_rgb32f().into_raw()
     };

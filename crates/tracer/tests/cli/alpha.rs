@@ -78,10 +78,41 @@ fn however_it_is_rendered() {
     assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
     render(&["-s", "8", "--part", "1/2", "-o", "one.tracer"]);
     render(&["-s", "8", "--part", "2/2", "-o", "two.tracer"]);
-    sandbox.run(&["merge", "one.tracer", "two.tracer", "-o", "c.png", "-q"]).ends(0);
+    sandbox.run(&["merge", "one.tracer", "two.tracer", "-o", "c.png", "-o", "c.exr", "-q"]).ends(0);
     assert_eq!(sandbox.read("a.png"), sandbox.read("c.png"));
+    // The same channels, too: not one that nobody has asked for.
+    render(&["-s", "8", "-o", "a.exr"]);
+    let layers = |name: &str| {
+        let bytes = sandbox.read(name);
+        let held = |channel: &str| {
+            bytes
+                .windows(channel.len() + 1)
+                .any(|at| at[..channel.len()] == *channel.as_bytes() && at[channel.len()] == 0)
+        };
+        [held("A"), held("alpha.A")]
+    };
+    assert_eq!((layers("a.exr"), layers("c.exr")), ([true, false], [true, false]));
+    sandbox.run(&["merge", "one.tracer", "two.tracer", "-o", "c.hdr"]).ends(0).says(&["HDR files hold no alpha"]);
     render(&["-s", "8", "-o", "d.png", "--denoise"]);
     let [noisy, denoised] = ["a.png", "d.png"].map(|name| open(&sandbox.path(name)).into_rgba8());
     assert!(noisy.pixels().zip(denoised.pixels()).all(|(a, b)| a.0[3] == b.0[3]));
     assert_eq!(denoised.get_pixel(28, 16).0, [0; 4]);
+}
+
+/// Black things that cover more or less are other pictures, in either kind of file; and one picture is the same in both.
+#[test]
+fn what_is_covered_is_compared() {
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.ron", &SCENE.replace("(0.8, 0.1, 0.01)", "0"));
+    for (name, size) in [("a", "4"), ("b", "3")] {
+        let (size, png, exr) = (format!("objects[0].size={size}"), format!("{name}.png"), format!("{name}.exr"));
+        let render = ["render", "scene.ron", "-q", "-s", "16", "--set", "output.alpha=true", "--set", &size];
+        sandbox.run(&[&render[..], &["-o", &png, "-o", &exr]].concat()).ends(0);
+    }
+    for kind in ["png", "exr"] {
+        let [a, b] = ["a", "b"].map(|name| format!("{name}.{kind}"));
+        sandbox.run(&["compare", &a, &b, "--fail-above", "max=0.1"]).ends(1);
+    }
+    // Eight bits of a colour.
+    sandbox.run(&["compare", "a.png", "a.exr", "--fail-above", "max=0.006"]).ends(0);
 }

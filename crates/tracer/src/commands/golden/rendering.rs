@@ -1,5 +1,6 @@
 //! A scene of a folder, rendered as its settings say, with what is known of its noise.
 
+use crate::compare::before_checkerboard;
 use crate::interrupt;
 use crate::loading::with_faults_of_files;
 use crate::write::sha256;
@@ -130,9 +131,15 @@ pub fn make(case: &Case, settings: &Settings, threads: usize, level: Level) -> R
         Some(layer) => codes(layer),
         // As the program writes files: in single precision a value just below a half is rounded up.
         None => {
-            // What is to be laid over another picture is seen before black.
-            let over = |k: usize| image.alpha.as_ref().map_or(1.0, |alpha| f64::from(alpha[k / 3]));
-            image.display.iter().enumerate().map(|(k, &x)| (f64::from(x) * over(k) * 255.0 + 0.5) as u8).collect()
+            let shown: Vec<f64> = match &image.alpha {
+                None => image.display.iter().map(|&x| x.into()).collect(),
+                Some(alpha) => {
+                    let pixels = image.display.as_chunks::<3>().0.iter().zip(alpha).enumerate();
+                    let at = |k: usize| [k % image.width as usize, k / image.width as usize];
+                    pixels.flat_map(|(k, (&color, &alpha))| before_checkerboard(color, alpha, at(k))).collect()
+                }
+            };
+            shown.iter().map(|x| (x * 255.0 + 0.5) as u8).collect()
         }
     };
     let measured = watch.measured(&film, &scene, image.linear);

@@ -54,7 +54,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let read = clock.lap();
 
     let mut scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
-    let written_layers = scene.layers;
+    // Not the one that a backdrop needs, unless it is asked for.
+    let written_layers = tracer_core::layer_set(&desc.output.layers);
     denoising::prepare(&mut scene, args.denoise.is_on())?;
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;

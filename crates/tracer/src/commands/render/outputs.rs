@@ -162,9 +162,15 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
             exr_beside(outputs, args)
         ));
     }
+    if desc.output.alpha {
+        tell_of_alpha(outputs, shell);
+    }
+}
+
+/// Says where alpha goes nowhere.
+pub(in crate::commands) fn tell_of_alpha(outputs: &[Output], shell: &Shell) {
     let clear = |output: &&Output| matches!(output.encoding, Encoding::Hdr | Encoding::Pfm);
-    if desc.output.alpha
-        && let Some(without) = outputs.iter().find(clear)
+    if let Some(without) = outputs.iter().find(clear)
         && shell.verbosity > Verbosity::Quiet
     {
         let name = without.encoding.name().to_uppercase();
