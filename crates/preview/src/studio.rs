@@ -6,6 +6,7 @@ use crate::options::Options;
 use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, State, lock};
 use crate::told::{Told, file_of, told};
 use scene_format::codes;
+use scene_format::desc::{Camera, Projection};
 use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::BTreeMap;
@@ -390,9 +391,21 @@ fn described(desc: &SceneDesc, pose: Option<Pose>, fit: Option<[u32; 2]>, option
         desc.camera.position = position.into();
         desc.camera.look_at = look_at.into();
         desc.camera.up = up.into();
-        desc.camera.fov = fov.into();
+        zoom(&mut desc.camera, fov);
     }
     desc
+}
+
+/// Makes a camera see as much as with this field of view, whatever it says it by; one that sees all around stays.
+fn zoom(camera: &mut Camera, fov: f64) {
+    let tangent = |degrees: f64| (degrees.to_radians() / 2.0).tan();
+    let nearer = tangent(camera.fov.value) / tangent(fov);
+    match (&mut camera.projection, &mut camera.focal_length) {
+        (Projection::Perspective, Some(length)) => length.value *= nearer,
+        (Projection::Perspective, None) => camera.fov = fov.into(),
+        (Projection::Orthographic { height }, _) => height.value /= nearer,
+        (Projection::Panorama | Projection::Fisheye { .. }, _) => {}
+    }
 }
 
 /// The largest size of the same shape that is neither larger nor beyond these bounds.

@@ -103,7 +103,7 @@ fn however_it_is_rendered() {
 #[test]
 fn what_is_covered_is_compared() {
     let sandbox = Sandbox::new();
-    sandbox.write("scene.ron", &SCENE.replace("(0.8, 0.1, 0.01)", "0"));
+    sandbox.write("scene.ron", SCENE.replace("(0.8, 0.1, 0.01)", "0"));
     for (name, size) in [("a", "4"), ("b", "3")] {
         let (size, png, exr) = (format!("objects[0].size={size}"), format!("{name}.png"), format!("{name}.exr"));
         let render = ["render", "scene.ron", "-q", "-s", "16", "--set", "output.alpha=true", "--set", &size];
