@@ -172,9 +172,12 @@ codes! {
     ///
     /// ```ron
     /// Scene(
-    ///     ///     background: 1,
-    ///     ///     background: 0.5,
-    ///     ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// <<<<<<< HEAD
+    ///     background: 1,
+    /// =======
+    ///     background: 0.5,
+    /// >>>>>>> darker
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
     /// )
     /// ```
     MERGE_CONFLICT "E0122" "a merge that was not finished";

@@ -284,9 +284,12 @@ fn fields_of_the_scene_and_of_the_camera() {
     check(&of_scene, |field| scene(field, "", ""));
     let of_camera = [
         ("dof: 1", "ThinLens(aperture: 0.1, focus_distance: 5)"),
-        ("focal_length: 50", "27 for 50 mm"),
-        ("projection: 1", "in perspective"),
-        ("near: 1", "no clip planes"),
+        ("lens: 50", "ThinLens(aperture: 0.1, focus_distance: 5)"),
+        ("zoom: 2", "`focal_length` in millimetres"),
+        ("ortho_scale: 8", "`projection: Orthographic(height: 8)`"),
+        ("latlong: true", "`projection: Panorama`"),
+        ("dome: true", "`projection: Fisheye(fov: 180)`"),
+        ("far: 100", "leave it out"),
         ("direction: (0, 0, -1)", "`look_at`"),
     ];
     check(&of_camera, |field| scene("", field, ""));
