@@ -1,5 +1,5 @@
-//! `tracer farm`, with programs in the place of Slurm's that keep what they are told. `cargo xtask prove slurm` does the
-//! same with Slurm itself.
+//! `tracer farm`, with programs in the place of Slurm's that keep what they are told. `cargo xtask prove slurm` does it
+//! with Slurm itself.
 
 use crate::support::{Ran, Sandbox};
 use serde_json::Value;
@@ -134,7 +134,11 @@ fn parts_and_merge_make_the_picture_of_one_machine() {
     assert!(words.contains(&"--dependency=afterany:1".to_owned()), "{words:?}");
     assert_eq!(words.last(), Some(&format!("{folder}/merge.sh")));
 
-    cluster.0.write("queue", "1|1|RUNNING|n1|0:07|None\n1|2|PENDING||0:00|Priority\n1|3|PENDING||0:00|Priority\n2|N/A|PENDING||0:00|Dependency\n");
+    cluster.0.write(
+        "queue",
+        "1|1|RUNNING|n1|0:07|None\n1|2|PENDING||0:00|Priority\n1|3|PENDING||0:00|Priority\n\
+         2|N/A|PENDING||0:00|Dependency\n",
+    );
     let told = cluster.farm(&["status", &cluster.folder()]).ends(3).out_text();
     for line in [
         "1           running",

@@ -20,7 +20,8 @@ fn start(folder: &Path, path: &str) {
     let port = TcpListener::bind("127.0.0.1:0").and_then(|free| free.local_addr()).expect("a free port").port();
     let daemon = format!(
         "ListenAddress 127.0.0.1:{port}\nHostKey {shown}/host\nAuthorizedKeysFile {shown}/allowed\nStrictModes no\n\
-         UsePAM no\nPidFile none\nPermitRootLogin prohibit-password\nPasswordAuthentication no\nSetEnv PATH={path} {MARK}={shown}\n"
+         UsePAM no\nPidFile none\nPermitRootLogin prohibit-password\nPasswordAuthentication no\n\
+         SetEnv PATH={path} {MARK}={shown}\n"
     );
     fs::write(folder.join("sshd_config"), daemon).expect("a file");
     let client = format!(
@@ -31,7 +32,7 @@ fn start(folder: &Path, path: &str) {
     // Debian's scripts make it before they start sshd, which does not start without.
     fs::create_dir_all("/run/sshd").expect("root");
     let mut sshd = Command::new("/usr/sbin/sshd");
-    sshd.args(["-D", "-e", "-f"]).arg(folder.join("sshd_config")).stdin(Stdio::null());
+    sshd.args(["-D", "-e", "-f"]).arg(folder.join("sshd_config")).stdin(Stdio::null()).stdout(Stdio::null());
     sshd.stderr(fs::File::create(folder.join("sshd.log")).expect("a file"));
     sshd.env(MARK, folder).spawn().expect("sshd");
     let start = Instant::now();
