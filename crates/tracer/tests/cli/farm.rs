@@ -34,7 +34,9 @@ impl Cluster {
         );
         cluster.program(
             "scontrol",
-            "echo \"$@\" >>\"$HERE/scontrol\"; if [ \"$1\" = show ]; then echo 'MaxArraySize = 101'; fi",
+            // As Slurm does, it ends the whole job for a requeue, scontrol and script alike.
+            "echo \"$@\" >>\"$HERE/scontrol\"\n\
+             case $1 in show) echo 'MaxArraySize = 101';; requeue) kill -TERM $PPID $$;; esac",
         );
         cluster.program("scancel", "echo \"$@\" >>\"$HERE/scancel\"");
         cluster
@@ -269,9 +271,12 @@ fn signals_lose_nothing() {
     assert!(cluster.0.text("scontrol").contains("requeue 7_1"));
     let before = held(&cluster, film);
     assert!(before > 0 && !cluster.has("state/1.failed") && !cluster.has("state/1.tries"));
-    // As at a preemption, to all at once: nothing is queued by ourselves, and what was there is gone on with.
+    // As at a preemption: nothing is queued by ourselves, and what was there is gone on with.
     let mut child = cluster.start("part.sh", 1);
-    std::thread::sleep(Duration::from_secs(1));
+    let start = Instant::now();
+    while held(&cluster, film) == before {
+        assert!(start.elapsed() < Duration::from_secs(60), "{}", cluster.log(1));
+    }
     send("TERM", &child);
     assert_eq!(child.wait().expect("it ends").code(), Some(143), "{}", cluster.log(1));
     assert_eq!(cluster.0.text("scontrol").matches("requeue").count(), 1);
