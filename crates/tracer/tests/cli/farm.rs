@@ -1,5 +1,5 @@
-//! `tracer farm`, with programs in the place of Slurm's that keep what they are told. `cargo xtask prove slurm` does the
-//! same with Slurm itself.
+//! `tracer farm`, with programs in the place of Slurm's that keep what they are told. `cargo xtask prove slurm` does it
+//! with Slurm itself.
 
 use crate::support::{Ran, Sandbox};
 use serde_json::Value;
@@ -34,7 +34,9 @@ impl Cluster {
         );
         cluster.program(
             "scontrol",
-            "echo \"$@\" >>\"$HERE/scontrol\"; if [ \"$1\" = show ]; then echo 'MaxArraySize = 101'; fi",
+            // As Slurm does, it ends the whole job for a requeue, scontrol and script alike.
+            "echo \"$@\" >>\"$HERE/scontrol\"\n\
+             case $1 in show) echo 'MaxArraySize = 101';; requeue) kill -TERM $PPID $$;; esac",
         );
         cluster.program("scancel", "echo \"$@\" >>\"$HERE/scancel\"");
         cluster
@@ -134,7 +136,11 @@ fn parts_and_merge_make_the_picture_of_one_machine() {
     assert!(words.contains(&"--dependency=afterany:1".to_owned()), "{words:?}");
     assert_eq!(words.last(), Some(&format!("{folder}/merge.sh")));
 
-    cluster.0.write("queue", "1|1|RUNNING|n1|0:07|None\n1|2|PENDING||0:00|Priority\n1|3|PENDING||0:00|Priority\n2|N/A|PENDING||0:00|Dependency\n");
+    cluster.0.write(
+        "queue",
+        "1|1|RUNNING|n1|0:07|None\n1|2|PENDING||0:00|Priority\n1|3|PENDING||0:00|Priority\n\
+         2|N/A|PENDING||0:00|Dependency\n",
+    );
     let told = cluster.farm(&["status", &cluster.folder()]).ends(3).out_text();
     for line in [
         "1           running",
@@ -265,9 +271,12 @@ fn signals_lose_nothing() {
     assert!(cluster.0.text("scontrol").contains("requeue 7_1"));
     let before = held(&cluster, film);
     assert!(before > 0 && !cluster.has("state/1.failed") && !cluster.has("state/1.tries"));
-    // As at a preemption, to all at once: nothing is queued by ourselves, and what was there is gone on with.
+    // As at a preemption: nothing is queued by ourselves, and what was there is gone on with.
     let mut child = cluster.start("part.sh", 1);
-    std::thread::sleep(Duration::from_secs(1));
+    let start = Instant::now();
+    while held(&cluster, film) == before {
+        assert!(start.elapsed() < Duration::from_secs(60), "{}", cluster.log(1));
+    }
     send("TERM", &child);
     assert_eq!(child.wait().expect("it ends").code(), Some(143), "{}", cluster.log(1));
     assert_eq!(cluster.0.text("scontrol").matches("requeue").count(), 1);

@@ -11,6 +11,7 @@ fn printing() -> Vec<Vec<&'static str>> {
         vec!["render", "scene.ron", "-o", "a.png", "--report", "-"],
         vec!["merge", "b.film", "-q", "-o", "-", "--format", "pfm"],
         vec!["merge", "b.film", "-q", "-o", "c.png", "--report", "-"],
+        vec!["farm", "slurm", "scene.ron", "-o", "d.png", "--parts", "2", "--dry-run"],
         vec!["preview", "scene.ron"],
         vec!["check", "scene.ron"],
         vec!["info", "scene.ron"],

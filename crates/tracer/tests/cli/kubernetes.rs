@@ -1,5 +1,5 @@
-//! The manifests of docs/scale.md: they are read, have no field but those of `batch/v1` and `v1`, obey the rules that its
-//! server has for them, and their commands make the picture.
+//! The manifests of docs/scale.md: they are read, have no field but those of `batch/v1` and `v1`, obey the rules that
+//! its server has for them, and their commands make the picture.
 
 use crate::support::{Sandbox, repository};
 use serde::Deserialize;
@@ -142,8 +142,8 @@ fn the_manifests_of_the_manual_make_the_picture() {
         (spec.completion_mode.as_deref(), spec.completions, spec.parallelism),
         (Some("Indexed"), Some(16), Some(16))
     );
-    // The server's rules: a limit for each index is for indexed Jobs whose pods are never started again in place, as is a
-    // policy for failures, with which pods are replaced when they have failed.
+    // The server's rules: a limit for each index is for indexed Jobs whose pods are never started again in place, as is
+    // a policy for failures, with which pods are replaced when they have failed.
     assert!(spec.backoff_limit_per_index == Some(3) && spec.backoff_limit.is_none());
     assert_eq!(spec.template.spec.restart_policy, "Never");
     assert_eq!(spec.pod_replacement_policy.as_deref(), Some("Failed"));

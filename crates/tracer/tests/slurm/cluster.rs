@@ -16,7 +16,7 @@ pub const NODES: [&str; 2] = ["n1", "n2"];
 /// In that of what belongs to a node; what Slurm starts there has its own word for it.
 const NODE: [&str; 2] = ["TRACER_PROOF_NODE", "SLURMD_NODENAME"];
 /// How long anything may take.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 pub struct Cluster {
     // Before the folder: what still runs writes there.

@@ -20,7 +20,8 @@ fn start(folder: &Path, path: &str) {
     let port = TcpListener::bind("127.0.0.1:0").and_then(|free| free.local_addr()).expect("a free port").port();
     let daemon = format!(
         "ListenAddress 127.0.0.1:{port}\nHostKey {shown}/host\nAuthorizedKeysFile {shown}/allowed\nStrictModes no\n\
-         UsePAM no\nPidFile none\nPermitRootLogin prohibit-password\nPasswordAuthentication no\nSetEnv PATH={path} {MARK}={shown}\n"
+         UsePAM no\nPidFile none\nPermitRootLogin prohibit-password\nPasswordAuthentication no\n\
+         SetEnv PATH={path} {MARK}={shown}\n"
     );
     fs::write(folder.join("sshd_config"), daemon).expect("a file");
     let client = format!(
@@ -31,7 +32,7 @@ fn start(folder: &Path, path: &str) {
     // Debian's scripts make it before they start sshd, which does not start without.
     fs::create_dir_all("/run/sshd").expect("root");
     let mut sshd = Command::new("/usr/sbin/sshd");
-    sshd.args(["-D", "-e", "-f"]).arg(folder.join("sshd_config")).stdin(Stdio::null());
+    sshd.args(["-D", "-e", "-f"]).arg(folder.join("sshd_config")).stdin(Stdio::null()).stdout(Stdio::null());
     sshd.stderr(fs::File::create(folder.join("sshd.log")).expect("a file"));
     sshd.env(MARK, folder).spawn().expect("sshd");
     let start = Instant::now();
@@ -41,44 +42,59 @@ fn start(folder: &Path, path: &str) {
     }
 }
 
-#[test]
-fn parts_over_ssh() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let work = folder.path().join("work");
+/// The lines of the manual on these machines; `more` is set for them, too.
+fn lines_of_the_manual(folder: &Path, path: &str, machines: &str, more: &[(&str, String)]) {
+    let work = folder.join("work");
     for name in ["work", "bin", "home"] {
-        fs::create_dir(folder.path().join(name)).expect("a folder");
+        fs::create_dir(folder.join(name)).expect("a folder");
     }
-    std::os::unix::fs::symlink(TRACER, folder.path().join("bin/tracer")).expect("a link");
-    let path = format!("{}:/usr/local/bin:/usr/bin:/bin", folder.path().join("bin").display());
-    let _reaper = Reaper::new(folder.path());
-    start(folder.path(), &path);
+    std::os::unix::fs::symlink(TRACER, folder.join("bin/tracer")).expect("a link");
     fs::write(work.join("scene.ron"), SCENE.replace("samples: 8", "samples: 16")).expect("a scene");
-    fs::write(work.join("machines"), "2/127.0.0.1\n").expect("a file");
+    fs::write(work.join("machines"), machines).expect("a file");
     let run = |line: &str| {
         let mut shell = Command::new("sh");
-        shell.args(["-euc", line]).current_dir(&work).env("PATH", &path).env("HOME", folder.path().join("home"));
-        shell.env("PARALLEL_SSH", format!("ssh -F {}", folder.path().join("ssh_config").display()));
-        let output = shell.stdin(Stdio::null()).output().expect("a shell");
-        let log = fs::read_to_string(folder.path().join("sshd.log")).unwrap_or_default();
+        // A home of its own, for parallel writes there; not above the scene, for it takes folders there to be elsewhere
+        // on other machines.
+        shell.args(["-euc", line]).current_dir(&work).env("PATH", path).env("HOME", folder.join("home"));
+        let output = shell.envs(more.iter().cloned()).stdin(Stdio::null()).output().expect("a shell");
+        let log = fs::read_to_string(folder.join("sshd.log")).unwrap_or_default();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{line}\n{said}\n{log}");
+    };
+    let parts = || {
+        let files = fs::read_dir(&work).expect("files").flatten();
+        files.filter(|file| file.path().extension().is_some_and(|end| end == "tracer")).count()
     };
     run("tracer render scene.ron -q -o one.exr");
     let lines = manual::block("## GNU parallel over ssh");
     run(&lines);
     let read = |name: &str| fs::read(work.join(name)).expect("a picture");
-    assert_eq!(read("scene.exr"), read("one.exr"));
-    assert_eq!(
-        fs::read_dir(&work)
-            .expect("files")
-            .flatten()
-            .filter(|file| { file.path().extension().is_some_and(|end| end == "tracer") })
-            .count(),
-        16
-    );
+    assert_eq!((read("scene.exr") == read("one.exr"), parts()), (true, 16));
     // The same lines again go on with what is missing.
     fs::remove_file(work.join("scene.exr")).expect("a picture");
     fs::remove_file(work.join("scene.7of16.tracer")).expect("a part");
     run(&lines);
-    assert_eq!(read("scene.exr"), read("one.exr"));
+    assert_eq!((read("scene.exr") == read("one.exr"), parts()), (true, 16));
+}
+
+/// The folders of programs: of ours first.
+fn path(folder: &Path) -> String {
+    format!("{}:/usr/local/bin:/usr/bin:/bin", folder.join("bin").display())
+}
+
+/// Without ssh: parallel takes `:` for the machine that it runs on.
+#[test]
+fn parts_by_gnu_parallel() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    lines_of_the_manual(folder.path(), &path(folder.path()), "2/:\n", &[]);
+}
+
+#[test]
+fn parts_by_gnu_parallel_over_ssh() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = path(folder.path());
+    let _reaper = Reaper::new(folder.path());
+    start(folder.path(), &path);
+    let ssh = format!("ssh -F {}", folder.path().join("ssh_config").display());
+    lines_of_the_manual(folder.path(), &path, "2/127.0.0.1\n", &[("PARALLEL_SSH", ssh)]);
 }

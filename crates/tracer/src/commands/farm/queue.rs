@@ -26,7 +26,9 @@ pub struct Queued {
 impl Queued {
     /// Whether it has a node.
     pub fn is_running(&self) -> bool {
-        !self.state.starts_with("PENDING") && !self.state.starts_with("REQUEUE")
+        const WITH_NODE: [&str; 7] =
+            ["RUNNING", "COMPLETING", "CONFIGURING", "SIGNALING", "STAGE_OUT", "SUSPENDED", "STOPPED"];
+        WITH_NODE.contains(&self.state.as_str())
     }
 }
 

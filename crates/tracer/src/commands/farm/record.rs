@@ -1,4 +1,4 @@
-//! What a farm keeps of itself, and where: its folder has `farm.json`, the scripts, and a folder each for parts, logs and
+//! What a farm keeps of itself, and where: its folder has `farm.json`, the scripts, and folders for parts, logs and
 //! states.
 
 use super::queue;

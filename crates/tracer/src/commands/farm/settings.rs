@@ -20,7 +20,7 @@ pub fn text(path: &Path) -> Result<String, Failure> {
     path.to_str().map(str::to_owned).ok_or_else(|| Failure::wrong(format!("the name {shown} is no UTF-8: rename it")))
 }
 
-/// The record of a farm that has submitted nothing yet. The scene is compiled: what is wrong with it is told here, once,
+/// The record of a farm that has submitted nothing yet. The scene is compiled: what is wrong with it is told here once,
 /// and not by every part.
 ///
 /// # Errors

@@ -14,6 +14,7 @@ use crate::shell::{Shell, counted};
 use crate::write::{is_one_file, save};
 use rayon::prelude::*;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -31,7 +32,9 @@ pub(super) fn run(args: &FarmSlurmArgs, shell: &Shell) -> Result<ExitCode, Failu
     let layout = layout(args)?;
     let scripts = Scripts::new(args, &desc, &layout, &record)?;
     if args.dry_run {
-        print!("{}", dry_run(args, &layout, &scripts)?);
+        let mut out = std::io::stdout().lock();
+        out.write_all(dry_run(args, &layout, &scripts)?.as_bytes())?;
+        out.flush()?;
         return Ok(ExitCode::from(exit::DONE));
     }
     if layout.folder.exists() && !layout.is_farm() && !is_empty(&layout.folder) {

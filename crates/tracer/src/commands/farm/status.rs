@@ -121,7 +121,10 @@ impl<'a> Status<'a> {
     }
 
     fn as_json(&self) -> serde_json::Value {
-        let told = |told: &Told| json!({ "state": told.state.word(), "samples": told.samples, "note": told.note, "log": told.log });
+        let told = |told: &Told| {
+            let Told { state, samples, note, log } = told;
+            json!({ "state": state.word(), "samples": samples, "note": note, "log": log })
+        };
         let of_part = |(k, part): (usize, &Told)| {
             let mut json = told(part);
             json["part"] = (k + 1).into();

@@ -6,7 +6,7 @@ program=@PROGRAM@
 parts=@PARTS@
 retries=@RETRIES@
 pause=@PAUSE@
-threads=${SLURM_CPUS_PER_TASK:-${SLURM_CPUS_ON_NODE:-}}
+threads=${SLURM_CPUS_ON_NODE:-}
 
 say() {
     echo "== $(date -u +%Y-%m-%dT%H:%M:%SZ) merge on ${SLURMD_NODENAME:-$(uname -n)}: $*"

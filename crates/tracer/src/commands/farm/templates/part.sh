@@ -12,7 +12,7 @@ part=$SLURM_ARRAY_TASK_ID
 film=$folder/parts/$(printf '%0@DIGITS@dof%d' "$part" "$parts").tracer
 state=$folder/state/$part
 node=${SLURMD_NODENAME:-$(uname -n)}
-threads=${SLURM_CPUS_PER_TASK:-${SLURM_CPUS_ON_NODE:-}}
+threads=${SLURM_CPUS_ON_NODE:-}
 set -- @RENDER@ \
     --part "$part/$parts" --resume "$film" -o "$film" --every @EVERY@ ${threads:+--threads "$threads"}
 
