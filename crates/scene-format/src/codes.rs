@@ -409,15 +409,15 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes and meshes can.
+    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses,
+    /// arrows and meshes can.
     ///
     /// ```text
     /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a
-    /// `Polygon` do not lie in one plane, or its sides cross; or the path of a `Tube` turns straight back, or one of
-    /// its balls lies within the next. Points that repeat the last one are left out before that.
+    /// `Polygon` do not lie in one plane, or its sides cross. Points that repeat the last one are left out before that.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])

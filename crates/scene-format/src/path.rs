@@ -182,8 +182,14 @@ impl<const N: usize> Span<N> {
     fn direction(&self, t: f64) -> [f64; N] {
         let t2 = t * t;
         let weights = [6.0 * t2 - 6.0 * t, 3.0 * t2 - 4.0 * t + 1.0, 6.0 * t - 6.0 * t2, 3.0 * t2 - 2.0 * t];
-        let along = unit(self.sum(weights)).or_else(|| unit(sub(self.to, self.from)));
-        along.unwrap_or([0.0; N])
+        let (along, chord) = (self.sum(weights), sub(self.to, self.from));
+        if length(along) > NEAR * length(chord) {
+            return unit(along).unwrap_or([0.0; N]);
+        }
+        // It stops to turn straight back: it comes, or leaves, as it bends there.
+        let sign = if t > 0.5 { -1.0 } else { 1.0 };
+        let weights = [12.0 * t - 6.0, 6.0 * t - 4.0, 6.0 - 12.0 * t, 6.0 * t - 2.0].map(|weight| sign * weight);
+        unit(self.sum(weights)).or_else(|| unit(chord)).unwrap_or([0.0; N])
     }
 
     fn sum(&self, weights: [f64; 4]) -> [f64; N] {

@@ -3,7 +3,7 @@
 #![expect(clippy::indexing_slicing, reason = "axes are numbered here")]
 
 use super::axis::stand;
-use super::lathe::turned;
+use super::lathe::Plan;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
 use scene_format::desc::Arrow;
@@ -17,6 +17,9 @@ const HEAD_RADIUS: f64 = 2.5;
 
 /// Its length, over the radius of the shaft.
 const HEAD_LENGTH: f64 = 6.0;
+
+/// A head is as long as the arrow where its length is so but for rounding.
+const LONGER: f64 = 1.0 + 1e-12;
 
 impl Triangulated for Arrow {
     fn noun(&self) -> &'static str {
@@ -43,10 +46,10 @@ impl Triangulated for Arrow {
             return Err(Box::new(fault.expected("`from` and `to` at different places")));
         }
         let head = self.head_length.as_ref().map_or((HEAD_LENGTH * shaft).min(0.5 * whole), |length| length.value);
-        if let Some(length) = self.head_length.as_ref().filter(|length| length.value >= whole) {
+        if let Some(length) = self.head_length.as_ref().filter(|length| length.value > LONGER * whole) {
             let message = format!("the head of the arrow is longer than it: {}", length.value);
             let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(length.span), message);
-            return Err(Box::new(fault.expected(format!("less than the length of the arrow, which is {whole}"))));
+            return Err(Box::new(fault.expected(format!("at most the length of the arrow, which is {whole}"))));
         }
         let wide = self.head_radius.as_ref().map_or(HEAD_RADIUS * shaft, |radius| radius.value);
         if let Some(radius) = self.head_radius.as_ref().filter(|radius| radius.value < shaft) {
@@ -55,11 +58,15 @@ impl Triangulated for Arrow {
             return Err(Box::new(fault.expected(format!("at least the radius of the shaft, which is {shaft}"))));
         }
         let neck = whole - head;
-        let mut profile: Vec<Point> = vec![[0.0, 0.0], [shaft, 0.0], [shaft, neck], [wide, neck], [0.0, whole]];
+        // A head as long as the arrow leaves no shaft.
+        let mut profile: Vec<Point> = match head >= whole / LONGER {
+            true => vec![[0.0, 0.0], [wide, 0.0], [0.0, whole]],
+            false => vec![[0.0, 0.0], [shaft, 0.0], [shaft, neck], [wide, neck], [0.0, whole]],
+        };
         profile.dedup();
-        let segments = self.segments.value;
-        check_count(10 * u64::from(segments), "arrow", span, "fewer `segments`")?;
-        let outline = pieces(&profile, Ends::Open, false, TAU);
-        Ok(stand(turned(&outline, segments, true), from, direction))
+        let (segments, outline) = (self.segments.value, pieces(&profile, Ends::Open, false, TAU));
+        let plan = Plan::new(&outline);
+        check_count(plan.triangles(segments), "arrow", span, "fewer `segments`")?;
+        Ok(stand(plan.turned(segments, true), from, direction))
     }
 }

@@ -10,6 +10,7 @@ mod extrude;
 mod lathe;
 mod outline;
 mod polygon;
+mod skew;
 mod torus;
 mod tube;
 

@@ -1,7 +1,7 @@
 //! Rings with a round section.
 
 use super::axis::stand;
-use super::lathe::turned;
+use super::lathe::Plan;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
 use scene_format::desc::Torus;
@@ -32,7 +32,6 @@ impl Triangulated for Torus {
             return Err(Box::new(fault.expected(format!("at most the radius, which is {radius}"))));
         }
         let segments = self.segments.value;
-        check_count(2 * u64::from(segments) * u64::from(segments), "torus", span, "fewer `segments`")?;
         // From the inside downwards, so that it goes up on the outside.
         let around = |k: u32| {
             let angle = PI + TAU * f64::from(k % segments) / f64::from(segments);
@@ -46,6 +45,8 @@ impl Triangulated for Torus {
             Piece { from, to, directions: [begin, end], number: 0 }
         };
         let section: Vec<Piece> = (0..segments).map(piece).collect();
-        Ok(stand(turned(&section, segments, true), self.center.value, self.axis.value))
+        let plan = Plan::new(&section);
+        check_count(plan.triangles(segments), "torus", span, "fewer `segments`")?;
+        Ok(stand(plan.turned(segments, true), self.center.value, self.axis.value))
     }
 }

@@ -6,7 +6,7 @@ use scene_format::desc::{Arrow, Curve, MaterialRef, Name, PathPoints, Placements
 use scene_format::diagnostic::Span;
 use std::f64::consts::{PI, TAU};
 
-fn tube(points: &[[f64; 3]], radius: Radii, curve: Curve, closed: bool) -> Tube {
+pub(super) fn tube(points: &[[f64; 3]], radius: Radii, curve: Curve, closed: bool) -> Tube {
     Tube {
         points: PathPoints(points.to_vec()).into(),
         radius: radius.into(),
@@ -138,14 +138,11 @@ fn tubes_without_a_path_are_told() {
         format!("{}: {}", fault.code, fault.message)
     };
     let of = |points: &[Vector], radius: Radii, closed: bool| message(&tube(points, radius, Curve::Linear, closed));
-    let [a, b, c] = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    let [a, b] = [[0.0; 3], [1.0, 0.0, 0.0]];
     assert_eq!(of(&[a, a], Radii::All(1.0), false), "E0542: the path of the tube has no extent");
-    assert_eq!(of(&[a, b, a], Radii::All(0.1), true), "E0542: the path of the tube has no extent");
-    assert_eq!(
-        of(&[a, b, c], Radii::Each(vec![0.1, 1.2, 0.1]), false),
-        "E0545: of the balls of the tube at (0, 0, 0) and (1, 0, 0) one lies within the other"
-    );
-    assert_eq!(of(&[a, b, a], Radii::All(0.1), false), "E0545: the tube turns straight back at (1, 0, 0)");
+    let two = "E0542: the path of the closed tube goes through two points only";
+    assert_eq!(of(&[a, b, a], Radii::All(0.1), true), two);
+    assert_eq!(of(&[a, b], Radii::All(0.1), true), two);
     assert_eq!(of(&[a, b], Radii::Each(vec![0.1; 3]), false), "E0206: the tube has 2 points and 3 radii");
 }
 
@@ -179,6 +176,11 @@ fn tori() {
         for (corners, (normals, uvs)) in mesh.triangles.iter().zip(normals.iter().zip(uvs)) {
             for k in 0..3 {
                 let p = mesh.positions[corners[k] as usize];
+                // Next to the axis it is cut finer: there vertices lie on the flat pieces.
+                let part = 256.0 * mesh.uvs[uvs[k] as usize][1];
+                if tube == 2.0 && (part - part.round()).abs() > 1e-3 {
+                    continue;
+                }
                 let [x, y, z] = [p[0] - 1.0, p[1] - 2.0, p[2] - 3.0];
                 // Along the axis, and across it: to the right is (0, 1, 0) x axis = +x, the third is right x axis = (0,
                 // -0.8, 0.6).
@@ -240,6 +242,10 @@ fn arrows() {
     let message = |arrow: &Arrow| arrow.mesh(Span::NONE).expect_err("it is told").message;
     let [up, here] = [[1.0, 2.0, 1.0], [1.0, 1.0, 1.0]];
     assert_eq!(message(&arrow(here, 0.1, None)), "the arrow begins and ends at the same point");
-    assert_eq!(message(&arrow(up, 0.1, Some([0.3, 1.0]))), "the head of the arrow is longer than it: 1");
+    assert_eq!(message(&arrow(up, 0.1, Some([0.3, 1.1]))), "the head of the arrow is longer than it: 1.1");
+    // One that is all head is a cone.
+    let cone = made(&arrow(up, 0.1, Some([0.3, 1.0])));
+    assert_eq!(open_edges(&cone), 0);
+    assert!((volume(&cone) / (PI * 0.09 / 3.0) - 1.0).abs() < 1e-3);
     assert_eq!(message(&arrow(up, 0.1, Some([0.05, 0.5]))), "the head of the arrow is thinner than its shaft: 0.05");
 }

@@ -19,7 +19,8 @@ scene_struct! {
         radius: Spanned<f64> => Rule::length("a length");
         /// Radius of the head; without it 2.5 times that of the shaft.
         head_radius: Option<Spanned<f64>> = None => Rule::length("a length");
-        /// Length of the head; without it 6 radii of the shaft, or half of the arrow where that is less.
+        /// Length of the head; without it 6 radii of the shaft, or half of the arrow where that is less. As long
+        /// as the arrow: it is a cone.
         head_length: Option<Spanned<f64>> = None => Rule::length("a length");
         /// How many flat pieces go round.
         segments: Spanned<u32> = 64u32 => Rule::within("a whole number", 3.0, 4096.0);

@@ -12,11 +12,14 @@ use crate::words::{Told, Words, scene_struct};
 
 scene_struct! {
     /// What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its
-    /// ends are round, and so are its elbows where the points are joined by straight lines. It is made of triangles,
-    /// shaded as round. Where the path bends tighter than the radius it passes through itself, which shows in glass
-    /// only. Texture coordinates: u goes round, v from 0 to 1 by length along it, round ends included.
+    /// ends are round, and so are its elbows where the points are joined by straight lines; a ball that swallows others
+    /// is round, too. It is made of triangles, shaded as round. Where the path bends tighter than the radius, an elbow
+    /// has less room than its inner side takes, or the path turns straight back, it passes through itself, which shows
+    /// in glass and in the `power` of a light only. Texture coordinates: u goes round, v from 0 to 1 by length along
+    /// it, round ends and the outer side of elbows included.
     pub struct Tube as "Tube", "a tube" {
-        /// Two or more points that the middle of the ball passes.
+        /// Two or more points that the middle of the ball passes, three or more of a closed one. Of points that repeat
+        /// the last one, or at the end of a closed one the first, one is left, with the largest radius.
         points: Spanned<PathPoints> => Rule::point();
         /// The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve:
         /// CatmullRom`.
