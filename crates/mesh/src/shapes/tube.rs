@@ -14,11 +14,11 @@
 use super::axis::cross;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
-use scene_format::desc::{Curve, Radii, Tube};
+use scene_format::Diagnostic;
+use scene_format::desc::{Curve, Tube};
 use scene_format::diagnostic::Span;
-use scene_format::path::{Ends, Piece, Point3, distinct, dot, length, pieces, sub, turn, unit};
-use scene_format::{Diagnostic, codes};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use scene_format::path::{Ends, Piece, Point3, dot, length, pieces, sub, turn, unit};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The radius of smooth tubes changes by so much of the way at most: what is steeper is nearly a ball.
 const STEEPEST: f64 = 0.98;
@@ -37,17 +37,7 @@ impl Triangulated for Tube {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let at = if self.points.span == Span::NONE { span } else { self.points.span };
-        let (points, radii) = path(self, span)?;
-        if points.len() < if self.closed { 3 } else { 2 } {
-            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the path of the tube has no extent");
-            let expected = if self.closed {
-                "three points or more that are not the same"
-            } else {
-                "two points that are not the same"
-            };
-            return Err(Box::new(fault.expected(expected)));
-        }
-        check_turns(self, &points, at)?;
+        let (points, radii) = self.path(span)?;
         let segments = self.segments.value;
         let ends = if self.closed { Ends::Joined } else { Ends::Open };
         let pieces = pieces(&points, ends, self.curve == Curve::CatmullRom, TAU / f64::from(segments));
@@ -58,62 +48,6 @@ impl Triangulated for Tube {
         let joints = joints(&pieces, &radii, self);
         Ok(Swept { data: MeshData::default(), segments, closed: self.closed }.swept(&joints))
     }
-}
-
-/// The points that are not the same as those before, and their radii.
-fn path(tube: &Tube, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
-    let written: &[Point3] = &tube.points.value.0;
-    let at = if tube.radius.span == Span::NONE { span } else { tube.radius.span };
-    let of = |k: usize| match &tube.radius.value {
-        Radii::All(radius) => *radius,
-        Radii::Each(radii) => radii[k],
-    };
-    if let Radii::Each(radii) = &tube.radius.value
-        && radii.len() != written.len()
-    {
-        let message = format!("the tube has {} points and {} radii", written.len(), radii.len());
-        let fault = Diagnostic::error(codes::WRONG_COUNT, at, message);
-        return Err(Box::new(fault.expected("one radius, or as many as points")));
-    }
-    let size =
-        [0, 1, 2].map(|axis| written.iter().fold(0.0, |most: f64, p| most.max((p[axis] - written[0][axis]).abs())));
-    let size = size.into_iter().fold(0.0, f64::max);
-    // Of a closed path the first point may stand at the end again.
-    let kept = distinct(written, size, tube.closed);
-    let (points, radii): (Vec<Point3>, Vec<f64>) = kept.into_iter().map(|k| (written[k], of(k))).unzip();
-    let count = points.len();
-    for k in 1..if tube.closed { count + 1 } else { count } {
-        let (one, other) = (k - 1, k % count);
-        let way = length(sub(points[other], points[one]));
-        if (radii[other] - radii[one]).abs() >= way {
-            let shown = |[x, y, z]: Point3| format!("({x}, {y}, {z})");
-            let ends = format!("{} and {}", shown(points[one]), shown(points[other]));
-            let message = format!("of the balls of the tube at {ends} one lies within the other");
-            let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
-            return Err(Box::new(
-                fault
-                    .expected(format!("radii that differ by less than the way of {way}"))
-                    .hint("leave out the point of the smaller one"),
-            ));
-        }
-    }
-    Ok((points, radii))
-}
-
-/// Sees that elbows are less than straight back: there no side is the outer one.
-fn check_turns(tube: &Tube, points: &[Point3], at: Span) -> Result<(), Box<Diagnostic>> {
-    let count = points.len();
-    let elbows = if tube.closed { 0..count } else { 1..count - 1 };
-    for k in elbows.filter(|_| tube.curve == Curve::Linear) {
-        let [before, here, after] = [(k + count - 1) % count, k, (k + 1) % count].map(|k| points[k]);
-        if turn(sub(here, before), sub(after, here)) > PI - 1e-4 {
-            let [x, y, z] = here;
-            let message = format!("the tube turns straight back at ({x}, {y}, {z})");
-            let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
-            return Err(Box::new(fault.expected("a path that goes on").hint("two tubes may end in one point")));
-        }
-    }
-    Ok(())
 }
 
 /// Where pieces of the path meet, or it ends.

@@ -11,6 +11,7 @@ mod fmt;
 mod goals;
 mod golden;
 mod habits;
+mod height_field;
 #[cfg(unix)]
 mod interrupt;
 mod layers;

@@ -1,14 +1,17 @@
 //! Tubes: what a ball passes over along a path.
 
 use super::{Curve, Placements, points};
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
+use crate::path::{Point3, distinct, length, sub, turn};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Told, Words, scene_struct};
+use std::f64::consts::PI;
 
 scene_struct! {
     /// What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its
@@ -58,6 +61,89 @@ impl Told for Tube {
 
 impl ShapeWords for Tube {
     const MANY: &'static str = "tubes";
+}
+
+impl Faulty for Tube {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        self.path(span).err().map(|fault| *fault).into_iter().collect()
+    }
+}
+
+impl Tube {
+    /// The points that are not the same as those before, and their radii; `span`: where it stands.
+    ///
+    /// # Errors
+    /// The diagnostic that says why they are no path.
+    pub fn path(&self, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
+        let at = if self.points.span == Span::NONE { span } else { self.points.span };
+        let (points, radii) = self.balls(span)?;
+        if points.len() < if self.closed { 3 } else { 2 } {
+            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the path of the tube has no extent");
+            let expected = if self.closed {
+                "three points or more that are not the same"
+            } else {
+                "two points that are not the same"
+            };
+            return Err(Box::new(fault.expected(expected)));
+        }
+        self.check_turns(&points, at)?;
+        Ok((points, radii))
+    }
+
+    fn balls(&self, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
+        let written: &[Point3] = &self.points.value.0;
+        let at = if self.radius.span == Span::NONE { span } else { self.radius.span };
+        let of = |k: usize| match &self.radius.value {
+            Radii::All(radius) => *radius,
+            Radii::Each(radii) => radii[k],
+        };
+        if let Radii::Each(radii) = &self.radius.value
+            && radii.len() != written.len()
+        {
+            let message = format!("the tube has {} points and {} radii", written.len(), radii.len());
+            let fault = Diagnostic::error(codes::WRONG_COUNT, at, message);
+            return Err(Box::new(fault.expected("one radius, or as many as points")));
+        }
+        let size =
+            [0, 1, 2].map(|axis| written.iter().fold(0.0, |most: f64, p| most.max((p[axis] - written[0][axis]).abs())));
+        let size = size.into_iter().fold(0.0, f64::max);
+        // Of a closed path the first point may stand at the end again.
+        let kept = distinct(written, size, self.closed);
+        let (points, radii): (Vec<Point3>, Vec<f64>) = kept.into_iter().map(|k| (written[k], of(k))).unzip();
+        let count = points.len();
+        for k in 1..if self.closed { count + 1 } else { count } {
+            let (one, other) = (k - 1, k % count);
+            let way = length(sub(points[other], points[one]));
+            if (radii[other] - radii[one]).abs() >= way {
+                let shown = |[x, y, z]: Point3| format!("({x}, {y}, {z})");
+                let ends = format!("{} and {}", shown(points[one]), shown(points[other]));
+                let message = format!("of the balls of the tube at {ends} one lies within the other");
+                let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
+                return Err(Box::new(
+                    fault
+                        .expected(format!("radii that differ by less than the way of {way}"))
+                        .hint("leave out the point of the smaller one"),
+                ));
+            }
+        }
+        Ok((points, radii))
+    }
+
+    /// An error where a path of straight lines turns straight back.
+    fn check_turns(&self, points: &[Point3], at: Span) -> Result<(), Box<Diagnostic>> {
+        let count = points.len();
+        let elbows = if self.closed { 0..count } else { 1..count - 1 };
+        for k in elbows.filter(|_| self.curve == Curve::Linear) {
+            let [before, here, after] = [(k + count - 1) % count, k, (k + 1) % count].map(|k| points[k]);
+            if turn(sub(here, before), sub(after, here)) > PI - 1e-4 {
+                let [x, y, z] = here;
+                let message = format!("the tube turns straight back at ({x}, {y}, {z})");
+                let fault = Diagnostic::error(codes::BAD_OUTLINE, at, message);
+                return Err(Box::new(fault.expected("a path that goes on").hint("two tubes may end in one point")));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Points of a path.
