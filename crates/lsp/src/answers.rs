@@ -134,7 +134,9 @@ fn is_kind(path: &Path, kind: FileKind) -> bool {
         FileKind::Scene => matches!(extension.as_str(), "ron" | "toml" | "json"),
         FileKind::Placements => matches!(extension.as_str(), "txt" | "csv" | "dat"),
         FileKind::Texture => matches!(extension.as_str(), "png" | "jpg" | "jpeg"),
-        FileKind::Environment => matches!(extension.as_str(), "hdr" | "exr" | "png" | "jpg" | "jpeg"),
+        FileKind::Environment | FileKind::Heights => {
+            matches!(extension.as_str(), "hdr" | "exr" | "png" | "jpg" | "jpeg")
+        }
     }
 }
 

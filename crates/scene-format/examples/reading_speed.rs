@@ -41,13 +41,16 @@ fn scene(syntax: Syntax) -> String {
         ),
         Syntax::Toml => writeln!(
             out,
-            "background = 1\n[materials]\nred = {{ Diffuse = {{ albedo = [0.8, 0.1, 0.1] }} }}\nglass = {{ Transparent = \
+            "background = 1\n[materials]\nred = {{ Diffuse = {{ albedo = [0.8, 0.1, 0.1] }} }}\nglass = {{ Transparent \
+             = \
              {{ ior = 1.5 }} }}\nchrome = {{ Mirror = {{}} }}"
         ),
         Syntax::Json => writeln!(
             out,
-            "{{\n    \"background\": 1,\n    \"materials\": {{ \"red\": {{ \"Diffuse\": {{ \"albedo\": [0.8, 0.1, 0.1] }} }}, \
-             \"glass\": {{ \"Transparent\": {{ \"ior\": 1.5 }} }}, \"chrome\": {{ \"Mirror\": {{}} }} }},\n    \"objects\": ["
+            "{{\n    \"background\": 1,\n    \"materials\": {{ \"red\": {{ \"Diffuse\": {{ \"albedo\": [0.8, 0.1, 0.1] \
+             }} }}, \
+             \"glass\": {{ \"Transparent\": {{ \"ior\": 1.5 }} }}, \"chrome\": {{ \"Mirror\": {{}} }} }},\n    \
+             \"objects\": ["
         ),
     };
     for index in 0..SPHERES {

@@ -256,7 +256,10 @@ codes! {
     /// and scale it by `Scale`.
     ///
     /// ```ron
-    /// Scene(background: 1, objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])])
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])],
+    /// )
     /// ```
     GROUP_DROP "E0211" "a group that is dropped or fitted";
     /// A field stands beside another one that leaves it nothing to say: a `fov` where the camera's projection shows all
@@ -383,8 +386,9 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// here: most often compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again
     /// without it.
     GLTF_EXTENSION "E0513" "a glTF file requires an extension";
-    /// A picture file cannot be decoded as PNG or JPEG.
-    BROKEN_TEXTURE "E0520" "a texture cannot be read";
+    /// The picture of a texture cannot be decoded as PNG or JPEG, or that of a `HeightField` as PNG, JPEG, EXR or HDR,
+    /// or it is too large, too narrow, or has heights that are no numbers.
+    BROKEN_TEXTURE "E0520" "a picture cannot be read";
     /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about
     /// an axis by degrees) or 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.
     ///
@@ -542,7 +546,10 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// and short distances between points meet. Add a point between the two.
     ///
     /// ```ron
-    /// Scene(background: 1, objects: [Lathe(profile: [(0.2, 0), (0.05, 0.16), (0.05, 0.9), (0.2, 1)], curve: CatmullRom)])
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [Lathe(profile: [(0.2, 0), (0.05, 0.16), (0.05, 0.9), (0.2, 1)], curve: CatmullRom)],
+    /// )
     /// ```
     THIN_PROFILE "W0312" "a curve that comes too near to its axis";
     /// The profile of a `Lathe` of glass crosses itself: what is inside of one part is outside of the other, and light

@@ -241,8 +241,10 @@ mod tests {
         for (syntax, before, after) in [
             (
                 Syntax::Ron,
-                format!("// head\nScene(\n  camera: Camera( // all of it\n    // the eye\n    position: (0, 0, 5), // here\n    look_at: [9, 9, 9],\n  ), {rest})"),
-                format!("// head\nScene(\n  camera: Camera( // all of it\n    fov: 30,\n    // the eye\n    position: (1, 2.5, 55), // here\n    look_at: [0, 0.5, 0],\n  ), {rest})"),
+                format!("// head\nScene(\n  camera: Camera( // all of it\n    // the eye\n    position: (0, 0, 5), // \
+                 here\n    look_at: [9, 9, 9],\n  ), {rest})"),
+                format!("// head\nScene(\n  camera: Camera( // all of it\n    fov: 30,\n    // the eye\n    position: \
+                 (1, 2.5, 55), // here\n    look_at: [0, 0.5, 0],\n  ), {rest})"),
             ),
             (
                 Syntax::Ron,
@@ -257,37 +259,46 @@ mod tests {
             (
                 Syntax::Ron,
                 format!("Scene(\r\n\t// first\r\n\t{rest}\r\n)"),
-                format!("Scene(\r\n\tcamera: Camera(position: (1, 2.5, 55), look_at: (0, 0.5, 0), fov: 30),\r\n\t// first\r\n\t{rest}\r\n)"),
+                format!("Scene(\r\n\tcamera: Camera(position: (1, 2.5, 55), look_at: (0, 0.5, 0), fov: 30),\r\n\t// \
+                 first\r\n\t{rest}\r\n)"),
             ),
             (
                 Syntax::Ron,
                 format!("Scene(vars: {{ \"h\": 2 }}, camera: Camera(position: (0, 0, 5), fov: \"=20 * h\"), {rest})"),
-                format!("Scene(vars: {{ \"h\": 2 }}, camera: Camera(look_at: (0, 0.5, 0), position: (1, 2.5, 55), fov: 30), {rest})"),
+                format!("Scene(vars: {{ \"h\": 2 }}, camera: Camera(look_at: (0, 0.5, 0), position: (1, 2.5, 55), fov: \
+                 30), {rest})"),
             ),
             (
                 Syntax::Ron,
-                "{\n  \"camera\": { \"fov\": 50 },\n  \"background\": 1, \"objects\": [{ \"Sphere\": { \"center\": [0, 0, 0], \"radius\": 1 } }]\n}".to_owned(),
-                "{\n  \"camera\": { \"position\": [1, 2.5, 55], \"look_at\": [0, 0.5, 0], \"fov\": 30 },\n  \"background\": 1, \"objects\": [{ \"Sphere\": { \"center\": [0, 0, 0], \"radius\": 1 } }]\n}".to_owned(),
+                "{\n  \"camera\": { \"fov\": 50 },\n  \"background\": 1, \"objects\": [{ \"Sphere\": { \"center\": [0, \
+                 0, 0], \"radius\": 1 } }]\n}".to_owned(),
+                "{\n  \"camera\": { \"position\": [1, 2.5, 55], \"look_at\": [0, 0.5, 0], \"fov\": 30 },\n  \
+                 \"background\": 1, \"objects\": [{ \"Sphere\": { \"center\": [0, 0, 0], \"radius\": 1 } \
+                 }]\n}".to_owned(),
             ),
             (
                 Syntax::Toml,
                 format!("background = 1\n[camera] # the eye\nposition = [0, 0, 5] # here\n\n{spheres}"),
-                format!("background = 1\n[camera] # the eye\nlook_at = [0, 0.5, 0]\nfov = 30\nposition = [1, 2.5, 55] # here\n\n{spheres}"),
+                format!("background = 1\n[camera] # the eye\nlook_at = [0, 0.5, 0]\nfov = 30\nposition = [1, 2.5, 55] \
+                 # here\n\n{spheres}"),
             ),
             (
                 Syntax::Toml,
                 format!("background = 1\ncamera.fov = 50 # wide\n{spheres}"),
-                format!("background = 1\ncamera.fov = 30 # wide\ncamera.position = [1, 2.5, 55]\ncamera.look_at = [0, 0.5, 0]\n{spheres}"),
+                format!("background = 1\ncamera.fov = 30 # wide\ncamera.position = [1, 2.5, 55]\ncamera.look_at = [0, \
+                 0.5, 0]\n{spheres}"),
             ),
             (
                 Syntax::Toml,
                 format!("background = 1\ncamera = {{ fov = 50 }}\n{spheres}"),
-                format!("background = 1\ncamera = {{ position = [1, 2.5, 55], look_at = [0, 0.5, 0], fov = 30 }}\n{spheres}"),
+                format!("background = 1\ncamera = {{ position = [1, 2.5, 55], look_at = [0, 0.5, 0], fov = 30 \
+                 }}\n{spheres}"),
             ),
             (
                 Syntax::Toml,
                 format!("background = 1\n{spheres}"),
-                format!("background = 1\n{spheres}\n[camera]\nposition = [1, 2.5, 55]\nlook_at = [0, 0.5, 0]\nfov = 30\n"),
+                format!("background = 1\n{spheres}\n[camera]\nposition = [1, 2.5, 55]\nlook_at = [0, 0.5, 0]\nfov = \
+                 30\n"),
             ),
         ] {
             let now = written(&before, syntax);

@@ -201,7 +201,8 @@ const SNIPPETS: [(&str, &str, &str); 108] = [
     (
         "Object",
         "Include",
-        "Include(file: \"chair.ron\", vars: { \"height\": 0.6 }, materials: { \"seat\": Diffuse(albedo: \"#803020\") }, \
+        "Include(file: \"chair.ron\", vars: { \"height\": 0.6 }, materials: { \"seat\": Diffuse(albedo: \"#803020\") \
+         }, \
          placements: Ring(count: 4, radius: 1.2))",
     ),
     ("Curve", "Linear", "curve: Linear"),
@@ -224,7 +225,8 @@ const SNIPPETS: [(&str, &str, &str); 108] = [
     (
         "PlacementPattern",
         "Scatter",
-        "placements: Scatter(count: 20, min: (-2, -0.8, -2), max: (2, -0.8, 2), spacing: 0.6, turn: (0, 1, 0), scale: (0.5, 1.5))",
+        "placements: Scatter(count: 20, min: (-2, -0.8, -2), max: (2, -0.8, 2), spacing: 0.6, turn: (0, 1, 0), scale: \
+         (0.5, 1.5))",
     ),
     ("Scene", "Scene", ""),
 ];
@@ -277,7 +279,11 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
         }
         "Object" => {
             object = words.to_owned();
-            files = if kind == "Include" { &[CHAIR] } else { &[TETRAHEDRON] };
+            files = match kind {
+                "Include" => &[CHAIR],
+                "HeightField" => &[CHECKER],
+                _ => &[TETRAHEDRON],
+            };
         }
         "Curve" => object = format!("Lathe(profile: [(0, -1), (1, -0.5), (0.5, 0.5), (0, 1)], {words})"),
         "Instances" => {
@@ -297,7 +303,8 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     }
     let ron = format!(
         "Scene(\n    camera: Camera({camera}),\n    image: Image(width: 64, height: 64),\n    render: \
-         Render({render}),\n{more}    background: {background},\n    lights: [{light}],\n    objects: [\n        {object},\n        \
+         Render({render}),\n{more}    background: {background},\n    lights: [{light}],\n    objects: [\n        \
+         {object},\n        \
          Sphere(center: (0, -1001, 0), radius: 1000),\n    ],\n)\n"
     );
     let choice = choice.trim_end_matches("Words");

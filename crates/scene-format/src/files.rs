@@ -38,6 +38,8 @@ pub enum FileKind {
     Texture,
     /// A picture of all directions.
     Environment,
+    /// A picture of heights.
+    Heights,
     /// A scene, or a library of materials and values.
     Scene,
 }

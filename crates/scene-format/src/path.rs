@@ -295,6 +295,56 @@ fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<(f64, Point)> {
     Some((t, [0, 1].map(|k| a[k] + t * (b[k] - a[k]))))
 }
 
+/// On which side of the line from `a` to `b` a point is, exactly: more than zero to the left.
+pub(crate) fn orientation(a: Point, b: Point, p: Point) -> f64 {
+    let [a, b, p] = [a, b, p].map(|[x, y]| robust::Coord { x, y });
+    robust::orient2d(a, b, p)
+}
+
+/// The first two sides, by their numbers, of which the second begins on the first: within it, or where it begins too;
+/// `None` also where there are too many to tell soon.
+pub(crate) fn touching(sides: &[[Point; 2]]) -> Option<[usize; 2]> {
+    let low = |k: usize, axis: usize| sides[k][0][axis].min(sides[k][1][axis]);
+    let high = |k: usize, axis: usize| sides[k][0][axis].max(sides[k][1][axis]);
+    let begins_on = |one: usize, other: usize| {
+        let ([a, b], [p, _]) = (sides[one], sides[other]);
+        let inside = (0..2).all(|axis| low(one, axis) <= p[axis] && p[axis] <= high(one, axis));
+        a == p || inside && p != b && orientation(a, b, p) == 0.0
+    };
+    let mut order: Vec<usize> = (0..sides.len()).collect();
+    order.sort_by(|&a, &b| low(a, 0).total_cmp(&low(b, 0)));
+    let (mut found, mut pairs): (Option<[usize; 2]>, usize) = (None, 0);
+    for (place, &one) in order.iter().enumerate() {
+        for &other in order[place + 1..].iter().take_while(|&&other| low(other, 0) <= high(one, 0)) {
+            pairs += 1;
+            if pairs > MOST_PAIRS {
+                return None;
+            }
+            if low(other, 1) > high(one, 1) || low(one, 1) > high(other, 1) {
+                continue;
+            }
+            let numbers = [one.min(other), one.max(other)];
+            let ways = [numbers, [numbers[1], numbers[0]]];
+            if let Some(way) = ways.into_iter().find(|&[one, other]| begins_on(one, other))
+                && found.is_none_or(|found| way < found)
+            {
+                found = Some(way);
+            }
+        }
+    }
+    found
+}
+
+/// How often a side goes round a point that is not on it, as far as what is to its right is concerned: the sum over a
+/// ring is 0 outside.
+pub(crate) fn winding([a, b]: [Point; 2], p: Point) -> i32 {
+    match (a[1] <= p[1], b[1] <= p[1]) {
+        (true, false) if orientation(a, b, p) > 0.0 => 1,
+        (false, true) if orientation(a, b, p) < 0.0 => -1,
+        _ => 0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -331,5 +381,24 @@ mod tests {
         let points = [[0.0, 0.0], [0.0, 1e-13], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
         assert_eq!(distinct(&points, 1.0, true), [0, 2, 4]);
         assert_eq!(distinct(&points, 1.0, false), [0, 2, 4, 5]);
+    }
+
+    #[test]
+    fn sides_that_touch_are_found_exactly() {
+        let ring = |points: &[Point]| -> Vec<[Point; 2]> {
+            (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]]).collect()
+        };
+        assert_eq!(touching(&ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])), None);
+        // A corner on the first side, a corner twice, a side that goes back along the last one.
+        assert_eq!(touching(&ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]])), Some([0, 3]));
+        let twice = [[0.0, 0.0], [2.0, 2.0], [4.0, 0.0], [4.0, 4.0], [2.0, 2.0], [0.0, 4.0]];
+        assert_eq!(touching(&ring(&twice)), Some([1, 4]));
+        assert_eq!(touching(&ring(&[[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 3.0]])), Some([0, 2]));
+        // One rounding off is off.
+        let near = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, f64::MIN_POSITIVE], [0.0, 4.0]];
+        assert_eq!(touching(&ring(&near)), None);
+        let square = ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]);
+        let around = |p: Point| square.iter().map(|side| winding(*side, p)).sum::<i32>();
+        assert_eq!([[1.0, 1.0], [-1.0, 0.0], [1.0, 4.5], [5.0, 4.0]].map(around), [1, 0, 0, 0]);
     }
 }

@@ -50,18 +50,22 @@ RON is made for people, TOML for those who have editors for it, JSON for [progra
 - Numbers: `3`, `-0.25`, `1.5e3`, and `1_000` but in JSON; a whole number may stand where any number may.
 - Vectors: `(x, y, z)` or `[x, y, z]`; in TOML and JSON `[x, y, z]`.
 - Colours: `(r, g, b)` linear RGB, one number for grey, or `\"#rrggbb\"` (sRGB).
-- Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML, `{ \"Name\": { \"field\": value } }` in JSON; kinds without
-  fields are `Name`, and in TOML and JSON `\"Name\"`. What is said of values in TOML below holds in JSON, too, where `null` is `\"None\"`.
+- Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML, `{ \"Name\": { \"field\": value } }` in \
+JSON; kinds without
+  fields are `Name`, and in TOML and JSON `\"Name\"`. What is said of values in TOML below holds in JSON, too, where \
+`null` is `\"None\"`.
 - Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
 - Comments: `//` and `/* */` in RON, `#` in TOML, none in JSON.
 - The words `repeat`, `keyframes`, `for` and `let` are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
-  `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`. An object or a light with a `name` that no other has is found by it,
+  `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`. An object or a light with a `name` that no other has \
+is found by it,
   in groups, too: `--set objects.lamp.radius=2`, `--set objects.\"left leg\".size=2`.
 
 ## Expressions
 
-A text that begins with `=` stands for a number, a vector, a colour or a truth value, wherever one may stand; `vars` names values for them:
+A text that begins with `=` stands for a number, a vector, a colour or a truth value, wherever one may stand; `vars` \
+names values for them:
 
 ```ron
 Scene(
@@ -76,11 +80,14 @@ Scene(
 ```
 
 - `vars` stand in any order and may use each other; `--set vars.height=1` sets one from the command line.
-- `+ - * / % ^`, comparisons, `&& || !`; `%` has the divisor's sign; `-2^2` is -4. Vectors go component by component, also with
+- `+ - * / % ^`, comparisons, `&& || !`; `%` has the divisor's sign; `-2^2` is -4. Vectors go component by component, \
+also with
   numbers; `p.x`, `c.r` and `list[0]` are their parts.
-- Functions: `abs sign floor ceil round sqrt exp log`, `sin cos tan asin acos atan atan2(y, x)` in degrees, `min max clamp(x, low, high)
+- Functions: `abs sign floor ceil round sqrt exp log`, `sin cos tan asin acos atan atan2(y, x)` in degrees, `min max \
+clamp(x, low, high)
   mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `keyframes(t, t0, value0, t1, value1, ..)`
-  (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, value)`,
+  (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, \
+value)`,
   `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`.
 
 `Repeat`, an item of any list, puts its items into the list so many times; `i`, or what `index` says, counts from 0:
@@ -90,18 +97,22 @@ Scene(
     background: 1,
     objects: [
         Repeat(count: 12, vars: { \"turn\": \"=30*i\" }, items: [
-            Sphere(center: \"=3*(cos(turn), 0, sin(turn))\", radius: \"=0.2 + 0.02*i\", material: Diffuse(albedo: \"=hsv(turn, 0.6, 0.9)\")),
+            Sphere(center: \"=3*(cos(turn), 0, sin(turn))\", radius: \"=0.2 + 0.02*i\", material: Diffuse(albedo: \
+\"=hsv(turn, 0.6, 0.9)\")),
         ]),
         Box(size: 0.2, placements: [Repeat(count: 5, index: \"k\", items: [[Translate((\"=k - 2\", 0, 0))]])]),
     ],
 )
 ```
 
-- `count` up to a million, `vars` reckoned anew each time, `Repeat`s within each other up to eight deep. Names within hide those around.
-- `Pick(from: [..], index: ..)` stands for one of its values, any kind of value, counted from 0; after the last the first follows again:
+- `count` up to a million, `vars` reckoned anew each time, `Repeat`s within each other up to eight deep. Names within \
+hide those around.
+- `Pick(from: [..], index: ..)` stands for one of its values, any kind of value, counted from 0; after the last the \
+first follows again:
   `material: Pick(from: [\"red\", \"blue\"], index: \"=i\")`. Those that are not picked are not read.
 - With a count of 0 its items are not read. `--set` reaches nothing within; it sets the `vars` that it goes by.
-- Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every machine.
+- Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every \
+machine.
 
 ## Groups and other files
 
@@ -111,7 +122,8 @@ A `Group` is moved and copied as one; what has no material in it takes the group
 Scene(
     background: 1,
     objects: [
-        Group(name: \"chairs\", material: Diffuse(albedo: \"#804020\"), placements: Ring(count: 4, radius: 1), objects: [
+        Group(name: \"chairs\", material: Diffuse(albedo: \"#804020\"), placements: Ring(count: 4, radius: 1), \
+objects: [
             Box(center: (0, 0.45, 0), size: (0.45, 0.05, 0.45)),
             Box(center: (0, 0.75, 0.2), size: (0.45, 0.3, 0.04)),
             Group(placements: Grid(count: (2, 1, 2), spacing: (0.38, 1, 0.38)), objects: [
@@ -122,29 +134,39 @@ Scene(
 )
 ```
 
-- An object's own `transform` and `placements` come first, then those of the group around it, then those of the group around that: up to
-  sixteen deep, and a hundred million objects in all, copies counted. Copies of meshes share their triangles as they do elsewhere.
-- Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group has no `DropTo` and no `FitTo`.
+- An object's own `transform` and `placements` come first, then those of the group around it, then those of the group \
+around that: up to
+  sixteen deep, and a hundred million objects in all, copies counted. Copies of meshes share their triangles as they \
+do elsewhere.
+- Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group \
+has no `DropTo` and no `FitTo`.
 
-`include: [\"house.ron\"]` at the scene's top takes `vars` and `materials` of other files. Among the objects, `Include(file: \"chair.ron\", vars: {
-\"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's objects and lights.
+`include: [\"house.ron\"]` at the scene's top takes `vars` and `materials` of other files. Among the objects, \
+`Include(file: \"chair.ron\", vars: {
+\"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's \
+objects and lights.
 
-- Names of the including file win against those of `include`, and of two files those of the later; their expressions see the names that won.
-- An `Include` has names of its own: it sees no `vars` and materials of this scene, nor this scene its. `vars` and `materials` give names that
+- Names of the including file win against those of `include`, and of two files those of the later; their expressions \
+see the names that won.
+- An `Include` has names of its own: it sees no `vars` and materials of this scene, nor this scene its. `vars` and \
+`materials` give names that
   it has other values. Its camera, picture, background and settings are not taken.
-- Files may be in any syntax, whatever this one is. Paths in a file start from its own folder. Files may include others, eight deep, 256 in all, and
+- Files may be in any syntax, whatever this one is. Paths in a file start from its own folder. Files may include \
+others, eight deep, 256 in all, and
   not themselves. Messages say where a file is included; `tracer preview` renders again when one changes.
 
 ## Placements files
 
-`placements: \"copies.txt\"` takes many copies of an object from a text file, one a line. Numbers are parted by blanks or commas, `#` begins a
+`placements: \"copies.txt\"` takes many copies of an object from a text file, one a line. Numbers are parted by blanks \
+or commas, `#` begins a
 comment, empty lines are passed over. How many numbers stand on a line says what they are:
 
 | numbers | placement |
 |---|---|
 | 3 | moves by `x y z` |
 | 4 | moves by `x y z`, after scaling by one factor |
-| 8 | moves by `x y z`, after scaling by one factor, after that turned about an axis (three numbers, any length) by an angle in degrees |
+| 8 | moves by `x y z`, after scaling by one factor, after that turned about an axis (three numbers, any length) by an \
+angle in degrees |
 | 12 | a matrix of 3 rows and 4 columns, row by row; the last number of each row moves |
 
 ```text
@@ -163,16 +185,21 @@ A mesh from an OBJ file without a `material` in the scene has those of its MTL f
 
 | MTL | material |
 |---|---|
-| `illum` 4, 6, 7 or 9, or `d` below 1 (or `Tr` above 0 without `d`) | `Transparent`: `ior` is `Ni` (1.5 where there is none), `transmittance` is `Tf` |
+| `illum` 4, 6, 7 or 9, or `d` below 1 (or `Tr` above 0 without `d`) | `Transparent`: `ior` is `Ni` (1.5 where there \
+is none), `transmittance` is `Tf` |
 | else `illum` 3 or 5, and `Ks` not black | `Mirror`: `reflectance` is `Ks` (1 where there is none) |
-| else `Ks` not black and `Ns` above 0, `illum` neither 0 nor 1 | `BlinnPhong`: `albedo` is `Kd` + `Ks`, `specular` the share of `Ks` in it, `exponent` is `Ns` |
+| else `Ks` not black and `Ns` above 0, `illum` neither 0 nor 1 | `BlinnPhong`: `albedo` is `Kd` + `Ks`, `specular` \
+the share of `Ks` in it, `exponent` is `Ns` |
 | else | `Diffuse`: `albedo` is `Kd` (0.8 where there is none) |
 
-`map_Kd` replaces the albedo by a picture. Colours are linear RGB. `Ka` is passed over, since light from all around is computed here. All
-else (`Ke`, other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' names: what shines is an object
+`map_Kd` replaces the albedo by a picture. Colours are linear RGB. `Ka` is passed over, since light from all around is \
+computed here. All
+else (`Ke`, other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' \
+names: what shines is an object
 with `material: Emissive(radiance: ..)`.
 
-Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 tells of meshes that
+Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 \
+tells of meshes that
 are inside out).
 
 ## From programs
@@ -203,11 +230,14 @@ with open(\"balls.json\", \"w\") as file:
 subprocess.run([\"tracer\", \"render\", \"balls.json\", \"-o\", \"balls.png\"], check=True)
 ```
 
-`tracer render - -o balls.png` takes the scene from standard input. What is wrong with it is told with its line and column, as in any
-scene; `--diagnostics json` says so to programs. Where a field may be `None`, `null` is that; elsewhere it is a fault: leave the field out
+`tracer render - -o balls.png` takes the scene from standard input. What is wrong with it is told with its line and \
+column, as in any
+scene; `--diagnostics json` says so to programs. Where a field may be `None`, `null` is that; elsewhere it is a fault: \
+leave the field out
 to get its default.
 
-In Rust, `SceneDesc` of the crate `scene-format` and all that is in it are `Serialize` and `Deserialize`: `serde_json`, `ron` and `toml` write
+In Rust, `SceneDesc` of the crate `scene-format` and all that is in it are `Serialize` and `Deserialize`: \
+`serde_json`, `ron` and `toml` write
 scenes that `tracer` reads, and read those that include no others.
 
 ## In an editor
@@ -215,16 +245,19 @@ scenes that `tracer` reads, and read those that include no others.
 `tracer lsp` is a language server for scenes in all syntaxes ([how](editors.md)). Without it:
 
 `tracer schema > scene.schema.json` writes a JSON Schema (draft-07) with all descriptions, defaults and ranges. With
-[taplo](https://taplo.tamasfe.dev) (the extension Even Better TOML in VS Code; its language server in others) an editor completes the
+[taplo](https://taplo.tamasfe.dev) (the extension Even Better TOML in VS Code; its language server in others) an \
+editor completes the
 words of a TOML scene, explains them and marks what is wrong, if the scene's first line names the schema:
 
 ```toml
 #:schema ./scene.schema.json
 ```
 
-On the command line `taplo check scene.toml` says the same. A JSON scene names it by `\"$schema\": \"./scene.schema.json\"`, which most
+On the command line `taplo check scene.toml` says the same. A JSON scene names it by `\"$schema\": \
+\"./scene.schema.json\"`, which most
 editors know. For RON, and for what a schema cannot tell (names that are missing, files),
-an editor can run `tracer check scene.ron --diagnostics json`: one JSON object a line, with the bytes, lines and columns of each fault
+an editor can run `tracer check scene.ron --diagnostics json`: one JSON object a line, with the bytes, lines and \
+columns of each fault
 and of the edit that mends it.
 ";
 
@@ -244,7 +277,8 @@ pub fn diagnostics_reference() -> String {
 This file is generated from `crates/scene-format/src/codes.rs`; a test fails when it differs
 (`UPDATE_EXPECT=1 cargo test -p scene-format` writes it anew). `tracer explain E0301` prints one of these.
 
-`E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files; `W` warnings. A code never changes its meaning.
+`E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files; `W` warnings. A code never changes \
+its meaning.
 "
     .to_owned();
     for code in CODES {

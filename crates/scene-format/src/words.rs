@@ -125,7 +125,10 @@ macro_rules! scene_struct {
                 _at: &'static $crate::schema::FieldDef,
             ) -> Option<Self> {
                 let mut fields = reader.fields(item, &Self::DEF)?;
-                $( let $field: Option<$ty> = reader.field(&mut fields, $crate::words::default_value!($ty $(, $default)?)); )*
+                $(
+                    let default: Option<fn() -> $ty> = $crate::words::default_value!($ty $(, $default)?);
+                    let $field: Option<$ty> = reader.field(&mut fields, default);
+                )*
                 Some(Self { $($field: $field?,)* })
             }
 

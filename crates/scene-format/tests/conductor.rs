@@ -6,7 +6,8 @@ use std::path::Path;
 
 fn load(material: &str) -> Result<Conductor, Vec<(String, String)>> {
     let text = format!(
-        "Scene(camera: Camera(position: (0, 1, 5)), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1, material: {material})])"
+        "Scene(camera: Camera(position: (0, 1, 5)), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1, \
+         material: {material})])"
     );
     match load_str("metal.ron", &text, Syntax::Ron, Path::new(""), &[]) {
         Ok(loaded) => match loaded.scene.objects[0].value.material() {

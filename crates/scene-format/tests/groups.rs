@@ -89,7 +89,9 @@ fn what_is_written_again_says_the_same() {
 #[test]
 fn a_group_without_a_place_of_its_own_leaves_no_trace() {
     let plain = r#"Scene(background: 1, objects: [Box(material: Mirror()), Sphere(center: (0, 0, 0), radius: 1)])"#;
-    let grouped = r#"Scene(background: 1, objects: [Group(objects: [Group(objects: [Box()], material: Mirror()), Sphere(center: (0, 0, 0), radius: 1)])])"#;
+    let grouped = r#"Scene(background: 1,
+        objects: [Group(objects: [Group(objects: [Box()], material: Mirror()),
+                Sphere(center: (0, 0, 0), radius: 1)])])"#;
     assert_eq!(hash_hex(&read(plain, Syntax::Ron)), hash_hex(&read(grouped, Syntax::Ron)));
 }
 
@@ -107,7 +109,8 @@ fn groups_stand_sixteen_deep() {
 fn a_hundred_million_objects_are_the_most() {
     let copied = |count: u32| {
         format!(
-            "Scene(background: 1, objects: [Group(placements: Grid(count: (1000, 1, 1000)), objects: [Box(placements: Ring(count: {count}, radius: 1))])])"
+            "Scene(background: 1, objects: [Group(placements: Grid(count: (1000, 1, 1000)), objects: [Box(placements: \
+             Ring(count: {count}, radius: 1))])])"
         )
     };
     assert!(errors(&copied(100), Syntax::Ron).is_empty());
@@ -178,9 +181,11 @@ fn a_name_that_none_or_several_have_is_told_with_those_that_there_are() {
 
 #[test]
 fn a_pick_is_the_value_that_it_picks() {
-    let picked = r##"Scene(background: 1, materials: { "red": Pick(from: [Mirror(), Diffuse(albedo: "#ff0000")], index: -1) }, objects: [
+    let picked = r##"Scene(background: 1,
+        materials: { "red": Pick(from: [Mirror(), Diffuse(albedo: "#ff0000")], index: -1) }, objects: [
         Repeat(count: 3, items: [
-            Pick(from: [Box(center: "=(i, 0, 0)"), Sphere(center: (0, 0, 0), radius: Pick(from: [1, 2], index: "=i"))], index: "=i"),
+            Pick(from: [Box(center: "=(i, 0, 0)"),
+                Sphere(center: (0, 0, 0), radius: Pick(from: [1, 2], index: "=i"))], index: "=i"),
         ]),
         Box(material: Pick(from: ["red"], index: 5), transform: [Translate(Pick(from: [(1, 2, 3)], index: 0))]),
     ])"##;

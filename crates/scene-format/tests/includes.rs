@@ -69,7 +69,8 @@ fn an_included_scene_has_names_and_paths_of_its_own() {
         background: 1,
         vars: { "height": 7, "shade": 1 },
         materials: { "seat": Mirror() },
-        objects: [Sphere(center: (0, "=height*shade", 0), radius: 1, material: "seat"), Include(file: "scenes/chair.ron")],
+        objects: [Sphere(center: (0, "=height*shade", 0), radius: 1, material: "seat"),
+            Include(file: "scenes/chair.ron")],
     )"#;
     let loaded = room("names", text).expect("a scene");
     assert_eq!(loaded.warnings, Vec::new());
@@ -95,7 +96,8 @@ fn vars_and_materials_are_given_for_its_own() {
         objects: [
             Include(file: "scenes/chair.ron", vars: { "height": "=2*3", "shade": 0.5 },
                 materials: { "seat": "oak", "back": Diffuse(albedo: 0.9) }, placements: Ring(count: 4, radius: 3)),
-            Repeat(count: 2, items: [Include(file: "scenes/chair.ron", vars: { "height": "=i" }, transform: [Translate(("=i", 0, 0))])]),
+            Repeat(count: 2, items: [Include(file: "scenes/chair.ron", vars: { "height": "=i" },
+                transform: [Translate(("=i", 0, 0))])]),
         ],
     )"##;
     let loaded = room("given", text).expect("a scene");
@@ -199,12 +201,14 @@ fn a_file_without_its_list_is_one_error() {
         (
             "a.ron",
             Syntax::Ron,
-            r#"Scene(background: 1, include: "wood.toml", objects: [Sphere(center: (0, 0, 0), radius: "=shade", material: "wood")])"#,
+            r#"Scene(background: 1, include: "wood.toml",
+                objects: [Sphere(center: (0, 0, 0), radius: "=shade", material: "wood")])"#,
         ),
         (
             "a.toml",
             Syntax::Toml,
-            "background = 1\ninclude = \"wood.toml\"\n[[objects]]\nSphere = { center = [0, 0, 0], radius = \"=shade\", material = \"wood\" }\n",
+            "background = 1\ninclude = \"wood.toml\"\n[[objects]]\nSphere = { center = [0, 0, 0], radius = \"=shade\", \
+             material = \"wood\" }\n",
         ),
     ] {
         let wood = "[vars]\nshade = 0.25\n[materials]\nwood = { Mirror = {} }\n";

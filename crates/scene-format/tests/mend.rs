@@ -46,7 +46,8 @@ fn broken_scenes_get_fewer_errors_or_stay_as_they_are() {
 /// A scene with one object that is written so.
 fn with_object(object: &str) -> String {
     format!(
-        "Scene(\n    background: 1,\n    objects: [\n        Sphere(center: (0, 0, 0), radius: 1),\n{object}\n    ],\n)\n"
+        "Scene(\n    background: 1,\n    objects: [\n        Sphere(center: (0, 0, 0), radius: 1),\n{object}\n    \
+         ],\n)\n"
     )
 }
 
@@ -56,18 +57,46 @@ fn constructs_of_other_languages_are_told_once_and_left_as_they_are() {
     let mut wrong = Vec::new();
     let in_ron = [
         (
-            with_object("        for i in 0..8 { Group(\n            items: [Sphere(center: (0, i, 0), radius: 1)],\n        ) }"),
+            with_object(
+                "        for i in 0..8 { Group(\n            items: [Sphere(center: (0, i, 0), radius: \
+             1)],\n        ) }",
+            ),
             "Repeat(count: 8, items: [..])",
         ),
         (with_object("        for k in range(3): Sphere(center: (0, 0, 0), radius: 1),"), "index: \"k\""),
-        (with_object("        sphere { <0, 1, 0>, 1 pigment { color rgb <1, 0, 0> } }"), "Sphere(center: (x, y, z), radius: ..)"),
-        (with_object("        sphere {\n            <0, 1, 0>, 1\n            pigment { color rgb <1, 0, 0> }\n        }"), "Sphere(center:"),
-        (with_object("        torus { 1, 0.2 rotate <90, 0, 0> }"), "Mesh(file:"),
+        (
+            with_object("        sphere { <0, 1, 0>, 1 pigment { color rgb <1, 0, 0> } }"),
+            "Sphere(center: (x, y, z), \
+         radius: ..)",
+        ),
+        (
+            with_object(
+                "        sphere {\n            <0, 1, 0>, 1\n            pigment { color rgb <1, 0, 0> }\n        \
+         }",
+            ),
+            "Sphere(center:",
+        ),
+        (with_object("        torus { 1, 0.2 rotate <90, 0, 0> }"), "Torus(radius:"),
         (with_object("        julia_fractal { <-0.08, 0, -0.8, -0.03> }"), "tracer explain Object"),
         (with_object("        #declare R = 2;"), "`vars`"),
-        (with_object("        Sphere(center: (0, 0, 0), radius: 1, material: texture { pigment { rgb <1, 0, 0> } }),"), "Diffuse(albedo:"),
-        ("Scene(background: 1, objects: [Sphere(center: (i, 0, 0), radius: 1) for i in range(8)])".to_owned(), "count: 8"),
-        ("Scene(\n    camera { location <0, 1, 5> look_at <0, 0, 0> }\n    background: 1,\n    objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)".to_owned(), "camera: Camera("),
+        (
+            with_object(
+                "        Sphere(center: (0, 0, 0), radius: 1, material: texture { pigment { rgb <1, 0, 0> } \
+         }),",
+            ),
+            "Diffuse(albedo:",
+        ),
+        (
+            "Scene(background: 1, objects: [Sphere(center: (i, 0, 0), radius: 1) for i in range(8)])".to_owned(),
+            "count: \
+         8",
+        ),
+        (
+            "Scene(\n    camera { location <0, 1, 5> look_at <0, 0, 0> }\n    background: 1,\n    objects: \
+         [Sphere(center: (0, 0, 0), radius: 1)],\n)"
+                .to_owned(),
+            "camera: Camera(",
+        ),
     ];
     for (text, way) in in_ron {
         check(&text, Syntax::Ron, way, &mut wrong);
@@ -85,7 +114,8 @@ fn constructs_of_other_languages_are_told_once_and_left_as_they_are() {
             "{ Sphere = { center = [0, 0, 0], radius = 1 } }",
         ),
         (
-            "background = 1\ncamera = Camera(\n    fov: 40,\n)\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1 }\n",
+            "background = 1\ncamera = Camera(\n    fov: 40,\n)\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1 \
+             }\n",
             "{ fov = 40 }",
         ),
         ("background = 1\n[[objects]]\nsphere { <0, 1, 0>, 1 }\n", "{ Sphere = { center = [x, y, z], radius = .. } }"),

@@ -263,19 +263,44 @@ const MISTAKES: &[Mistake] = mistakes![
     ALL "a number between quotes" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("\"{}\"", s.here())) };
     ALL "a unit" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}deg", s.here())) };
     ALL "a unit after a space" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{} cm", s.here())) };
-    ALL "a decimal comma" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('.'))?; s.becomes(s.here().replace('.', ",")) };
-    ALL "two points" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes(format!("{}.5.1", s.here().split('.').next()?)) };
-    ALL "a sign apart" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with('-'))?; s.becomes(s.here().replacen('-', "- ", 1)) };
-    ALL "a letter for a digit" |s| { when(s.is(0, Kind::Number, &[]) && s.here().contains('0'))?; s.becomes(s.here().replacen('0', "O", 1)) };
-    TOML "no digit before the point" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?; s.becomes(&s.here()[1..]) };
-    TOML "a leading zero" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?; s.becomes(format!("0{}", s.here())) };
+    ALL "a decimal comma" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().contains('.'))?;
+        s.becomes(s.here().replace('.', ","))
+    };
+    ALL "two points" |s| {
+        when(s.is(0, Kind::Number, &[]))?;
+        s.becomes(format!("{}.5.1", s.here().split('.').next()?))
+    };
+    ALL "a sign apart" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().starts_with('-'))?;
+        s.becomes(s.here().replacen('-', "- ", 1))
+    };
+    ALL "a letter for a digit" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().contains('0'))?;
+        s.becomes(s.here().replacen('0', "O", 1))
+    };
+    TOML "no digit before the point" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?;
+        s.becomes(&s.here()[1..])
+    };
+    TOML "a leading zero" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?;
+        s.becomes(format!("0{}", s.here()))
+    };
     ALL "one number short" |s| {
         when(s.is_vector())?;
         let end = s.token(4)?.at.start..s.token(5)?.at.end;
         Some((end, String::new()))
     };
-    ALL "one number too many" |s| { when(s.is_vector())?; let last = s.token(5)?.at.clone(); Some((last.end..last.end, ", 1".to_owned())) };
-    ALL "a number for a vector" |s| { when(s.is_vector() && s.is(-2, Kind::Word, &["center", "position", "look_at", "axis"]))?; Some((s.through(6)?, "1".to_owned())) };
+    ALL "one number too many" |s| {
+        when(s.is_vector())?;
+        let last = s.token(5)?.at.clone();
+        Some((last.end..last.end, ", 1".to_owned()))
+    };
+    ALL "a number for a vector" |s| {
+        when(s.is_vector() && s.is(-2, Kind::Word, &["center", "position", "look_at", "axis"]))?;
+        Some((s.through(6)?, "1".to_owned()))
+    };
     // Names.
     ALL "a field with a capital" |s| {
         when(s.is_field() && s.index > 0 && !s.sign(-1, &["."]))?;
@@ -284,7 +309,10 @@ const MISTAKES: &[Mistake] = mistakes![
         s.becomes(name)
     };
     ALL "a field in capitals" |s| { when(s.is_field())?; s.becomes(s.here().to_uppercase()) };
-    ALL "a field with a hyphen" |s| { when(s.is_field() && s.here().contains('_') && s.sign(1, &["="]))?; s.becomes(s.here().replace('_', "-")) };
+    ALL "a field with a hyphen" |s| {
+        when(s.is_field() && s.here().contains('_') && s.sign(1, &["="]))?;
+        s.becomes(s.here().replace('_', "-"))
+    };
     RON "a hyphen in RON" |s| { when(s.is_field() && s.here().contains('_'))?; s.becomes(s.here().replace('_', "-")) };
     ALL "a field in camel case" |s| {
         when(s.is_field() && s.here().contains('_'))?;
@@ -320,14 +348,18 @@ const MISTAKES: &[Mistake] = mistakes![
     RON "# for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "#", 1)) };
     TOML "// for #" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen('#', "//", 1)) };
     RON "/ for //" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen("//", "/", 1)) };
-    ALL "-- for a comment" |s| { when(s.is(0, Kind::Comment, &[]))?; s.becomes(s.here().replacen(['/', '#'], "--", 1).replacen("--/", "--", 1)) };
+    ALL "-- for a comment" |s| {
+        when(s.is(0, Kind::Comment, &[]))?;
+        s.becomes(s.here().replacen(['/', '#'], "--", 1).replacen("--/", "--", 1))
+    };
     // Lines of TOML.
     TOML "a table for an item of a list" |s| {
         when(s.sign(0, &["["]) && s.sign(1, &["["]) && s.is(2, Kind::Word, &[]) && s.sign(4, &["]"]))?;
         Some((s.through(4)?, format!("[{}]", &s.text[s.token(2)?.at.clone()])))
     };
     TOML "an item of a list for a table" |s| {
-        when(s.sign(0, &["["]) && s.is(1, Kind::Word, &[]) && s.sign(2, &["]"]) && s.index > 0 && !s.sign(-1, &["[", "="]))?;
+        when(s.sign(0, &["["]) && s.is(1, Kind::Word, &[]) && s.sign(2, &["]"]))?;
+        when(s.index > 0 && !s.sign(-1, &["[", "="]))?;
         Some((s.through(2)?, format!("[[{}]]", &s.text[s.token(1)?.at.clone()])))
     };
     TOML "a comma at the end of a line" |s| {
@@ -341,11 +373,13 @@ const MISTAKES: &[Mistake] = mistakes![
         Some((end..end, ";".to_owned()))
     };
     TOML "a kind as in RON" |s| {
-        when(s.sign(0, &["{"]) && s.is(1, Kind::Word, &["Diffuse", "Mirror", "Transparent"]) && s.sign(2, &["="]) && s.sign(3, &["{"]))?;
+        when(s.sign(0, &["{"]) && s.is(1, Kind::Word, &["Diffuse", "Mirror", "Transparent"]))?;
+        when(s.sign(2, &["="]) && s.sign(3, &["{"]))?;
         let inner = Site { index: s.index + 3, ..*s };
         let (close, end) = (inner.close()?, s.close()?);
         let fields = &s.text[s.token(3)?.at.end..s.tokens[close].at.start];
-        Some((s.token(0)?.at.start..s.tokens[end].at.end, format!("{}({})", &s.text[s.token(1)?.at.clone()], fields.trim())))
+        let kind = &s.text[s.token(1)?.at.clone()];
+        Some((s.token(0)?.at.start..s.tokens[end].at.end, format!("{kind}({})", fields.trim())))
     };
     // JSON.
     JSON "a semicolon for a comma in JSON" |s| { when(s.sign(0, &[","]))?; s.becomes(";") };
@@ -355,10 +389,22 @@ const MISTAKES: &[Mistake] = mistakes![
         let before = s.text[..s.token(0)?.at.start].trim_end().len();
         Some((before..before, ",".to_owned()))
     };
-    JSON "a name without quotes" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), s.here().to_owned())) };
-    JSON "a name in single quotes" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("'{}'", s.here()))) };
-    JSON "a name without its first quote" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("{}\"", s.here()))) };
-    JSON "a name without its last quote" |s| { when(s.is_field() || s.is_kind())?; Some((s.with_quotes(), format!("\"{}", s.here()))) };
+    JSON "a name without quotes" |s| {
+        when(s.is_field() || s.is_kind())?;
+        Some((s.with_quotes(), s.here().to_owned()))
+    };
+    JSON "a name in single quotes" |s| {
+        when(s.is_field() || s.is_kind())?;
+        Some((s.with_quotes(), format!("'{}'", s.here())))
+    };
+    JSON "a name without its first quote" |s| {
+        when(s.is_field() || s.is_kind())?;
+        Some((s.with_quotes(), format!("{}\"", s.here())))
+    };
+    JSON "a name without its last quote" |s| {
+        when(s.is_field() || s.is_kind())?;
+        Some((s.with_quotes(), format!("\"{}", s.here())))
+    };
     JSON "a text in single quotes" |s| { when(s.is(0, Kind::Text, &[]))?; s.becomes(s.here().replace('"', "'")) };
     JSON "no quotes around a value in JSON" |s| {
         when(s.is(0, Kind::Text, &[]) && s.sign(-1, &[":"]))?;
@@ -383,13 +429,22 @@ const MISTAKES: &[Mistake] = mistakes![
     JSON "a block comment" |s| { when(s.sign(0, &[","]))?; s.becomes("/* \"a\": 1, */,") };
     JSON "not a number" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes("NaN") };
     JSON "None for a number" |s| { when(s.is(0, Kind::Number, &[]))?; s.becomes("None") };
-    JSON "no digit before the point in JSON" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?; s.becomes(&s.here()[1..]) };
+    JSON "no digit before the point in JSON" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().starts_with("0."))?;
+        s.becomes(&s.here()[1..])
+    };
     JSON "no digit after the point" |s| {
         when(s.is(0, Kind::Number, &[]) && s.here().bytes().all(|byte| byte.is_ascii_digit()))?;
         s.becomes(format!("{}.", s.here()))
     };
-    JSON "a leading zero in JSON" |s| { when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?; s.becomes(format!("0{}", s.here())) };
-    JSON "a plus sign" |s| { when(s.is(0, Kind::Number, &[]) && !s.here().starts_with('-'))?; s.becomes(format!("+{}", s.here())) };
+    JSON "a leading zero in JSON" |s| {
+        when(s.is(0, Kind::Number, &[]) && s.here().starts_with(|c: char| c.is_ascii_digit()))?;
+        s.becomes(format!("0{}", s.here()))
+    };
+    JSON "a plus sign" |s| {
+        when(s.is(0, Kind::Number, &[]) && !s.here().starts_with('-'))?;
+        s.becomes(format!("+{}", s.here()))
+    };
     JSON "braces for a list in JSON" |s| {
         when(s.sign(0, &["["]) && s.sign(1, &["{"]))?;
         let (from, to) = (s.token(0)?.at.clone(), s.tokens[s.close()?].at.clone());
@@ -447,7 +502,8 @@ const EXPRESSIONS: &str = r#"Scene(
     objects: [
         Sphere(center: (0, "=2*0.4", 0), radius: "=1/3 + 0.2", material: Diffuse(albedo: "=hsv(120, 0.5, 0.8)")),
         Group(objects: [Box(size: "=3*(1, 0.5, 1)")], transform: [Translate((0, "=sqrt(2)", 0)), Scale("=2^0.5")]),
-        Repeat(count: "=2*3", items: [Box(center: "=i*(1, 0, 0)", size: 0.4, material: Pick(from: [Mirror(), Diffuse()], index: "=i"))]),
+        Repeat(count: "=2*3", items: [Box(center: "=i*(1, 0, 0)", size: 0.4,
+            material: Pick(from: [Mirror(), Diffuse()], index: "=i"))]),
     ],
 )
 "#;
@@ -511,7 +567,8 @@ fn one_mistake_is_one_error_at_its_line() {
                     let found = errors(&broken, syntax);
                     // A mistake may mean something: a plural that is a name, too.
                     count.0 += 1;
-                    let right = matches!(found.as_slice(), [fault] if points_at(fault, &broken, at.start) || may_go(fault, &broken, syntax));
+                    let is_right = |fault| points_at(fault, &broken, at.start) || may_go(fault, &broken, syntax);
+                    let right = matches!(found.as_slice(), [fault] if is_right(fault));
                     if right {
                         continue;
                     }

@@ -46,6 +46,95 @@ fn what_bounds_no_face_is_told() {
     }
 }
 
+/// Whatever else is wrong, each at what is wrong, and the same as is told when a scene of code is compiled.
+#[test]
+fn faults_of_all_shapes_come_in_one_run() {
+    let cases = [
+        ("Torus(radius: 1, tube_radius: 2)", "E0303", "2", "`tube_radius` is 2"),
+        ("Arrow(from: (1, 0, 0), to: (1, 0, 0), radius: 0.1)", "E0542", "(1, 0, 0)", "same point"),
+        ("Arrow(radius: 0.1, head_length: 3)", "E0303", "3", "longer than it"),
+        ("Arrow(radius: 0.2, head_radius: 0.1)", "E0303", "0.1", "thinner than its shaft"),
+        ("Cylinder(to: (0, 0, 0), radius: 4)", "E0542", "(0, 0, 0)", "the cylinder has no length"),
+        ("Cone(from: (0, 1, 0), radius: 5)", "E0542", "(0, 1, 0)", "the cone has no length"),
+        ("Capsule(from: (2, 2, 2), to: (2, 2, 2), radius: 6)", "E0542", "(2, 2, 2)", "the capsule has no length"),
+        ("Disk(radius: 1, inner_radius: 1)", "E0542", "1", "nothing of it is left"),
+        ("Tube(points: [(3, 0, 0), (3, 0, 0)], radius: 7)", "E0542", "[(3, 0, 0), (3, 0, 0)]", "no extent"),
+        ("Tube(points: [(0, 0, 0), (9, 0, 0)], radius: [1, 2, 3])", "E0206", "[1, 2, 3]", "2 points and 3 radii"),
+        ("Tube(points: [(0, 0, 0), (9, 0, 0)], radius: [1, 19])", "E0545", "[1, 19]", "within the other"),
+        (
+            "Tube(points: [(0, 0, 0), (8, 0, 0), (4, 0, 0)], radius: 1, curve: Linear)",
+            "E0545",
+            "[(0, 0, 0), (8, 0, 0), (4, 0, 0)]",
+            "turns straight back at (8, 0, 0)",
+        ),
+        (
+            "Extrude(outline: [[(0, 0), (1, 1), (2, 2)]], depth: 1)",
+            "E0542",
+            "[[(0, 0), (1, 1), (2, 2)]]",
+            "lies on one line",
+        ),
+        (
+            "Extrude(outline: [[(0, 0), (4, 0), (0, 4)], [(5, 5), (6, 5), (5, 6)]], depth: 1)",
+            "E0545",
+            "[[(0, 0), (4, 0), (0, 4)], [(5, 5), (6, 5), (5, 6)]]",
+            "hole 1 of the extrude is not within its outline",
+        ),
+        (
+            "Extrude(outline: [[(0, 0), (9, 0), (0, 9)], [(1, 1), (5, 1), (1, 5)], [(2, 2), (3, 2), (2, 3)]], depth: \
+             1)",
+            "E0545",
+            "[[(0, 0), (9, 0), (0, 9)], [(1, 1), (5, 1), (1, 5)], [(2, 2), (3, 2), (2, 3)]]",
+            "hole 2 of the extrude is within another hole",
+        ),
+        (
+            "Extrude(outline: [[(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)]], depth: 1)",
+            "E0545",
+            "[[(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)]]",
+            "from (0, 0) to (4, 0) passes through another point",
+        ),
+        (
+            "Extrude(outline: [[(0, 0), (4, 0), (0, 4)], [(0, 0), (1, 0.5), (0.5, 1)]], depth: 1)",
+            "E0545",
+            "[[(0, 0), (4, 0), (0, 4)], [(0, 0), (1, 0.5), (0.5, 1)]]",
+            "hole 1 of the extrude touches the outline of the extrude at (0, 0)",
+        ),
+        ("Cone(radius: 1, material: Emissive(radiance: 5))", "E0544", "Emissive(radiance: 5)", "a cone cannot shine"),
+        ("Disk(material: \"lamp\")", "E0544", "\"lamp\"", "a disk cannot shine"),
+    ];
+    let objects: Vec<&str> = cases.iter().map(|(object, ..)| *object).collect();
+    let text = format!(
+        "Scene(background: 1, colour: 1, materials: {{ \"lamp\": Emissive(power: 3) }}, objects: [Sphere(), {}])",
+        objects.join(",\n")
+    );
+    let errors = errors(&text, Syntax::Ron);
+    let told: Vec<_> = errors.iter().map(|fault| fault.code.as_str()).collect();
+    assert_eq!(told[..3], ["E0201", "E0202", "E0202"], "{errors:?}");
+    assert_eq!(errors.len(), 3 + cases.len(), "{errors:?}");
+    for (fault, (object, code, at, message)) in errors[3..].iter().zip(cases) {
+        let place = &text[fault.span.start as usize..fault.span.end as usize];
+        assert_eq!((fault.code.as_str(), place), (code, at), "{object}: {fault:?}");
+        assert!(fault.message.contains(message), "{object}: {}", fault.message);
+    }
+}
+
+/// Brackets of the wrong kind are one mistake, whatever is missing in them.
+#[test]
+fn wrong_brackets_are_one_mistake() {
+    for object in ["Torus{radius: 1}", "Torus{}", "Sphere[radius: 1]", "Torus{radius: 1, tube_radius: 0.5}"] {
+        assert_eq!(codes(object), ["E0203"], "{object}");
+    }
+    assert_eq!(codes("Torus(radius: 1)"), ["E0202"]);
+}
+
+/// A list that is none: what its files would have brought is not missing as well.
+#[test]
+fn an_include_without_brackets_is_one_mistake() {
+    let text = "Scene(background: 1, include: \"a.ron\", vars: { \"x\": \"=y + 1\" }, objects: [Sphere(center: \"=p\", \
+                radius: \"=x\", material: \"white\"), Repeat(count: \"=n\", items: [Box(size: \"=q\")])])";
+    let told: Vec<_> = errors(text, Syntax::Ron).iter().map(|fault| fault.message.clone()).collect();
+    assert_eq!(told, ["the include of the scene cannot be the text \"a.ron\""]);
+}
+
 /// A glass by its name, and one that another scene's objects share.
 #[test]
 fn glass_is_known_by_its_name() {

@@ -18,7 +18,8 @@ fn repetitions_say_what_they_stand_for() {
             Sphere(center: ("=x", "=i", 0), radius: 1), // one of them
             Repeat(count: 2, index: "k", items: [Sphere(center: ("=x + k", 0, 0), radius: "=1 + i + k")]),
         ]),
-        Box(size: 0.3, placements: [Repeat(count: 2, items: [[Translate(("=i - 2", -1, 0)), Repeat(count: 2, items: [Scale(2)])]])]),
+        Box(size: 0.3, placements: [Repeat(count: 2, items: [[Translate(("=i - 2", -1, 0)),
+            Repeat(count: 2, items: [Scale(2)])]])]),
     ],
 )"#;
     let sphere = |x: u32, y: u32, r: u32| format!("Sphere(center: ({x}, {y}, 0), radius: {r}), ");

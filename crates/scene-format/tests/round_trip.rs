@@ -129,7 +129,8 @@ transform = [
 /// A headline, a licence, how to render it: what stands at a file's top stays there, there and back.
 #[test]
 fn the_comment_at_the_top_stays_at_the_top() {
-    let ron = "// A ball.\n//\n// Render it.\nScene(\n    background: 1,\n    // The view.\n    camera: Camera(fov: 60),\n    \
+    let ron = "// A ball.\n//\n// Render it.\nScene(\n    background: 1,\n    // The view.\n    camera: Camera(fov: \
+     60),\n    \
                objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)\n";
     let toml = convert("s", ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
     assert!(toml.starts_with("# A ball.\n#\n# Render it.\n\nbackground = 1\n\n# The view.\n[camera]\n"), "{toml}");
@@ -177,7 +178,8 @@ fn the_ron_crate_reads_the_same_numbers_and_texts() {
         let n: Vec<&str> = (0..4).map(|_| *random.pick(&numbers)).collect();
         let name = *random.pick(&texts);
         let source = format!(
-            "#![enable(implicit_some)]\n/* a */ Scene( // b\n camera: Camera(position: (1, {}, 5), fov: 4_0.5,), objects: [ \
+            "#![enable(implicit_some)]\n/* a */ Scene( // b\n camera: Camera(position: (1, {}, 5), fov: 4_0.5,), \
+             objects: [ \
              Sphere(center: ({}, {}, {},), radius: 2, material: {name}) , ] )",
             n[0], n[1], n[2], n[3]
         );

@@ -138,7 +138,11 @@ fn parts_go_round() {
 /// What a description keeps of where it was written: nothing, as if it had been made in a program.
 #[test]
 fn what_is_deserialized_points_nowhere() {
-    let text = r#"{ "background": 1, "objects": [{ "Box": { "size": 2, "material": "red" } }], "materials": { "red": { "Mirror": {} } } }"#;
+    let text = r#"{
+        "background": 1,
+        "objects": [{ "Box": { "size": 2, "material": "red" } }],
+        "materials": { "red": { "Mirror": {} } }
+    }"#;
     let scene: SceneDesc = serde_json::from_str(text).expect("a scene");
     let Object::Box(found) = &scene.objects[0].value else { panic!("a box") };
     assert_eq!(

@@ -15,7 +15,8 @@ fn errors(text: &str) -> Vec<Diagnostic> {
 /// A scene with something in one place.
 fn scene(top: &str, camera: &str, object: &str) -> String {
     format!(
-        "Scene({top} background: 1, camera: Camera({camera}), objects: [Sphere(center: (0, 0, 0), radius: 1), {object}])"
+        "Scene({top} background: 1, camera: Camera({camera}), objects: [Sphere(center: (0, 0, 0), radius: 1), \
+         {object}])"
     )
 }
 
@@ -208,6 +209,11 @@ fn fields_of_shapes() {
         ("Polygon(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], holes: [1])".to_owned(), "Extrude(outline:"),
         ("Cylinder(radius: 1, height: 2)".to_owned(), "`from: (0, 0, 0), to: (0, 2, 0)`"),
         ("Box(width: 2)".to_owned(), "its `size`"),
+        ("HeightField(file: \"a.png\", size: (1, 1, 1), height: 2)".to_owned(), "the second number of its `size`"),
+        ("HeightField(file: \"a.png\", size: (1, 1, 1), water_level: 0.2)".to_owned(), "a `Rectangle` at its height"),
+        ("HeightField(file: \"a.png\", size: (1, 1, 1), subdivisions: 2)".to_owned(), "its picture's pixels"),
+        ("HeightMap(file: \"a.png\", size: (1, 1, 1))".to_owned(), "did you mean `HeightField`?"),
+        ("Terrain(scale: 3)".to_owned(), "the nearest here is `HeightField(file: .., size: ..)`"),
         ("Sphere(center: (0, 0, 0), radius: 1, height: 2)".to_owned(), ""),
     ];
     let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
@@ -217,9 +223,12 @@ fn fields_of_shapes() {
 #[test]
 fn shapes_in_braces() {
     let cases = [
-        ("torus {}", "Mesh(file: \"shape.obj\")"),
-        ("torus { 1, 0.2 }", "Mesh(file: \"shape.obj\")"),
-        ("torus { major: 1, minor: 0.2, material: \"x\" }", "Mesh(file: \"shape.obj\")"),
+        ("torus {}", "write Torus(radius: .., tube_radius: ..)"),
+        ("torus { 1, 0.2 }", "write Torus(radius: .., tube_radius: ..)"),
+        ("torus { major: 1, minor: 0.2, material: \"x\" }", "write Torus(radius: .., tube_radius: ..)"),
+        ("sphere_sweep { linear_spline 2, <0, 0, 0>, 1, <1, 0, 0>, 1 }", "write Tube(points:"),
+        ("height_field { png \"a.png\" smooth }", "write HeightField(file:"),
+        ("isosurface { function { x } }", "Mesh(file: \"shape.obj\")"),
         ("prism { linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0> }", "write Extrude(outline:"),
         ("prism {}", "write Extrude(outline:"),
         ("sor {}", "write Lathe(profile:"),
@@ -323,7 +332,8 @@ fn fields_of_patterns_in_toml_and_json() {
             albedo = albedo.replace(&format!("{name} = "), &format!("\"{name}\": "));
         }
         let json = format!(
-            r#"{{ "background": 1, "objects": [{{ "Box": {{ "material": {{ "Diffuse": {{ "albedo": {albedo} }} }} }} }}] }}"#
+            r#"{{ "background": 1,
+                "objects": [{{ "Box": {{ "material": {{ "Diffuse": {{ "albedo": {albedo} }} }} }} }}] }}"#
         );
         assert_eq!(hints(&json, Syntax::Json), [in_json], "{json}");
     }
@@ -336,12 +346,14 @@ fn what_hints_tell_to_write_loads() {
         "Rectangle(size: 20)",
         "Rectangle(size: 1, material: Emissive(radiance: 5))",
         "Box(size: 1, material: BlinnPhong(albedo: 0.5, exponent: 1000, specular: 1, energy_conserving: true))",
-        "Box(size: 1, material: Transparent(ior: 1.5), transform: [Scale((-1, 1, 1)), Rotate(axis: (0, 1, 0), degrees: 90)])",
+        "Box(size: 1, material: Transparent(ior: 1.5), transform: [Scale((-1, 1, 1)), Rotate(axis: (0, 1, 0), degrees: \
+         90)])",
         "Repeat(count: 2, items: [Box(size: 1)])",
     ];
     for object in objects {
         assert!(errors(&scene("", "", object)).is_empty(), "{object}");
     }
-    let top = "image: Image(width: 640, height: 480), effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5)),";
+    let top = "image: Image(width: 640, height: 480), effects: Effects(depth_of_field: ThinLens(aperture: 0.1, \
+     focus_distance: 5)),";
     assert!(errors(&scene(top, "", "")).is_empty());
 }

@@ -4,12 +4,12 @@
 
 use super::axis::stand;
 use super::lathe::Plan;
-use super::{Triangulated, check_count};
+use super::{Triangulated, check_count, first_fault};
 use crate::data::MeshData;
+use scene_format::Diagnostic;
 use scene_format::desc::Arrow;
 use scene_format::diagnostic::Span;
 use scene_format::path::{Ends, Point, Point3, length, pieces, sub};
-use scene_format::{Diagnostic, codes};
 use std::f64::consts::TAU;
 
 /// Radius of a head whose radius is not written, over that of the shaft.
@@ -37,26 +37,13 @@ impl Triangulated for Arrow {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let [from, to]: [Point3; 2] = [self.from.value, self.to.value];
+        if let Some(fault) = first_fault(self, span) {
+            return Err(fault);
+        }
         let (direction, shaft) = (sub(to, from), self.radius.value);
         let whole = length(direction);
-        let here = |at: Span| if at == Span::NONE { span } else { at };
-        if whole == 0.0 {
-            let message = "the arrow begins and ends at the same point";
-            let fault = Diagnostic::error(codes::NO_EXTENT, here(self.to.span), message);
-            return Err(Box::new(fault.expected("`from` and `to` at different places")));
-        }
         let head = self.head_length.as_ref().map_or((HEAD_LENGTH * shaft).min(0.5 * whole), |length| length.value);
-        if let Some(length) = self.head_length.as_ref().filter(|length| length.value > LONGER * whole) {
-            let message = format!("the head of the arrow is longer than it: {}", length.value);
-            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(length.span), message);
-            return Err(Box::new(fault.expected(format!("at most the length of the arrow, which is {whole}"))));
-        }
         let wide = self.head_radius.as_ref().map_or(HEAD_RADIUS * shaft, |radius| radius.value);
-        if let Some(radius) = self.head_radius.as_ref().filter(|radius| radius.value < shaft) {
-            let message = format!("the head of the arrow is thinner than its shaft: {}", radius.value);
-            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(radius.span), message);
-            return Err(Box::new(fault.expected(format!("at least the radius of the shaft, which is {shaft}"))));
-        }
         let neck = whole - head;
         // A head as long as the arrow leaves no shaft.
         let mut profile: Vec<Point> = match head >= whole / LONGER {

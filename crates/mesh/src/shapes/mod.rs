@@ -7,6 +7,7 @@
 mod arrow;
 mod axis;
 mod extrude;
+mod height_field;
 mod lathe;
 mod outline;
 mod polygon;
@@ -14,8 +15,10 @@ mod skew;
 mod torus;
 mod tube;
 
+pub use height_field::{Heights, MOST_HEIGHTS, height_field};
+
 use super::data::MeshData;
-use scene_format::desc::Object;
+use scene_format::desc::{Faulty, Object};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, codes};
 
@@ -61,6 +64,11 @@ pub fn of_object(object: &Object) -> Option<&dyn Triangulated> {
 
 /// Triangles of one shape, at most: with its tree 16 million take two to three gigabytes.
 const MOST_TRIANGLES: u64 = 1 << 24;
+
+/// The first thing that is wrong with the numbers of a shape.
+fn first_fault(shape: &dyn Faulty, span: Span) -> Option<Box<Diagnostic>> {
+    shape.faults(span).into_iter().next().map(Box::new)
+}
 
 /// An error where a shape would have more triangles than that.
 fn check_count(count: u64, noun: &str, at: Span, hint: &str) -> Result<(), Box<Diagnostic>> {

@@ -2,12 +2,12 @@
 
 use super::axis::stand;
 use super::lathe::Plan;
-use super::{Triangulated, check_count};
+use super::{Triangulated, check_count, first_fault};
 use crate::data::MeshData;
+use scene_format::Diagnostic;
 use scene_format::desc::Torus;
 use scene_format::diagnostic::Span;
 use scene_format::path::Piece;
-use scene_format::{Diagnostic, codes};
 use std::f64::consts::{PI, TAU};
 
 impl Triangulated for Torus {
@@ -25,11 +25,8 @@ impl Triangulated for Torus {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let (radius, tube) = (self.radius.value, self.tube_radius.value);
-        if tube > radius {
-            let at = if self.tube_radius.span == Span::NONE { span } else { self.tube_radius.span };
-            let message = format!("the section of the torus is wider than it: its `tube_radius` is {tube}");
-            let fault = Diagnostic::error(codes::OUT_OF_RANGE, at, message);
-            return Err(Box::new(fault.expected(format!("at most the radius, which is {radius}"))));
+        if let Some(fault) = first_fault(self, span) {
+            return Err(fault);
         }
         let segments = self.segments.value;
         // From the inside downwards, so that it goes up on the outside.

@@ -10,7 +10,8 @@ fuzz_target!(|source: &str| {
     match load_str("fuzz", source, Syntax::Json, Path::new(""), &[]) {
         Ok(loaded) => {
             let converted = convert("fuzz", source, Syntax::Json, Syntax::Ron).expect("what loads can be converted");
-            let back = load_str("converted", &converted, Syntax::Ron, Path::new(""), &[]).expect("what is written loads");
+            let back = load_str("converted", &converted, Syntax::Ron, Path::new(""), &[]).expect("what is written \
+             loads");
             assert_eq!(hash(&back.scene), hash(&loaded.scene), "{converted}");
         }
         Err(LoadError::Invalid { diagnostics, sources, .. }) => {

@@ -41,14 +41,14 @@ pub use materials::{
     Transparent,
 };
 pub use name::Name;
-pub use object::Object;
-pub(crate) use object::ShapeWords;
+pub use object::{Faulty, Object, cannot_shine};
+pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, InlineMesh, Instances, Lathe, Mesh,
-    MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile, Radii,
-    RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
+    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, HeightField, InlineMesh, Instances,
+    Lathe, Mesh, MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile,
+    Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

@@ -1,19 +1,39 @@
 //! Objects: what is to be seen.
 
 use super::shapes::{
-    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle, Sphere, Torus,
-    Tube,
+    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, HeightField, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle,
+    Sphere, Torus, Tube,
 };
-use super::{MaterialRef, Transform};
-use crate::diagnostic::Spanned;
+use super::{MaterialRef, Transform, Vec3};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::path::{dot, sub};
 use crate::words::{Told, scene_enum};
 use std::path::Path;
 use std::sync::Arc;
 
+/// What may be wrong with a shape.
+pub trait Faulty {
+    /// What is wrong with its numbers, each of which is in its range, as far as can be told without making it; `span`:
+    /// where it stands.
+    fn faults(&self, _span: Span) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+}
+
+impl<T: Faulty> Faulty for Box<T> {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        T::faults(self, span)
+    }
+}
+
 /// What is asked of a shape's words.
-pub(crate) trait ShapeWords: Told {
+pub(crate) trait ShapeWords: Told + Faulty {
     /// What several of them are called where they are counted.
     const MANY: &'static str;
+
+    /// Whether it may have the material `Emissive`.
+    const SHINES: bool = true;
 
     /// The file that it is made of, if it is.
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
@@ -23,10 +43,28 @@ pub(crate) trait ShapeWords: Told {
 
 impl<T: ShapeWords> ShapeWords for Box<T> {
     const MANY: &'static str = T::MANY;
+    const SHINES: bool = T::SHINES;
 
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         T::named_file(self)
     }
+}
+
+/// The diagnostic of a shape that has a length between two ends and no length.
+pub(crate) fn no_length(from: &Spanned<Vec3>, to: &Spanned<Vec3>, noun: &str, span: Span) -> Option<Diagnostic> {
+    let way = sub(to.value, from.value);
+    (dot(way, way) == 0.0).then(|| {
+        let at = [to.span, from.span].into_iter().find(|at| *at != Span::NONE).unwrap_or(span);
+        Diagnostic::error(codes::NO_EXTENT, at, format!("the {noun} has no length"))
+            .expected("`from` and `to` at different points")
+    })
+}
+
+/// The diagnostic of a thing whose form cannot shine, with its article: `a cone`, `an ellipsoid`.
+pub fn cannot_shine(what: &str, at: Span) -> Diagnostic {
+    Diagnostic::error(codes::NO_LIGHT, at, format!("{what} cannot shine"))
+        .expected("`Emissive` on a sphere, or on a shape with flat sides or of triangles")
+        .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open")
 }
 
 /// The choice between shapes, one line each, and what is the same for all of them.
@@ -82,6 +120,16 @@ macro_rules! shapes {
                 match self { $( Object::$Kind(shape) => &mut shape.placements, )+ }
             }
 
+            /// What is wrong with its numbers: [`Faulty::faults`].
+            pub fn faults(&self, span: Span) -> Vec<Diagnostic> {
+                match self { $( Object::$Kind(shape) => Faulty::faults(shape, span), )+ }
+            }
+
+            /// Whether it may have the material `Emissive`, whatever its transforms.
+            pub(crate) fn shines(&self) -> bool {
+                match self { $( Object::$Kind(_) => <$inner as ShapeWords>::SHINES, )+ }
+            }
+
             /// The file that its shape is made of, if it is.
             pub fn file(&self) -> Option<&Spanned<Arc<Path>>> {
                 match self { $( Object::$Kind(shape) => ShapeWords::named_file(shape), )+ }
@@ -115,6 +163,8 @@ shapes! {
     Torus(Box<Torus>);
     /// A round shaft with a cone at its tip.
     Arrow(Box<Arrow>);
+    /// A landscape from a picture of heights.
+    HeightField(Box<HeightField>);
     /// A flat face with any number of corners.
     Polygon(Box<Polygon>);
     /// A triangle mesh from a file.

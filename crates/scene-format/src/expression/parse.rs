@@ -1,7 +1,8 @@
 //! Reads and reckons an expression in one go, by recursive descent.
 //!
 //! ```text
-//! or = and {"||" and}; and = cmp {"&&" cmp}; cmp = sum [("<"|"<="|">"|">="|"=="|"!=") sum]; sum = term {("+"|"-") term}
+//! or = and {"||" and}; and = cmp {"&&" cmp}; cmp = sum [("<"|"<="|">"|">="|"=="|"!=") sum]
+//! sum = term {("+"|"-") term}
 //! term = unary {("*"|"/"|"%") unary}; unary = ("-"|"!") unary | power; power = postfix ["^" unary]
 //! postfix = atom {"." ("x"|"y"|"z"|"r"|"g"|"b") | "[" or "]"}
 //! atom = number | "#rrggbb" | "true" | "false" | name | name "(" [or {"," or}] ")" | "(" or ["," or ["," or]] ")"

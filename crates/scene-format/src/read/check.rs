@@ -100,7 +100,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     }
     reader.all_copies(&scene.objects.0);
     scene.materials = reader.materials.take();
-    reader.outlines(&scene);
+    reader.shapes(&scene);
     Some(scene)
 }
 

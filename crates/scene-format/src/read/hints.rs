@@ -31,7 +31,8 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
             Some("write it as a transform: `transform: [Matrix(rows: ((a, b, c, x), (d, e, f, y), (g, h, i, z)))]`")
         }
         "matrix" | "to_world" | "matrix_world" if has("transform") => Some(
-            "write it as a transform: `transform = [{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }]`",
+            "write it as a transform: `transform = [{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } \
+             }]`",
         ),
         "rotate" | "rotation" if has("transform") && ron => {
             Some("write it as a transform: `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`")
@@ -189,12 +190,14 @@ const OBJECTS: Hints = &[
     (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
-        &["heightfield", "bezier", "nurbs", "text"],
-        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a `Mesh`",
+        &["bezier", "nurbs", "text"],
+        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
+         `Mesh`",
     ),
     (
         &["instance", "objectinstance", "copy", "array", "clone", "for", "loop"],
-        "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: .., items: [..])` makes \
+        "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: \
+         .., items: [..])` makes \
          objects by a rule",
     ),
     (
@@ -220,7 +223,8 @@ const OBJECTS: Hints = &[
 const MATERIALS: Hints = &[
     (
         &["translucent", "difftrans", "subsurface", "sss", "skin", "wax", "cloth", "velvet", "sheen", "hair", "paper"],
-        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: 1.5)`",
+        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: \
+         1.5)`",
     ),
     (
         &[
@@ -235,7 +239,8 @@ const MATERIALS: Hints = &[
             "coat",
             "coateddiffuse",
         ],
-        "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: true)",
+        "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: \
+         true)",
     ),
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
@@ -254,7 +259,8 @@ const TEXTURES: Hints = &[
     ),
     (
         &["wave", "wavetexture", "magic"],
-        "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, along: V)",
+        "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, \
+         along: V)",
     ),
     (
         &["colorramp", "color_map", "colormap", "color_ramp", "valtorgb"],
@@ -273,7 +279,8 @@ const CURVES: Hints = &[(
 const MAPPINGS: Hints = &[
     (
         &["object", "world", "local", "global", "solid"],
-        "pictures, lines and dots lie on surfaces: Uv(..); what may be cut out of space is Checkerboard, Gradient, Noise, Wood, Marble and \
+        "pictures, lines and dots lie on surfaces: Uv(..); what may be cut out of space is Checkerboard, Gradient, \
+         Noise, Wood, Marble and \
          Voronoi",
     ),
     (
@@ -340,12 +347,14 @@ const TRANSFORMS: Hints = &[
     ),
     (
         &["transform", "concattransform", "concat_transform"],
-        "pbrt lists columns, so the first row takes the first number of each four; its x is mirrored: change the signs of the first row, then \
+        "pbrt lists columns, so the first row takes the first number of each four; its x is mirrored: change the signs \
+         of the first row, then \
          of the first column",
     ),
     (
         &["matrix"],
-        "POV-Ray and glTF list columns, so that rows and columns change places; POV-Ray's x is mirrored: change the signs of the first row, \
+        "POV-Ray and glTF list columns, so that rows and columns change places; POV-Ray's x is mirrored: change the \
+         signs of the first row, \
          then of the first column",
     ),
     (
@@ -425,7 +434,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "what shines has the material Emissive(radiance: 5), or stands in `lights`"
         }
         "vertices" | "faces" | "indices" | "triangles" | "points" | "positions" if !has("points") => {
-            "the triangles of a mesh stand in a file, Mesh(file: \"cat.obj\"), or in the scene: Mesh(points: [..], faces: [[0, 1, 2]])"
+            "the triangles of a mesh stand in a file, Mesh(file: \"cat.obj\"), or in the scene: Mesh(points: [..], \
+             faces: [[0, 1, 2]])"
         }
         "dof" | "depth_of_field" | "aperture" | "focus_distance" | "focus" | "f_stop" | "fstop" | "focal_distance"
         | "lens_radius" | "bokeh"
@@ -456,7 +466,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "roughness" | "glossiness" | "gloss" | "smoothness" | "metallic" | "metalness" | "clearcoat" | "anisotropy"
             if surface || def.name == "Scene" =>
         {
-            "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a mirror; rough metal is a Conductor"
+            "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a \
+             mirror; rough metal is a Conductor"
         }
         "opacity" | "alpha" | "alpha_map" | "transparency" if surface => {
             "what is seen through is Transparent(ior: 1.5)"

@@ -1,10 +1,10 @@
-//! Profiles and outlines that bound nothing, or not what was meant: told with all else that is wrong, before they are
-//! made into triangles.
+//! Shapes whose numbers do not go together, profiles and outlines that bound nothing or not what was meant: told with
+//! all else that is wrong, before they are made into triangles.
 
 use super::Reader;
 use crate::codes;
-use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene, cannot_shine};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::path::shown;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -33,33 +33,24 @@ impl Reader<'_> {
         }
     }
 
-    /// Tells of outlines that cross themselves, and of curves that come too near to the axis that they turn about.
-    pub(super) fn outlines(&mut self, scene: &Scene) {
+    /// Tells of shapes whose numbers do not go together: ends at one point, outlines that cross themselves, curves that
+    /// come too near to the axis that they turn about; and of shapes that cannot shine and are to.
+    pub(super) fn shapes(&mut self, scene: &Scene) {
         let (mut sides, mut told) = (0, HashSet::new());
+        let shining = scene.materials.iter().filter(|named| named.material.shines().is_some());
+        let shining: HashSet<&str> = shining.map(|named| &*named.name.value).collect();
         for object in &scene.objects.0 {
-            let (written, count, curve): (_, usize, _) = match &object.value {
-                Object::Lathe(lathe) => (lathe.profile.span, lathe.profile.value.0.len(), lathe.curve),
-                Object::Extrude(extrude) => {
-                    let count = extrude.outline.value.0.iter().map(Vec::len).sum();
-                    (extrude.outline.span, count, extrude.curve)
-                }
-                Object::Polygon(polygon) => (polygon.points.span, polygon.points.value.0.len(), Curve::Linear),
-                _ => continue,
-            };
-            let count = if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count };
-            if sides + count > MOST_SIDES {
-                continue;
+            sides += sides_of(&object.value);
+            let mut faults = Vec::new();
+            if sides <= MOST_SIDES {
+                faults = match &object.value {
+                    Object::Lathe(lathe) => of_lathe(lathe, object.span, &scene.materials),
+                    shape => shape.faults(object.span),
+                };
+            } else {
+                sides -= sides_of(&object.value);
             }
-            sides += count;
-            let at = if written == Span::NONE { object.span } else { written };
-            let faults = match &object.value {
-                Object::Lathe(lathe) => of_lathe(lathe, at, &scene.materials),
-                Object::Extrude(extrude) => {
-                    extrude.crossing().into_iter().map(|message| crossed(message, at)).collect()
-                }
-                Object::Polygon(polygon) => polygon.points.value.fault(at).into_iter().collect(),
-                _ => Vec::new(),
-            };
+            faults.extend(without_light(object, &shining));
             // What is repeated is wrong many times, and told once.
             for fault in faults {
                 if told.insert((fault.span, fault.code)) {
@@ -70,11 +61,31 @@ impl Reader<'_> {
     }
 }
 
-fn crossed(message: String, at: Span) -> Diagnostic {
-    Diagnostic::error(codes::BAD_OUTLINE, at, message).expected("sides that do not meet but at the points")
+/// How many sides have to be looked at.
+fn sides_of(object: &Object) -> usize {
+    let (count, curve) = match object {
+        Object::Lathe(lathe) => (lathe.profile.value.0.len(), lathe.curve),
+        Object::Extrude(extrude) => (extrude.outline.value.0.iter().map(Vec::len).sum(), extrude.curve),
+        Object::Polygon(polygon) => (polygon.points.value.0.len(), Curve::Linear),
+        Object::Tube(tube) => (tube.points.value.0.len(), Curve::Linear),
+        _ => return 0,
+    };
+    if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count }
 }
 
-fn of_lathe(lathe: &Lathe, at: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {
+/// The fault of a shape with curved sides that is to shine.
+fn without_light(object: &Spanned<Object>, shining: &HashSet<&str>) -> Option<Diagnostic> {
+    let at = match object.value.material() {
+        _ if object.value.shines() => return None,
+        MaterialRef::Inline(material) => material.value.shines().map(|_| material.span),
+        MaterialRef::Named { name, span } => shining.contains(&**name).then_some(*span),
+        MaterialRef::Default => None,
+    };
+    at.map(|at| cannot_shine(&format!("a {}", object.value.kind().to_lowercase()), at))
+}
+
+fn of_lathe(lathe: &Lathe, span: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {
+    let at = if lathe.profile.span == Span::NONE { span } else { lathe.profile.span };
     let turning = lathe.profile.value.turned();
     if let Some(fault) = turning.fault(at) {
         return vec![fault];

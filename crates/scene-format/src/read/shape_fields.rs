@@ -38,12 +38,27 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
             "polygons have no holes yet: a thin plate with holes is Extrude(outline: [[..], [..]], depth: 0.01)"
         }
         ("holes" | "hole" | "inner" | "cutouts" | "windows", "Polygon") => {
-            "polygons have no holes yet: a thin plate with holes is an `Extrude` of small `depth`, whose `outline` has a ring for each"
+            "polygons have no holes yet: a thin plate with holes is an `Extrude` of small `depth`, whose `outline` has \
+             a ring for each"
         }
         ("spline" | "interpolation" | "smooth" | "bezier" | "type" | "kind" | "linear_spline" | "cubic_spline", _)
             if joined =>
         {
-            "how points are joined is its `curve`: Linear by straight lines, CatmullRom by a smooth curve through all of them"
+            "how points are joined is its `curve`: Linear by straight lines, CatmullRom by a smooth curve through all \
+             of them"
+        }
+        (
+            "height" | "max_height" | "scale" | "strength" | "displacement" | "height_scale" | "z_scale",
+            "HeightField",
+        ) => "how high white is is the second number of its `size`: (along x, high, along z)",
+        ("width" | "depth" | "length" | "dimensions" | "extent", "HeightField") => {
+            "how far it reaches is said by its `size`: (along x, high, along z)"
+        }
+        ("water_level" | "sea_level" | "water", "HeightField") => {
+            "nothing is cut off: lay a `Rectangle` at its height through it"
+        }
+        ("subdivisions" | "segments" | "resolution" | "nu" | "nv" | "pz", "HeightField") => {
+            "how fine it is is said by its picture's pixels: leave it out"
         }
         ("twist" | "taper" | "scale_top", "Extrude") => {
             "the outline is the same all along: a `Mesh` takes other shapes"

@@ -199,9 +199,22 @@ const SHAPES: &[Block] = &[
     ),
     (&["polygon"], "Polygon(points: [(x, y, z), ..])", "{ Polygon = { points = [[x, y, z], ..] } }"),
     (
-        &["torus", "superellipsoid", "blob", "text", "height_field", "sphere_sweep", "isosurface", "bicubic_patch"],
-        "Mesh(file: \"shape.obj\"): there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB",
-        "{ Mesh = { file = \"shape.obj\" } }: there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB",
+        &["height_field"],
+        "HeightField(file: \"heights.png\", size: (x, y, z))",
+        "{ HeightField = { file = \"heights.png\", size = [x, y, z] } }",
+    ),
+    (&["torus"], "Torus(radius: .., tube_radius: ..)", "{ Torus = { radius = .., tube_radius = .. } }"),
+    (
+        &["sphere_sweep"],
+        "Tube(points: [(x, y, z), ..], radius: ..)",
+        "{ Tube = { points = [[x, y, z], ..], radius = .. } }",
+    ),
+    (
+        &["superellipsoid", "blob", "text", "isosurface", "bicubic_patch"],
+        "Mesh(file: \"shape.obj\"): there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, glTF or \
+         GLB",
+        "{ Mesh = { file = \"shape.obj\" } }: there is no such shape yet, so make a mesh of it, in OBJ, OFF, PLY, STL, \
+         glTF or GLB",
     ),
 ];
 

@@ -302,6 +302,10 @@ impl<'p> Parser<'p> {
                             let name = self.text[start..opened].trim_end();
                             let fault = brackets::wrong_kind(self.text, self.builder.source, open, name, self.at);
                             self.sink.push(fault);
+                            // What is missing besides is told once the brackets are right.
+                            if bracket == b'(' && start < opened {
+                                self.builder.leaf(Kind::Broken, self.at, self.at);
+                            }
                         }
                         self.at += 1;
                         break;

@@ -295,7 +295,17 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
-        let mut object = match random.below(15) {
+        let mut object = match random.below(16) {
+            15 => Object::HeightField(Box::new(HeightField {
+                file: PathBuf::from(text(random)).into(),
+                size: [(); 3].map(|()| length(random)).into(),
+                center: vector(random).into(),
+                smooth: random.below(2) == 0,
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
             13 => Object::Torus(Box::new(Torus {
                 center: vector(random).into(),
                 axis: [0.3, number(random, -1.0, 1.0), 0.0].into(),
@@ -462,7 +472,30 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             }
             _ => {}
         }
-        objects.push(object.into());
+        // Numbers that do not go together are no scene, nor are curved sides that shine.
+        let curved = matches!(object, Object::Disk(_) | Object::Cylinder(_) | Object::Cone(_) | Object::Capsule(_));
+        let dull = match object.material() {
+            MaterialRef::Inline(material) => !matches!(material.value, Material::Emissive(_)),
+            MaterialRef::Named { .. } => false,
+            MaterialRef::Default => true,
+        };
+        if curved && !dull {
+            *object.material_mut() = MaterialRef::Default;
+        }
+        if object.faults(Span::NONE).is_empty() {
+            objects.push(object.into());
+        }
+    }
+    if objects.is_empty() {
+        let sphere = Sphere {
+            center: vector(random).into(),
+            radius: length(random).into(),
+            material: MaterialRef::Default,
+            transform: Vec::new(),
+            placements: Placements::One,
+            name: Name::default(),
+        };
+        objects.push(Object::Sphere(Box::new(sphere)).into());
     }
     grouped(random, &mut objects);
     let light = |random: &mut Random| {

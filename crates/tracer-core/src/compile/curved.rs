@@ -5,8 +5,10 @@ use super::materials::MaterialBuilder;
 use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
-use scene_format::desc::{Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3};
-use scene_format::diagnostic::{Span, Spanned};
+use scene_format::desc::{
+    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3, cannot_shine,
+};
+use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use tracer_kernels::scene::{Frame, NONE, Shape, Sphere};
 use tracer_kernels::shapes::UnitShape;
@@ -17,8 +19,6 @@ struct Written {
     unit: UnitShape,
     /// From object space to where it is before its transforms.
     local: DAffine3,
-    /// What is wrong with its numbers.
-    fault: Option<Diagnostic>,
     noun: &'static str,
 }
 
@@ -28,7 +28,7 @@ fn written(object: &Object) -> Option<Written> {
         Object::Sphere(sphere) => {
             let matrix3 = DMat3::from_diagonal(DVec3::splat(sphere.radius.value));
             let local = DAffine3 { matrix3, translation: DVec3::from(sphere.center.value) };
-            Some(Written { unit: UnitShape::Sphere, local, fault: None, noun: "sphere" })
+            Some(Written { unit: UnitShape::Sphere, local, noun: "sphere" })
         }
         Object::Disk(disk) => Some(of_disk(disk)),
         Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
@@ -42,13 +42,8 @@ fn of_disk(disk: &Disk) -> Written {
     let [right, up, normal] = sides(DVec3::from(disk.normal.value));
     let matrix3 = DMat3::from_cols(right, up, normal) * disk.radius.value;
     let inner = disk.inner_radius.value / disk.radius.value;
-    let fault = (inner >= 1.0).then(|| {
-        let message = "the hole is as large as the disk: nothing of it is left";
-        Diagnostic::error(codes::NO_EXTENT, disk.inner_radius.span, message)
-            .expected(format!("`inner_radius` less than the radius, which is {}", disk.radius.value))
-    });
     let local = DAffine3 { matrix3, translation: DVec3::from(disk.center.value) };
-    Written { unit: UnitShape::Disk { inner }, local, fault, noun: "disk" }
+    Written { unit: UnitShape::Disk { inner }, local, noun: "disk" }
 }
 
 /// Half the way from one end to the other, and the frame about it: right and up as they are on a disk that faces that
@@ -58,20 +53,14 @@ struct Axis {
     half: f64,
     frame: [DVec3; 3],
     upright: bool,
-    fault: Option<Diagnostic>,
 }
 
-fn axis(from: &Spanned<Vec3>, to: &Spanned<Vec3>, noun: &str) -> Axis {
+fn axis(from: &Spanned<Vec3>, to: &Spanned<Vec3>) -> Axis {
     let [a, b] = [from, to].map(|p| DVec3::from(p.value));
     let half = 0.5 * (b - a).length();
-    let fault = (half <= 0.0).then(|| {
-        let at = if to.span == Span::NONE { from.span } else { to.span };
-        Diagnostic::error(codes::NO_EXTENT, at, format!("the {noun} has no length"))
-            .expected("`from` and `to` at different points")
-    });
     let along = if half > 0.0 { b - a } else { DVec3::Y };
     let frame = sides(along);
-    Axis { middle: 0.5 * (a + b), half, frame, upright: frame[2].y.abs() > 0.9999, fault }
+    Axis { middle: 0.5 * (a + b), half, frame, upright: frame[2].y.abs() > 0.9999 }
 }
 
 impl Axis {
@@ -83,24 +72,24 @@ impl Axis {
 }
 
 fn of_cylinder(cylinder: &Cylinder) -> Written {
-    let axis = axis(&cylinder.from, &cylinder.to, "cylinder");
+    let axis = axis(&cylinder.from, &cylinder.to);
     let unit = UnitShape::Cone { radii: [1.0; 2], caps: cylinder.caps, upright: axis.upright };
-    Written { unit, local: axis.map(cylinder.radius.value, axis.half), fault: axis.fault, noun: "cylinder" }
+    Written { unit, local: axis.map(cylinder.radius.value, axis.half), noun: "cylinder" }
 }
 
 fn of_cone(cone: &Cone) -> Written {
-    let axis = axis(&cone.from, &cone.to, "cone");
+    let axis = axis(&cone.from, &cone.to);
     let radii = [cone.radius.value, cone.tip_radius.value];
     let most = radii[0].max(radii[1]);
     let unit = UnitShape::Cone { radii: radii.map(|r| r / most), caps: cone.caps, upright: axis.upright };
-    Written { unit, local: axis.map(most, axis.half), fault: axis.fault, noun: "cone" }
+    Written { unit, local: axis.map(most, axis.half), noun: "cone" }
 }
 
 fn of_capsule(capsule: &Capsule) -> Written {
-    let axis = axis(&capsule.from, &capsule.to, "capsule");
+    let axis = axis(&capsule.from, &capsule.to);
     let radius = capsule.radius.value;
     let unit = UnitShape::Capsule { half: axis.half / radius };
-    Written { unit, local: axis.map(radius, radius), fault: axis.fault, noun: "capsule" }
+    Written { unit, local: axis.map(radius, radius), noun: "capsule" }
 }
 
 /// An object with curved sides in the scene.
@@ -125,12 +114,13 @@ pub struct Curved {
 pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut Diagnostics) -> Vec<Curved> {
     let mut all = Vec::new();
     for (number, object) in (0..).zip(&desc.objects) {
-        let Some(Written { unit, local, fault, noun }) = written(&object.value) else { continue };
+        let Some(Written { unit, local, noun }) = written(&object.value) else { continue };
         let (transform, placements) = (object.value.transform(), object.value.placements());
         let material = builder.resolve(object.value.material(), diagnostics);
         let emissive = builder.emissive(material).cloned();
-        if let Some(fault) = fault {
-            diagnostics.push(fault);
+        let faults = object.value.faults(object.span);
+        if !faults.is_empty() {
+            diagnostics.extend(faults);
             // A placements file is read even when something else is wrong: all faults in one run.
             place_all(desc, transform, placements, &Subject::unknown(noun), diagnostics);
             continue;
@@ -148,11 +138,7 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
             };
             let what = if unit == UnitShape::Sphere { "an ellipsoid" } else { noun };
             let article = if unit == UnitShape::Sphere { "" } else { "a " };
-            diagnostics.push(
-                Diagnostic::error(codes::NO_LIGHT, span, format!("{article}{what} cannot shine"))
-                    .expected("`Emissive` on a sphere, or on a shape with flat sides or of triangles")
-                    .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open"),
-            );
+            diagnostics.push(cannot_shine(&format!("{article}{what}"), span));
         }
         all.push(Curved { number, unit, maps, local, material, emissive, plain });
     }
@@ -262,6 +248,7 @@ pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
             }
             (Some(Written { unit, noun, .. }), _) if !unit.is_closed() => Some((noun, "close it: `caps: true`")),
             (_, Some(shape)) if !shape.is_closed() => Some((shape.noun(), shape.way_to_close())),
+            _ if matches!(object.value, Object::HeightField(_)) => Some(("height field", "")),
             _ => None,
         };
         if let Some((noun, hint)) = open {

@@ -31,6 +31,10 @@ fn faults_of(file: &NamedFile, path: &Path) -> Diagnostics {
             .map(|error| error.to_environment_diagnostic(file.span))
             .into_iter()
             .collect(),
+        FileKind::Heights => {
+            let error = texture::load_heights(path).err();
+            error.map(|error| error.to_heights_diagnostic(file.span)).into_iter().collect()
+        }
         // The loader has read it, and told what is wrong with it.
         FileKind::Scene => Vec::new(),
         FileKind::Placements => {

@@ -1,6 +1,6 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::texture::{self, Texture, TextureError};
+use crate::texture::{self, Landscape, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,7 @@ use xxhash_rust::xxh3::Xxh3;
 pub struct Kept {
     meshes: Mutex<BTreeMap<PathBuf, Entry<MeshData>>>,
     textures: Mutex<BTreeMap<PathBuf, Entry<Texture>>>,
+    heights: Mutex<BTreeMap<PathBuf, Entry<Landscape>>>,
     /// By what they were built of.
     trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
 }
@@ -90,6 +91,14 @@ pub(super) fn load_texture(kept: Option<&Kept>, path: &Path) -> Result<Arc<Textu
     }
 }
 
+/// Heights, read or kept.
+pub(super) fn load_heights(kept: Option<&Kept>, path: &Path) -> Result<Arc<Landscape>, TextureError> {
+    match kept {
+        None => texture::load_heights(path).map(Arc::new),
+        Some(kept) => file(&kept.heights, path, || texture::load_heights(path), |_| Vec::new()),
+    }
+}
+
 /// A tree, built or kept.
 pub(super) fn build_tree(
     kept: Option<&Kept>,
@@ -114,6 +123,7 @@ impl Kept {
     pub(super) fn sweep(&self) {
         lock(&self.meshes).retain(|_, entry| std::mem::take(&mut entry.used));
         lock(&self.textures).retain(|_, entry| std::mem::take(&mut entry.used));
+        lock(&self.heights).retain(|_, entry| std::mem::take(&mut entry.used));
         lock(&self.trees).retain(|_, (used, _)| std::mem::take(used));
     }
 }

@@ -7,6 +7,7 @@ mod energy;
 mod environment;
 mod files;
 mod kept;
+mod loading;
 mod materials;
 mod meshes;
 mod nearby;

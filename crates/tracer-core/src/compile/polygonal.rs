@@ -5,7 +5,8 @@ use super::placing::sides;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    InlineMesh, Instances, MaterialRef, MeshSource, Object, Placements, RectBox, Rectangle, Shading, Transform,
+    HeightField, InlineMesh, Instances, MaterialRef, MeshSource, Object, Placements, RectBox, Rectangle, Shading,
+    Transform,
 };
 use scene_format::diagnostic::{Span, Spanned};
 use std::path::Path;
@@ -15,7 +16,7 @@ use tracer_mesh::shapes::{Triangulated, of_object};
 
 /// Where triangles come from.
 #[derive(Clone, Copy)]
-pub enum Geometry<F, I, M> {
+pub enum Geometry<F, I, M, H> {
     /// A file.
     File(F),
     /// The scene.
@@ -24,6 +25,8 @@ pub enum Geometry<F, I, M> {
     Unit(UnitShape),
     /// A shape whose triangles are made for it.
     Made(M),
+    /// A shape that is made of a picture.
+    Heights(H),
 }
 
 /// A shape of a size of one about the origin.
@@ -40,7 +43,7 @@ pub struct Polygonal<'a> {
     /// Its place among the objects of the scene.
     pub number: u32,
     /// Its triangles, in a frame of their own.
-    pub geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>, &'a dyn Triangulated>,
+    pub geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>, &'a dyn Triangulated, &'a HeightField>,
     /// From that frame to the one that the object is written in.
     pub local: DAffine3,
     /// Its material.
@@ -95,20 +98,31 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 span: object.span,
                 noun: "mesh",
             }),
-            other => of_object(other).map(|shape| Polygonal {
-                number,
-                geometry: Geometry::Made(shape),
-                local: DAffine3::IDENTITY,
-                material: object.value.material(),
-                transform: object.value.transform(),
-                placements: object.value.placements(),
-                instances: Instances::Auto,
-                shading: Shading::Auto,
-                span: object.span,
-                noun: shape.noun(),
-            }),
+            Object::HeightField(field) => Some(of_made(number, object, Geometry::Heights(&**field), "height field")),
+            other => of_object(other).map(|shape| of_made(number, object, Geometry::Made(shape), shape.noun())),
         }
     })
+}
+
+/// A shape whose triangles are made for it, where it is written.
+fn of_made<'a>(
+    number: u32,
+    object: &'a Spanned<Object>,
+    geometry: Geometry<&'a Spanned<Arc<Path>>, &'a Spanned<InlineMesh>, &'a dyn Triangulated, &'a HeightField>,
+    noun: &'static str,
+) -> Polygonal<'a> {
+    Polygonal {
+        number,
+        geometry,
+        local: DAffine3::IDENTITY,
+        material: object.value.material(),
+        transform: object.value.transform(),
+        placements: object.value.placements(),
+        instances: Instances::Auto,
+        shading: Shading::Auto,
+        span: object.span,
+        noun,
+    }
 }
 
 /// From the unit square to a rectangle.

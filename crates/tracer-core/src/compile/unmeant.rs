@@ -25,7 +25,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let span = match object.geometry {
             Geometry::File(file) => file.span,
             Geometry::Inline(mesh) => mesh.span,
-            Geometry::Unit(_) | Geometry::Made(_) => continue,
+            Geometry::Unit(_) | Geometry::Made(_) | Geometry::Heights(_) => continue,
         };
         let Some(data) = loaded.file(k) else { continue };
         let material = material_of(&materials, object.material);

@@ -1,7 +1,7 @@
 //! Pictures of all directions: HDR, EXR, PNG and JPEG files, decoded to linear light.
 
-use super::{SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
-use image::{DynamicImage, ImageFormat};
+use super::{ENVIRONMENTS, SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
+use image::DynamicImage;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
@@ -22,9 +22,6 @@ pub struct Panorama {
 /// The largest number of a half: what infinite pixels are taken for, which programs that write halves make of suns.
 const LARGEST_HALF: f32 = 65504.0;
 
-/// Formats that are read.
-const FORMATS: [ImageFormat; 4] = [ImageFormat::Hdr, ImageFormat::OpenExr, ImageFormat::Png, ImageFormat::Jpeg];
-
 /// Reads the picture in `path`; its content decides the format, not its extension. PNG and JPEG are taken as sRGB, HDR
 /// and EXR as linear RGB.
 ///
@@ -33,7 +30,7 @@ const FORMATS: [ImageFormat; 4] = [ImageFormat::Hdr, ImageFormat::OpenExr, Image
 /// file.
 pub fn load_environment(path: &Path) -> Result<Panorama, TextureError> {
     let bytes = read_regular_file(path)?;
-    let format = format_of(&bytes, path, &FORMATS)?;
+    let format = format_of(&bytes, path, &ENVIRONMENTS)?;
     let picture = checked(&bytes, path, format)?;
     let size = [picture.width(), picture.height()];
     let mut texels = match picture {

@@ -52,6 +52,14 @@ pub enum TextureError {
         /// Size of the file.
         bytes: u64,
     },
+    /// Heights are no numbers.
+    #[error("{wrong} heights of the picture {} are not finite numbers", path.display())]
+    Heights {
+        /// The file.
+        path: PathBuf,
+        /// How many.
+        wrong: usize,
+    },
 }
 
 /// "PNG or JPEG".
@@ -82,6 +90,28 @@ impl TextureError {
         Diagnostic { code: codes::BROKEN_ENVIRONMENT, expected, ..diagnostic }
     }
 
+    /// The same for a picture of heights, which may have other sizes and formats.
+    pub fn to_heights_diagnostic(&self, span: Span) -> Diagnostic {
+        let diagnostic = self.to_diagnostic(span);
+        let expected = match self {
+            TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
+                "a whole PNG, JPEG, EXR or HDR file".to_owned()
+            }
+            TextureError::Size { .. } => format!(
+                "2 to {MAX_SIDE} pixels along a side, at most 8192 x 8192 in all, and beyond 4096 x 4096 no more \
+                 than 256 for each byte of the file"
+            ),
+            _ => return diagnostic,
+        };
+        let hint = match self {
+            TextureError::Size { width, height, .. } if *width < 2 || *height < 2 => {
+                "each pixel is a point of the height field: one row of them has no surface".to_owned()
+            }
+            _ => diagnostic.hint,
+        };
+        Diagnostic { expected, hint, ..diagnostic }
+    }
+
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, or `E0520` (the picture is wrong).
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
@@ -110,6 +140,9 @@ impl TextureError {
                      file"
                 ))
                 .hint("save the picture smaller"),
+            TextureError::Heights { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
+                .expected("a finite number in each pixel")
+                .hint("where a picture has no height, fill it in: with 0, or with the heights around it"),
         }
     }
 }

@@ -18,9 +18,11 @@
 mod environment;
 mod error;
 mod extent;
+mod heights;
 
 pub use environment::{Panorama, load_environment};
 pub use error::TextureError;
+pub use heights::{Landscape, load_heights};
 pub use tracer_kernels::scene::Texels;
 pub use tracer_kernels::srgb::SRGB_TO_LINEAR;
 
@@ -100,8 +102,16 @@ fn format_of(bytes: &[u8], path: &Path, formats: &'static [ImageFormat]) -> Resu
     }
 }
 
+/// Formats of pictures of numbers: of light, of heights.
+const ENVIRONMENTS: [ImageFormat; 4] = [ImageFormat::Hdr, ImageFormat::OpenExr, ImageFormat::Png, ImageFormat::Jpeg];
+
 /// Decodes a picture of a known format, if it is whole and its size is in proportion to its file.
 fn checked(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<DynamicImage, TextureError> {
+    checked_up_to(bytes, path, format, u64::MAX)
+}
+
+/// As [`checked`], if it has so many pixels at most.
+fn checked_up_to(bytes: &[u8], path: &Path, format: ImageFormat, most: u64) -> Result<DynamicImage, TextureError> {
     let fault = match format {
         ImageFormat::Png => extent::fault_of_png(bytes),
         ImageFormat::Jpeg => extent::fault_of_jpeg(bytes),
@@ -114,7 +124,7 @@ fn checked(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<DynamicImag
     let broken = |source| TextureError::Broken { path: path.to_owned(), source };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
-    let most_pixels = FREE_PIXELS + PIXELS_PER_BYTE * bytes.len() as u64;
+    let most_pixels = most.min(FREE_PIXELS + PIXELS_PER_BYTE * bytes.len() as u64);
     // A decoder holds the picture, of up to 8 bytes a pixel, or 16 where they are floats, and rows of it.
     let floats = matches!(format, ImageFormat::Hdr | ImageFormat::OpenExr);
     limits.max_alloc = Some(if floats { 20 } else { 10 } * most_pixels);
@@ -137,13 +147,7 @@ fn checked(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<DynamicImag
 )]
 fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
     let (width, height) = (picture.width(), picture.height());
-    let transparent = match &picture {
-        DynamicImage::ImageLumaA8(p) => p.pixels().any(|p| p.0[1] != u8::MAX),
-        DynamicImage::ImageRgba8(p) => p.pixels().any(|p| p.0[3] != u8::MAX),
-        DynamicImage::ImageLumaA16(p) => p.pixels().any(|p| p.0[1] != u16::MAX),
-        DynamicImage::ImageRgba16(p) => p.pixels().any(|p| p.0[3] != u16::MAX),
-        _ => false,
-    };
+    let warnings = warning_of_alpha(&picture, path).into_iter().collect();
     let texels = match picture {
         DynamicImage::ImageLumaA16(_)
         | DynamicImage::ImageLuma16(_)
@@ -161,13 +165,19 @@ fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
             Texels::Srgb8(picture.as_raw().par_chunks_exact(3).map(pack).collect())
         }
     };
-    let warnings = transparent
-        .then(|| {
-            Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, "the picture has an alpha channel, which is ignored")
-                .expected("an opaque picture")
-                .at_line(path, 0)
-        })
-        .into_iter()
-        .collect();
     Texture { width, height, texels, warnings }
+}
+
+/// The warning that a picture is not opaque everywhere.
+fn warning_of_alpha(picture: &DynamicImage, path: &Path) -> Option<Diagnostic> {
+    let transparent = match picture {
+        DynamicImage::ImageLumaA8(p) => p.pixels().any(|p| p.0[1] != u8::MAX),
+        DynamicImage::ImageRgba8(p) => p.pixels().any(|p| p.0[3] != u8::MAX),
+        DynamicImage::ImageLumaA16(p) => p.pixels().any(|p| p.0[1] != u16::MAX),
+        DynamicImage::ImageRgba16(p) => p.pixels().any(|p| p.0[3] != u16::MAX),
+        _ => false,
+    };
+    let message = "the picture has an alpha channel, which is ignored";
+    let warning = Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, message);
+    transparent.then(|| warning.expected("an opaque picture").at_line(path, 0))
 }

@@ -13,6 +13,7 @@ mod fmt;
 mod goals;
 mod golden;
 mod habits;
+mod height_field;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(unix)]

@@ -4,10 +4,14 @@ use super::curved::steps;
 use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
+use crate::picture::Picture;
+use glam::DVec3;
 use scene_format::desc::{
-    Arrow, Corners, Curve, Extrude, Lathe, Material, Name, Object, Outline, PathPoints, Placements, Polygon, Profile,
-    Radii, Torus, Transform, Tube, Vec3,
+    Arrow, Corners, Curve, Extrude, HeightField, Lathe, Material, Name, Object, Outline, PathPoints, Placements,
+    Polygon, Profile, Radii, Torus, Transform, Tube, Vec3,
 };
+use std::f64::consts::TAU;
+use std::path::PathBuf;
 use tracer_reference::Random;
 
 /// Adds such a shape within a sphere. Glass is closed.
@@ -19,7 +23,14 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let there = vec![Transform::Translate(center).into()];
     let placements = Placements::List(Box::new(std::iter::once(there).collect()));
     let (material, name) = (inline(material), Name::default());
-    let object = match random.below(10) {
+    let object = match random.below(11) {
+        10 if !glass => {
+            let (size, smooth) = ([1.2, random.between(0.2, 0.8), 1.0].map(|side| side * radius), once_in(random, 2));
+            let (file, center) = (landscape(world, random).into(), [0.0, -0.2 * radius, 0.05 * radius].into());
+            let size = size.into();
+            let field = HeightField { file, size, center, smooth, material, transform, placements, name };
+            Object::HeightField(Box::new(field))
+        }
         0 if !glass => Object::Polygon(Box::new(Polygon {
             points: Corners(star(radius, random).into_iter().map(|[x, y]| [x, 0.6 * y, 0.8 * y]).collect()).into(),
             material,
@@ -82,6 +93,16 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
         })),
     };
     world.desc.objects.push(object.into());
+}
+
+/// A picture of hills.
+fn landscape(world: &mut World, random: &mut Random) -> PathBuf {
+    let (x, y) = (random.between(1.0, 3.0), random.between(1.0, 3.0));
+    let height = |u: f64, v: f64| DVec3::splat(0.5 + 0.25 * ((x * TAU * u).sin() + (y * TAU * v).cos()));
+    let picture = Picture::from_fn(6 + random.below(20), 5 + random.below(20), height);
+    // A few hundred pixels: the encoder has nothing to refuse.
+    let bytes = picture.png().unwrap_or_default();
+    world.file("heights", "png", bytes)
 }
 
 /// A body between two ends of the axis, or a ring about it.

@@ -22,10 +22,10 @@ use self::swept::Swept;
 use super::axis::cross;
 use super::{Triangulated, check_count};
 use crate::data::MeshData;
-use scene_format::desc::{Curve, Radii, Tube};
+use scene_format::Diagnostic;
+use scene_format::desc::{Curve, Tube};
 use scene_format::diagnostic::Span;
-use scene_format::path::{Ends, NEAR, Piece, Point3, distinct, dot, length, pieces, sub, turn, unit};
-use scene_format::{Diagnostic, codes};
+use scene_format::path::{Ends, Piece, Point3, dot, length, pieces, sub, turn, unit};
 use std::f64::consts::TAU;
 
 impl Triangulated for Tube {
@@ -39,17 +39,7 @@ impl Triangulated for Tube {
 
     fn mesh(&self, span: Span) -> Result<MeshData, Box<Diagnostic>> {
         let at = if self.points.span == Span::NONE { span } else { self.points.span };
-        let (points, radii) = path(self, span)?;
-        if points.len() < 2 {
-            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the path of the tube has no extent");
-            return Err(Box::new(fault.expected("two points or more that are not the same")));
-        }
-        if self.closed && points.len() < 3 {
-            let message = "the path of the closed tube goes through two points only";
-            let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
-            let expected = "three points or more that are not the same, or a tube that is not `closed`";
-            return Err(Box::new(fault.expected(expected)));
-        }
+        let (points, radii) = self.path(span)?;
         let segments = self.segments.value;
         let step = TAU / f64::from(segments);
         let smooth = self.curve == Curve::CatmullRom;
@@ -67,37 +57,6 @@ impl Triangulated for Tube {
         too_many(mesh.triangles.len() as u64)?;
         Ok(mesh)
     }
-}
-
-/// The points that are not the same as those before, and their radii.
-fn path(tube: &Tube, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
-    let written: &[Point3] = &tube.points.value.0;
-    let at = if tube.radius.span == Span::NONE { span } else { tube.radius.span };
-    let of = |k: usize| match &tube.radius.value {
-        Radii::All(radius) => *radius,
-        Radii::Each(radii) => radii[k],
-    };
-    if let Radii::Each(radii) = &tube.radius.value
-        && radii.len() != written.len()
-    {
-        let message = format!("the tube has {} points and {} radii", written.len(), radii.len());
-        let fault = Diagnostic::error(codes::WRONG_COUNT, at, message);
-        return Err(Box::new(fault.expected("one radius, or as many as points")));
-    }
-    let size =
-        [0, 1, 2].map(|axis| written.iter().fold(0.0, |most: f64, p| most.max((p[axis] - written[0][axis]).abs())));
-    let size = size.into_iter().fold(0.0, f64::max);
-    // Of a closed path the first point may stand at the end again.
-    let kept = distinct(written, size, tube.closed);
-    let mut radii: Vec<f64> = kept.iter().map(|&k| of(k)).collect();
-    // Of points that are one the largest ball is that of all.
-    for k in 0..written.len() {
-        let last = kept.partition_point(|&other| other <= k) - 1;
-        let repeats = length(sub(written[k], written[kept[last]])) <= NEAR * size;
-        let one = if repeats { last } else { 0 };
-        radii[one] = radii[one].max(of(k));
-    }
-    Ok((kept.into_iter().map(|k| written[k]).collect(), radii))
 }
 
 /// Where pieces of the path meet, or it ends.

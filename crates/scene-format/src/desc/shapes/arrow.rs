@@ -1,9 +1,11 @@
 //! Arrows.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
+use crate::path::{length, sub};
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
@@ -43,4 +45,30 @@ impl Told for Arrow {
 
 impl ShapeWords for Arrow {
     const MANY: &'static str = "arrows";
+}
+
+/// What rounding may make of a head that is as long as the arrow.
+const LONGER: f64 = 1.0 + 1e-12;
+
+impl Faulty for Arrow {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        let here = |at: Span| if at == Span::NONE { span } else { at };
+        let (whole, shaft) = (length(sub(self.to.value, self.from.value)), self.radius.value);
+        let mut faults = Vec::new();
+        if whole == 0.0 {
+            let message = "the arrow begins and ends at the same point";
+            let fault = Diagnostic::error(codes::NO_EXTENT, here(self.to.span), message);
+            faults.push(fault.expected("`from` and `to` at different places"));
+        } else if let Some(head) = self.head_length.as_ref().filter(|head| head.value > LONGER * whole) {
+            let message = format!("the head of the arrow is longer than it: {}", head.value);
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(head.span), message);
+            faults.push(fault.expected(format!("at most the length of the arrow, which is {whole}")));
+        }
+        if let Some(head) = self.head_radius.as_ref().filter(|head| head.value < shaft) {
+            let message = format!("the head of the arrow is thinner than its shaft: {}", head.value);
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, here(head.span), message);
+            faults.push(fault.expected(format!("at least the radius of the shaft, which is {shaft}")));
+        }
+        faults
+    }
 }

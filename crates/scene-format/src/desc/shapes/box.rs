@@ -1,7 +1,7 @@
 //! Boxes.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
+use crate::desc::{Faulty, MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -36,3 +36,5 @@ impl Told for RectBox {
 impl ShapeWords for RectBox {
     const MANY: &'static str = "boxes";
 }
+
+impl Faulty for RectBox {}

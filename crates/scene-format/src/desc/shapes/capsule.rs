@@ -1,8 +1,8 @@
 //! Capsules.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3, no_length};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -37,4 +37,11 @@ impl Told for Capsule {
 
 impl ShapeWords for Capsule {
     const MANY: &'static str = "capsules";
+    const SHINES: bool = false;
+}
+
+impl Faulty for Capsule {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        no_length(&self.from, &self.to, "capsule", span).into_iter().collect()
+    }
 }

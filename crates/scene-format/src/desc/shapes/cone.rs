@@ -1,8 +1,8 @@
 //! Cones.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3, no_length};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -40,4 +40,11 @@ impl Told for Cone {
 
 impl ShapeWords for Cone {
     const MANY: &'static str = "cones";
+    const SHINES: bool = false;
+}
+
+impl Faulty for Cone {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        no_length(&self.from, &self.to, "cone", span).into_iter().collect()
+    }
 }

@@ -1,8 +1,8 @@
 //! Cylinders.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3, no_length};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -41,4 +41,11 @@ impl Told for Cylinder {
 
 impl ShapeWords for Cylinder {
     const MANY: &'static str = "cylinders";
+    const SHINES: bool = false;
+}
+
+impl Faulty for Cylinder {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        no_length(&self.from, &self.to, "cylinder", span).into_iter().collect()
+    }
 }

@@ -1,8 +1,9 @@
 //! Flat disks and rings.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -39,4 +40,17 @@ impl Told for Disk {
 
 impl ShapeWords for Disk {
     const MANY: &'static str = "disks";
+    const SHINES: bool = false;
+}
+
+impl Faulty for Disk {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        if self.inner_radius.value / self.radius.value < 1.0 {
+            return Vec::new();
+        }
+        let at = [self.inner_radius.span, span].into_iter().find(|at| *at != Span::NONE).unwrap_or_default();
+        let message = "the hole is as large as the disk: nothing of it is left";
+        let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
+        vec![fault.expected(format!("`inner_radius` less than the radius, which is {}", self.radius.value))]
+    }
 }

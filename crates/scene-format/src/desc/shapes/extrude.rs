@@ -2,11 +2,11 @@
 
 use super::{Curve, Placements, points};
 use crate::codes;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
-use crate::diagnostic::{Diagnostic, Edit, Spanned};
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform};
+use crate::diagnostic::{Diagnostic, Edit, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
-use crate::path::{Ends, Piece, Point, crossing, distinct, extent, pieces, shown};
+use crate::path::{Ends, Piece, Point, crossing, distinct, extent, orientation, pieces, shown, touching, winding};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
@@ -49,6 +49,13 @@ impl ShapeWords for Extrude {
     const MANY: &'static str = "extrudes";
 }
 
+impl Faulty for Extrude {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        let at = if self.outline.span == Span::NONE { span } else { self.outline.span };
+        self.outline_fault(at).into_iter().collect()
+    }
+}
+
 /// Rings of points (x, y), each of three or more.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Outline(pub Vec<Vec<[f64; 2]>>);
@@ -56,32 +63,120 @@ pub struct Outline(pub Vec<Vec<[f64; 2]>>);
 /// Curves are cut into pieces that turn by so much at most: 128 go round.
 const STEP: f64 = std::f64::consts::TAU / 128.0;
 
+/// Rings times sides that are looked at for holes in holes, at most: what is wrong with more is told when triangles are
+/// made of them.
+const MOST_NESTED: usize = 2_000_000;
+
+/// The sides of rings, and which ring each is of.
+struct Sides {
+    sides: Vec<[Point; 2]>,
+    of: Vec<usize>,
+}
+
+/// What a ring is called.
+fn ring_name(ring: usize) -> String {
+    match ring {
+        0 => "the outline of the extrude".to_owned(),
+        hole => format!("hole {hole} of the extrude"),
+    }
+}
+
 impl Extrude {
-    /// Which sides of its outline cross, and where, if any do.
-    pub fn crossing(&self) -> Option<String> {
+    /// Its sides; `Err`: this ring has no extent.
+    fn sides(&self) -> Result<Sides, usize> {
         let rings = &self.outline.value.0;
         let size = rings.iter().map(|ring| extent(ring)).fold(0.0, f64::max);
-        let (mut sides, mut of): (Vec<[Point; 2]>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut all = Sides { sides: Vec::new(), of: Vec::new() };
         for (number, ring) in rings.iter().enumerate() {
             let points: Vec<Point> = distinct(ring, size, true).into_iter().map(|k| ring[k]).collect();
             if points.len() < 3 {
-                return None;
+                return Err(number);
             }
             let cut: Vec<Piece> = pieces(&points, Ends::Joined, self.curve == Curve::CatmullRom, STEP);
-            of.extend(cut.iter().map(|_| number));
-            sides.extend(cut.iter().map(|piece| [piece.from, piece.to]));
+            all.of.extend(cut.iter().map(|_| number));
+            all.sides.extend(cut.iter().map(|piece| [piece.from, piece.to]));
         }
-        let found = crossing(&sides)?;
-        let name = |ring: usize| match ring {
-            0 => "the outline of the extrude".to_owned(),
-            hole => format!("hole {hole} of the extrude"),
+        Ok(all)
+    }
+
+    /// Which sides of its outline cross, and where, if any do.
+    pub fn crossing(&self) -> Option<String> {
+        self.sides().ok()?.crossing()
+    }
+
+    /// Why its rings bound no face.
+    fn outline_fault(&self, at: Span) -> Option<Diagnostic> {
+        let all = match self.sides() {
+            Ok(all) => all,
+            Err(ring) => {
+                let message = format!("{} has no extent", ring_name(ring));
+                let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
+                return Some(fault.expected("three points or more that are not on one line"));
+            }
         };
-        let [first, second] = found.sides.map(|side| of[side]);
+        let outline = |message: String| Diagnostic::error(codes::BAD_OUTLINE, at, message);
+        if let Some(message) = all.crossing() {
+            return Some(outline(message).expected("sides that do not meet but at the points"));
+        }
+        let [a, b] = *all.sides.first()?;
+        if all.sides.iter().all(|[p, _]| orientation(a, b, *p) == 0.0) {
+            let message = "the outline of the extrude lies on one line";
+            let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
+            return Some(fault.expected("three points or more that are not on one line"));
+        }
+        if let Some(message) = all.touch() {
+            return Some(outline(message).expected("rings that do not meet themselves or each other"));
+        }
+        all.nesting()
+            .map(|(message, hint)| outline(message).expected("the outer ring first, and in it the holes").hint(hint))
+    }
+}
+
+impl Sides {
+    fn crossing(&self) -> Option<String> {
+        let found = crossing(&self.sides)?;
+        let [first, second] = found.sides.map(|side| self.of[side]);
         // Holes are told to cross what they are in.
-        let whose = if first == second { "itself".to_owned() } else { name(first) };
-        let [a, b] = found.sides.map(|side| sides[side].map(|end| shown(&end)).join(" to "));
-        let (who, at) = (name(second), shown(&found.at));
+        let whose = if first == second { "itself".to_owned() } else { ring_name(first) };
+        let [a, b] = found.sides.map(|side| self.sides[side].map(|end| shown(&end)).join(" to "));
+        let (who, at) = (ring_name(second), shown(&found.at));
         Some(format!("{who} crosses {whose} at {at}: the side from {a} crosses that from {b}"))
+    }
+
+    /// Where a point lies on a side that it does not end.
+    fn touch(&self) -> Option<String> {
+        let [one, other] = touching(&self.sides)?;
+        let ([a, b], [p, _]) = (self.sides[one], self.sides[other]);
+        if a == p {
+            let whose = if self.of[one] == self.of[other] { "itself".to_owned() } else { ring_name(self.of[one]) };
+            return Some(format!("{} touches {whose} at {}", ring_name(self.of[other]), shown(&p)));
+        }
+        let side = [a, b].map(|end| shown(&end)).join(" to ");
+        Some(format!("the side of {} from {side} passes through another point", ring_name(self.of[one])))
+    }
+
+    /// A ring that is not where a hole is: what is told, and what to do. No two rings meet.
+    fn nesting(&self) -> Option<(String, &'static str)> {
+        let count = self.of.last()? + 1;
+        if count.saturating_mul(self.sides.len()) > MOST_NESTED {
+            return None;
+        }
+        let within = |ring: usize, other: usize| {
+            let [point, _] = self.sides[self.of.partition_point(|of| *of < ring)];
+            let sides = self.of.iter().zip(&self.sides).filter(|(of, _)| **of == other);
+            sides.map(|(_, side)| winding(*side, point)).sum::<i32>() != 0
+        };
+        for ring in 1..count {
+            if !within(ring, 0) {
+                let message = format!("{} is not within its outline", ring_name(ring));
+                return Some((message, "shapes beside each other are an `Extrude` each"));
+            }
+            if (1..count).any(|other| other != ring && within(ring, other)) {
+                let message = format!("{} is within another hole", ring_name(ring));
+                return Some((message, "what stands in a hole is an `Extrude` of its own"));
+            }
+        }
+        None
     }
 }
 

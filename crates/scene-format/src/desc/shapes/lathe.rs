@@ -2,7 +2,7 @@
 
 use super::{Curve, Placements, points};
 use crate::codes;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
@@ -48,6 +48,8 @@ impl Told for Lathe {
 impl ShapeWords for Lathe {
     const MANY: &'static str = "lathes";
 }
+
+impl Faulty for Lathe {}
 
 /// Points (distance from the axis, height), none on the other side of the axis.
 #[derive(Clone, Debug, PartialEq, Default)]

@@ -3,7 +3,7 @@
 use super::Placements;
 use super::inline_mesh::{InlineMesh, Points, Written, WrittenFaces};
 use crate::codes;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform};
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
@@ -95,6 +95,8 @@ impl ShapeWords for Mesh {
         self.file()
     }
 }
+
+impl Faulty for Mesh {}
 
 /// What `file` holds; nothing where it is not written.
 #[derive(Clone, Debug, PartialEq, Default)]

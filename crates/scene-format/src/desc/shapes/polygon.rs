@@ -2,7 +2,7 @@
 
 use super::{Placements, points};
 use crate::codes;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
@@ -43,6 +43,13 @@ impl Told for Polygon {
 
 impl ShapeWords for Polygon {
     const MANY: &'static str = "polygons";
+}
+
+impl Faulty for Polygon {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        let at = if self.points.span == Span::NONE { span } else { self.points.span };
+        self.points.value.fault(at).into_iter().collect()
+    }
 }
 
 /// Corners of a polygon.

@@ -1,7 +1,7 @@
 //! Flat rectangles.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
+use crate::desc::{Faulty, MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -39,3 +39,5 @@ impl Told for Rectangle {
 impl ShapeWords for Rectangle {
     const MANY: &'static str = "rectangles";
 }
+
+impl Faulty for Rectangle {}

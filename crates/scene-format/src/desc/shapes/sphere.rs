@@ -1,7 +1,7 @@
 //! Spheres.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::Spanned;
 use crate::files::FileKind;
 use crate::schema::Rule;
@@ -34,3 +34,5 @@ impl Told for Sphere {
 impl ShapeWords for Sphere {
     const MANY: &'static str = "spheres";
 }
+
+impl Faulty for Sphere {}

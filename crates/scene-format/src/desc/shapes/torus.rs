@@ -1,8 +1,9 @@
 //! Tori.
 
 use super::Placements;
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -40,4 +41,17 @@ impl Told for Torus {
 
 impl ShapeWords for Torus {
     const MANY: &'static str = "tori";
+}
+
+impl Faulty for Torus {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        let (radius, tube) = (self.radius.value, self.tube_radius.value);
+        if tube <= radius {
+            return Vec::new();
+        }
+        let at = if self.tube_radius.span == Span::NONE { span } else { self.tube_radius.span };
+        let message = format!("the section of the torus is wider than it: its `tube_radius` is {tube}");
+        let fault = Diagnostic::error(codes::OUT_OF_RANGE, at, message);
+        vec![fault.expected(format!("at most the radius, which is {radius}"))]
+    }
 }

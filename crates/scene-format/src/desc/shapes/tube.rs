@@ -1,10 +1,12 @@
 //! Tubes: what a ball passes over along a path.
 
 use super::{Curve, Placements, points};
-use crate::desc::{MaterialRef, Name, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
+use crate::path::{NEAR, Point3, distinct, length, sub};
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
@@ -61,6 +63,64 @@ impl Told for Tube {
 
 impl ShapeWords for Tube {
     const MANY: &'static str = "tubes";
+}
+
+impl Faulty for Tube {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        self.path(span).err().map(|fault| *fault).into_iter().collect()
+    }
+}
+
+impl Tube {
+    /// The points that are not the same as those before, and their radii; `span`: where it stands.
+    ///
+    /// # Errors
+    /// The diagnostic that says why they are no path.
+    pub fn path(&self, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
+        let at = if self.points.span == Span::NONE { span } else { self.points.span };
+        let (points, radii) = self.balls(span)?;
+        if points.len() < 2 {
+            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the path of the tube has no extent");
+            return Err(Box::new(fault.expected("two points or more that are not the same")));
+        }
+        if self.closed && points.len() < 3 {
+            let message = "the path of the closed tube goes through two points only";
+            let fault = Diagnostic::error(codes::NO_EXTENT, at, message);
+            let expected = "three points or more that are not the same, or a tube that is not `closed`";
+            return Err(Box::new(fault.expected(expected)));
+        }
+        Ok((points, radii))
+    }
+
+    fn balls(&self, span: Span) -> Result<(Vec<Point3>, Vec<f64>), Box<Diagnostic>> {
+        let written: &[Point3] = &self.points.value.0;
+        let at = if self.radius.span == Span::NONE { span } else { self.radius.span };
+        let of = |k: usize| match &self.radius.value {
+            Radii::All(radius) => *radius,
+            Radii::Each(radii) => radii[k],
+        };
+        if let Radii::Each(radii) = &self.radius.value
+            && radii.len() != written.len()
+        {
+            let message = format!("the tube has {} points and {} radii", written.len(), radii.len());
+            let fault = Diagnostic::error(codes::WRONG_COUNT, at, message);
+            return Err(Box::new(fault.expected("one radius, or as many as points")));
+        }
+        let size =
+            [0, 1, 2].map(|axis| written.iter().fold(0.0, |most: f64, p| most.max((p[axis] - written[0][axis]).abs())));
+        let size = size.into_iter().fold(0.0, f64::max);
+        // Of a closed path the first point may stand at the end again.
+        let kept = distinct(written, size, self.closed);
+        let mut radii: Vec<f64> = kept.iter().map(|&k| of(k)).collect();
+        // Of points that are one the largest ball is that of all.
+        for k in 0..written.len() {
+            let last = kept.partition_point(|&other| other <= k) - 1;
+            let repeats = length(sub(written[k], written[kept[last]])) <= NEAR * size;
+            let one = if repeats { last } else { 0 };
+            radii[one] = radii[one].max(of(k));
+        }
+        Ok((kept.into_iter().map(|k| written[k]).collect(), radii))
+    }
 }
 
 /// Points of a path.

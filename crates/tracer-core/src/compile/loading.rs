@@ -1,0 +1,161 @@
+//! Where triangles come from: mesh files loaded once each, what the scene writes out itself, shapes that triangles are
+//! made for, pictures of heights.
+
+use super::kept::{Kept, load_heights, load_mesh};
+use super::polygonal::{Geometry, UnitShape, polygonal};
+use rayon::prelude::*;
+use scene_format::codes;
+use scene_format::desc::{HeightField, MaterialRef};
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+use tracer_mesh::shapes::{Triangulated, height_field};
+use tracer_mesh::{MeshData, mesh_of};
+
+/// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
+pub struct Loaded {
+    /// Each file once, then each mesh of the scene itself, then each shape that triangles are made for, then each unit
+    /// shape once.
+    pub(super) files: Vec<Arc<MeshData>>,
+    /// Per object of triangles: its file, or `None` where that could not be loaded.
+    pub(super) file_of_object: Vec<Option<usize>>,
+}
+
+impl Loaded {
+    /// The mesh of an object of triangles, if it could be loaded.
+    pub fn file(&self, object: usize) -> Option<&MeshData> {
+        self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file)).map(|file| &**file)
+    }
+
+    /// The MTL files that were read.
+    pub fn libraries(&self) -> impl Iterator<Item = &PathBuf> {
+        self.files.iter().flat_map(|file| &file.libraries)
+    }
+}
+
+/// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
+// Long: one arm for each way that triangles come into a scene.
+pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Loaded {
+    let mut paths: Vec<(PathBuf, Span)> = Vec::new();
+    let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let mut shapes: Vec<UnitShape> = Vec::new();
+    let mut inline: Vec<Result<MeshData, Box<Diagnostic>>> = Vec::new();
+    let mut made: Vec<(&dyn Triangulated, Span)> = Vec::new();
+    let mut fields: Vec<&HeightField> = Vec::new();
+    let mut geometry_of_object: Vec<Geometry<usize, usize, usize, usize>> = Vec::new();
+    // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
+    let mut own_materials: Vec<bool> = Vec::new();
+    for object in polygonal(desc) {
+        geometry_of_object.push(match object.geometry {
+            Geometry::File(file) => {
+                let path = desc.base_dir.join(&file.value);
+                let index = *index_of_path.entry(path).or_insert_with_key(|path| {
+                    paths.push((path.clone(), file.span));
+                    own_materials.push(false);
+                    paths.len() - 1
+                });
+                own_materials[index] |= *object.material == MaterialRef::Default;
+                Geometry::File(index)
+            }
+            Geometry::Inline(mesh) => {
+                inline.push(mesh_of(&mesh.value, mesh.span));
+                Geometry::Inline(inline.len() - 1)
+            }
+            Geometry::Unit(shape) => {
+                if !shapes.contains(&shape) {
+                    shapes.push(shape);
+                }
+                Geometry::Unit(shape)
+            }
+            Geometry::Made(shape) => {
+                made.push((shape, object.span));
+                Geometry::Made(made.len() - 1)
+            }
+            Geometry::Heights(field) => {
+                fields.push(field);
+                Geometry::Heights(fields.len() - 1)
+            }
+        });
+    }
+    let results: Vec<_> = paths.par_iter().map(|(path, _)| load_mesh(kept, path)).collect();
+    let mut files = Vec::new();
+    let mut file_of_path = Vec::new();
+    for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
+        match result {
+            Ok(data) => {
+                let told = data.warnings.iter().filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
+                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w.clone() }));
+                file_of_path.push(Some(files.len()));
+                files.push(data);
+            }
+            Err(error) => {
+                diagnostics.push(error.to_diagnostic(*span));
+                file_of_path.push(None);
+            }
+        }
+    }
+    let made: Vec<_> = made.par_iter().map(|(shape, span)| shape.mesh(*span)).collect();
+    let fields = height_fields(desc, kept, &fields, diagnostics);
+    let mut written = |results: Vec<Result<MeshData, Box<Diagnostic>>>| -> Vec<Option<usize>> {
+        let file_of = |result| match result {
+            Ok(data) => {
+                let data: MeshData = data;
+                diagnostics.extend(data.warnings.iter().cloned());
+                files.push(Arc::new(data));
+                Some(files.len() - 1)
+            }
+            Err(fault) => {
+                let fault: Box<Diagnostic> = fault;
+                // What several things are made of is wrong once.
+                if !diagnostics.contains(&fault) {
+                    diagnostics.push(*fault);
+                }
+                None
+            }
+        };
+        results.into_iter().map(file_of).collect()
+    };
+    let (file_of_inline, file_of_made, file_of_field) = (written(inline), written(made), written(fields));
+    let first_shape = files.len();
+    files.extend(shapes.iter().map(|shape| Arc::new(shape.mesh())));
+    let of_geometry = |geometry| match geometry {
+        Geometry::File(path) => file_of_path[path],
+        Geometry::Inline(mesh) => file_of_inline[mesh],
+        Geometry::Made(shape) => file_of_made[shape],
+        Geometry::Heights(field) => file_of_field[field],
+        Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
+    };
+    Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
+}
+
+/// The triangles of height fields. A picture that several of them have is read once, and told of where the first is.
+fn height_fields(
+    desc: &SceneDesc,
+    kept: Option<&Kept>,
+    fields: &[&HeightField],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Result<MeshData, Box<Diagnostic>>> {
+    let mut paths: Vec<(PathBuf, Span)> = Vec::new();
+    let path_of_field: Vec<usize> = fields
+        .iter()
+        .map(|field| {
+            let path = desc.base_dir.join(&field.file.value);
+            paths.iter().position(|(known, _)| *known == path).unwrap_or_else(|| {
+                paths.push((path, field.file.span));
+                paths.len() - 1
+            })
+        })
+        .collect();
+    let read: Vec<_> = paths.par_iter().map(|(path, _)| load_heights(kept, path)).collect();
+    for (landscape, (_, span)) in read.iter().zip(&paths) {
+        let warnings = landscape.iter().flat_map(|landscape| &landscape.warnings);
+        diagnostics.extend(warnings.map(|w| Diagnostic { span: *span, ..w.clone() }));
+    }
+    let of_field = |(field, path): (&&HeightField, usize)| match &read[path] {
+        Ok(landscape) => height_field(field, &landscape.heights, field.file.span),
+        Err(error) => Err(Box::new(error.to_heights_diagnostic(paths[path].1))),
+    };
+    fields.iter().zip(path_of_field).map(of_field).collect()
+}
