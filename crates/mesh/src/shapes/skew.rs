@@ -7,7 +7,10 @@
 //! are off by o tanh(L/8)/2 at most, and as much to either side. Rings between whose radii are in even ratio make L
 //! less.
 
-/// Normals are askew by this share of a piece at most.
+/// Two triangles may be askew by this share of a piece: all of them are to the same side, by which glass loses light.
+const PLAIN: f64 = 1.0 / 128.0;
+
+/// Others by this share at most.
 const MOST: f64 = 1.0 / 16.0;
 
 /// Next to a sharp tip the normals of the last triangles are off by half a piece at most: within e^-2 of its radius.
@@ -32,7 +35,7 @@ impl Cut {
     pub fn new(radii: [f64; 2], outs: [f64; 2]) -> Self {
         let [r, s] = radii;
         let roots = r.sqrt() + s.sqrt();
-        if (outs[1] * r - outs[0] * s).abs() <= MOST * roots * roots {
+        if (outs[1] * r - outs[0] * s).abs() <= PLAIN * roots * roots {
             return Cut::plain();
         }
         let most = outs[0].abs().max(outs[1].abs());

@@ -313,3 +313,20 @@ fn of_balls_in_one_place_the_largest_counts() {
     assert_eq!(of(&[a, b, b, c], &[0.1, 0.1, 0.3, 0.1], false), of(&[a, b, c], &[0.1, 0.3, 0.1], false));
     assert_eq!(of(&[a, b, c, a], &[0.1, 0.2, 0.1, 0.3], true), of(&[a, b, c], &[0.3, 0.2, 0.1], true));
 }
+
+/// Smooth radii that grow faster than the path: balls that swallow others within a span.
+#[test]
+fn smooth_radii_that_swallow() {
+    let points = [[-1.0, 0.0, 0.0], [0.0; 3], [1.0, 0.0, 0.0]];
+    let mut balls = Vec::new();
+    for k in 0..=1000 {
+        let t = f64::from(k) / 1000.0;
+        // Flat in the middle, 0.8 steep at the end.
+        let (t2, t3) = (t * t, t * t * t);
+        let radius = 0.1 + 0.8 * (t3 - 2.0 * t2 + t) + 0.8 * (3.0 * t2 - 2.0 * t3);
+        balls.extend([([t - 1.0, 0.0, 0.0], radius), ([1.0 - t, 0.0, 0.0], radius)]);
+    }
+    let mut shape = tube(&points, Radii::Each(vec![0.1, 0.9, 0.1]), Curve::CatmullRom, false);
+    shape.segments = 64.into();
+    assert_eq!(holds(&shape, &balls, "swallowed"), Ok(()));
+}
