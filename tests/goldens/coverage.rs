@@ -13,7 +13,7 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 16] = [
+const FOLDERS: [&str; 23] = [
     "rectangle",
     "box",
     "disk",
@@ -30,6 +30,13 @@ const FOLDERS: [&str; 16] = [
     "marble",
     "voronoi",
     "conductor",
+    "polygon",
+    "extrude",
+    "lathe",
+    "torus",
+    "tube",
+    "arrow",
+    "height_field",
 ];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
