@@ -12,10 +12,12 @@ pub fn ray(camera: &Camera, size: [u32; 2], pixel: [u32; 2], random: &mut Random
     // From -1 to 1 over the picture, y upwards.
     let x = 2.0 * (f64::from(pixel[0]) + 0.5 + dx) / f64::from(size[0]) - 1.0;
     let y = 1.0 - 2.0 * (f64::from(pixel[1]) + 0.5 + dy) / f64::from(size[1]);
+    // Drawn with or without a lens: pictures of the one are then those of the other but for it.
+    let polar = [random.number(), random.number()];
     let Ray { mut origin, mut direction } = through(camera, x, y)?;
     if let Projection::Perspective { lens: Some(lens), .. } = camera.projection {
         // The ray through the lens' middle is not bent; all rays of a point meet where it crosses the plane of focus.
-        let on_lens = point_of(&lens, random);
+        let on_lens = point_of(&lens, polar, random);
         let on_lens = camera.right.normalize() * on_lens[0] + camera.up.normalize() * on_lens[1];
         let normal = lens.tilted.unwrap_or(camera.forward);
         let distance = lens.focus_distance * normal.dot(camera.forward) / normal.dot(direction);
@@ -57,21 +59,20 @@ pub fn through(camera: &Camera, x: f64, y: f64) -> Option<Ray> {
 }
 
 /// A uniform point of the lens, to the right and up.
-fn point_of(lens: &Lens, random: &mut Random) -> [f64; 2] {
+fn point_of(lens: &Lens, [turn, share]: [f64; 2], random: &mut Random) -> [f64; 2] {
+    if lens.blades < 3 {
+        let (sin, cos) = (TAU * turn).sin_cos();
+        return [cos, sin].map(|side| side * share.sqrt() * lens.radius);
+    }
+    let step = TAU / f64::from(lens.blades);
     loop {
         let point = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
-        let (x, y) = (point[0], point[1]);
-        let inside = if lens.blades < 3 {
-            x.hypot(y) < 1.0
-        } else {
-            // Below each side, whose normal lies half way between two corners.
-            let step = TAU / f64::from(lens.blades);
-            let reach = (step / 2.0).cos();
-            (0..lens.blades).all(|side| {
-                let (sin, cos) = (TAU * lens.rotation + step * (f64::from(side) + 0.5)).sin_cos();
-                x * cos + y * sin < reach
-            })
-        };
+        // Below each side, whose normal lies half way between two corners.
+        let reach = (step / 2.0).cos();
+        let inside = (0..lens.blades).all(|side| {
+            let (sin, cos) = (TAU * lens.rotation + step * (f64::from(side) + 0.5)).sin_cos();
+            point[0] * cos + point[1] * sin < reach
+        });
         if inside {
             return point.map(|side| side * lens.radius);
         }

@@ -1,6 +1,6 @@
 //! The distance from the eye along the view axis, as `focus_distance` is measured: that of a wall seen straight is the
-//! same in all of the picture. A lens lies across the view axis, so it changes nothing. Cameras that see all around have
-//! no such axis: the distance itself.
+//! same in all of the picture. A lens lies across the view axis, so it changes nothing. Cameras that see all around
+//! have no such axis: the distance itself.
 
 use super::{FirstHit, PictureLayer, Pixel, Units};
 use crate::engine::depth;

@@ -98,8 +98,8 @@ fn laid_over_something() {
 }
 
 /// What is black stays black when it is denoised, whatever is behind it: nothing of the background gets into what is
-/// before it, out of focus or not. With the background in place again it is the picture that is denoised as a whole, but
-/// for what filtering makes of noise.
+/// before it, out of focus or not. With the background in place again it is the picture that is denoised as a whole,
+/// but for what filtering makes of noise.
 #[test]
 fn denoised_foregrounds_have_nothing_of_the_background() {
     let mut desc = scene(48, Vec::new(), vec![sphere([0.0; 3], 1.0, diffuse([0.0; 3]))])

@@ -147,8 +147,8 @@ fn spread(desc: &SceneDesc, point: [f64; 3]) -> f64 {
     (squares / n - (x * x + y * y) / (n * n)).max(0.0).sqrt()
 }
 
-/// Turned by -60 degrees about the picture's right, the plane of focus through (0, 0, -5) leans away: it holds (0, y, z)
-/// with y = -(z + 5) / tan 60. Points of it are sharp, others are blurred as far as they lie from it.
+/// Turned by -60 degrees about the picture's right, the plane of focus through (0, 0, -5) leans away: it holds (0, y,
+/// z) with y = -(z + 5) / tan 60. Points of it are sharp, others are blurred as far as they lie from it.
 #[test]
 fn tilted_lenses_are_sharp_in_their_plane() {
     let mut desc = empty(Projection::Perspective, [64, 64]).camera([0.0; 3], [0.0, 0.0, -1.0], 60.0);

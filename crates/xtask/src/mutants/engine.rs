@@ -12,6 +12,7 @@ const LIGHT_SELECTION: &str = "crates/kernels/src/engine/stages/lights/selection
 const SPHERE_LIGHT: &str = "crates/kernels/src/engine/stages/lights/sphere.rs";
 const FLAT_LIGHT: &str = "crates/kernels/src/engine/stages/lights/flat.rs";
 const CAMERA: &str = "crates/kernels/src/engine/stages/camera.rs";
+const PERSPECTIVE: &str = "crates/kernels/src/engine/stages/cameras/perspective.rs";
 const SHADE: &str = "crates/kernels/src/engine/stages/shade.rs";
 const SHARE: &str = "crates/kernels/src/engine/stages/share.rs";
 const SPHERES: &str = "crates/kernels/src/engine/stages/spheres.rs";
@@ -373,9 +374,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "lens-moved-the-wrong-way",
-        file: CAMERA,
-        find: "direction.scale(c(camera.focus_distance as f32)).sub(offset)",
-        replace: "direction.scale(c(camera.focus_distance as f32)).add(offset)",
+        file: PERSPECTIVE,
+        find: "None => direction.scale(focus).sub(offset),",
+        replace: "None => direction.scale(focus).add(offset),",
         caught_by: proofs(&["analytic::the_blur_disc_is_that_of_a_thin_lens", "figures::figure_7"]),
     },
     // Textures.

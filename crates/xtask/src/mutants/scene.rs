@@ -3,6 +3,8 @@
 use super::{Mutant, kernel_units, proofs, suite, units};
 
 const COMPILE: &str = "crates/tracer-core/src/compile/mod.rs";
+const COMPILE_CAMERA: &str = "crates/tracer-core/src/compile/camera.rs";
+const CAMERA_WORDS: &str = "crates/scene-format/src/desc/camera.rs";
 const MESHES: &str = "crates/tracer-core/src/compile/meshes.rs";
 const PLACING: &str = "crates/tracer-core/src/compile/placing.rs";
 const LIGHT: &str = "crates/kernels/src/scene/light.rs";
@@ -76,28 +78,28 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "lens-radius-for-its-diameter",
-        file: COMPILE,
-        find: "frame.length(l.aperture.value / 2.0)",
-        replace: "frame.length(l.aperture.value)",
+        file: COMPILE_CAMERA,
+        find: "frame.length(lens.aperture.value / 2.0)",
+        replace: "frame.length(lens.aperture.value)",
         caught_by: proofs(&["analytic::the_blur_disc_is_that_of_a_thin_lens"]),
     },
     Mutant {
         name: "field-of-view-for-its-half",
-        file: COMPILE,
-        find: "desc.camera.fov.value.to_radians() / 2.0;",
-        replace: "desc.camera.fov.value.to_radians();",
+        file: CAMERA_WORDS,
+        find: "libm::tan(self.fov.value.to_radians() / 2.0);",
+        replace: "libm::tan(self.fov.value.to_radians());",
         caught_by: proofs(&["surfaces::huge_spheres_have_no_rings"]),
     },
     Mutant {
         name: "width-taken-for-square",
-        file: COMPILE,
-        find: "half_height * f64::from(desc.image.width.value) / f64::from(desc.image.height.value)",
-        replace: "half_height",
+        file: CAMERA_WORDS,
+        find: "[half, half * width / height]",
+        replace: "[half, half]",
         caught_by: proofs(&["compiling"]),
     },
     Mutant {
         name: "up-is-down",
-        file: COMPILE,
+        file: COMPILE_CAMERA,
         find: "let up = right.cross(forward);",
         replace: "let up = forward.cross(right);",
         caught_by: proofs(&["surfaces::huge_spheres_have_no_rings"]),

@@ -9,8 +9,8 @@
 //! the distance from the origin, which know no sign; the coarser the cells, the worse the plane is known. The best
 //! known ones gather first, from their own cells and coarser ones, those whose corners are all in their plane. In each
 //! plane that has several, a sweep over their boxes and the separating axes of triangles find the pairs that overlap.
-//! Triangles too narrow to have a plane, as curved walls of many pieces far from the middle of a scene have, count where
-//! all their corners are the same: a wall that two bodies share.
+//! Triangles too narrow to have a plane, as curved walls of many pieces far from the middle of a scene have, count
+//! where all their corners are the same: a wall that two bodies share.
 
 use super::super::geometry::{Geometry, NONE};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, SAME_SIDE, TRANSMITS};
@@ -22,7 +22,8 @@ use rayon::prelude::*;
 /// are those of boxes, rectangles and buildings, and meshes of millions of triangles must not wait for a search.
 const MOST_TRIANGLES: usize = 1 << 18;
 
-/// Of what lets light through there may be so many beside them, where several bodies do: water in a glass of fine pieces.
+/// Of what lets light through there may be so many beside them, where several bodies do: water in a glass of fine
+/// pieces.
 const MOST_TRANSMITTING: usize = 1 << 20;
 
 /// Scenes with more curved shapes have theirs left out.

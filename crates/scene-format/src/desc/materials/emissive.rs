@@ -29,7 +29,8 @@ pub struct Emissive {
 
 scene_struct! {
     /// A surface that shines and reflects nothing: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes,
-    /// toruses, arrows and meshes with it are lights. How much it shines is said by exactly one of `radiance` and `power`.
+    /// toruses, arrows and meshes with it are lights. How much it shines is said by exactly one of `radiance` and
+    /// `power`.
     pub(crate) struct EmissiveWords as "Emissive", "an emissive material", exactly one of [radiance, power] {
         /// Radiance L of every point, in all directions.
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");

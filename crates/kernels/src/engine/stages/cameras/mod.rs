@@ -1,9 +1,9 @@
 //! Cameras over lanes: from a place in the picture to the ray that sees it, and from a point to the place that shows
 //! it. A file a projection.
 //!
-//! A place is x, y from -1 to 1 over the picture, x to the right, y upwards ([`crate::scene::Camera`]); a pixel's filter
-//! may reach beyond. Both ways, a camera tells its **measure**: what light paths need to count as much as paths do
-//! ([`super::light_paths`]), J being the area of a surface that a pixel's area of film sees:
+//! A place is x, y from -1 to 1 over the picture, x to the right, y upwards ([`crate::scene::Camera`]); a pixel's
+//! filter may reach beyond. Both ways, a camera tells its **measure**: what light paths need to count as much as paths
+//! do ([`super::light_paths`]), J being the area of a surface that a pixel's area of film sees:
 //!
 //! - cameras that see from a point: J = measure distance^2 / cosine at the surface, the measure being the solid angle
 //!   of a pixel there, which may depend on the direction;

@@ -73,7 +73,7 @@ fn points_fall_where_they_are_seen() {
                 let ray = view.ray(One::splat(at.0), One::splat(at.1), lens);
                 ray.seen.any().then(|| (vector(ray.origin), vector(ray.direction).normalize(), number(ray.measure)))
             };
-            let beside = [(0.0, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5)];
+            let beside = [(0.0, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.0, 0.25), (0.0, -0.25)];
             let Some((origin, direction, measure)) = ray(x, y) else { continue };
             let rays: Vec<_> = beside.iter().filter_map(|(dx, dy)| ray(x + dx, y + dy)).collect();
             // A point on the ray, and the plane through it that the surface lies in.
@@ -98,12 +98,13 @@ fn points_fall_where_they_are_seen() {
                 let (o, d, _) = rays[k];
                 o + d * ((point - o).dot(normal) / d.dot(normal))
             };
-            let sides = (on_plane(1) - on_plane(2)).cross(on_plane(3) - on_plane(4));
+            // Of half a pixel by half a pixel.
+            let sides = 4.0 * (on_plane(1) - on_plane(2)).cross(on_plane(3) - on_plane(4));
             let cos_to_view = direction.dot(camera.forward);
             let cos = -direction.dot(normal);
             let area = view.area(place.distance, One::splat(cos_to_view as f32), One::splat(cos as f32));
             let area = number(area) * measure;
-            // Half a pixel to all sides; next to the poles of a panorama that is no small part of the circle.
+            // A quarter of a pixel to all sides; next to the poles of a panorama that is no small part of the circle.
             let bound = if (y - 24.0).abs() > 20.0 { 2e-2 } else { 6e-3 };
             assert!((area / sides.length() - 1.0).abs() < bound, "{c}: {x} {y}: {area} and {}", sides.length());
         }

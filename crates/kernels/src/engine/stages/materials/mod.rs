@@ -151,7 +151,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     }
 
     /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none.
-    /// Light passes from one body into the other, or into both at once ([`SAME_SIDE`]), and takes on the colour of both.
+    /// Light passes from one body into the other, or into both at once ([`SAME_SIDE`]), and takes on the colour of
+    /// both.
     #[inline(always)]
     fn touch(&mut self, table: &MaterialTable, behind: F::U) {
         let none = F::U::splat(0);
