@@ -8,9 +8,9 @@ const FILM: &str = "crates/tracer-core/src/film/layers.rs";
 pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "depth-along-the-ray",
-        file: "crates/kernels/src/layers/depth.rs",
-        find: "let depth = hit.t * hit.direction.dot(forward);",
-        replace: "let depth = hit.t + F::splat(0.0) * hit.direction.dot(forward);",
+        file: "crates/kernels/src/engine/stages/cameras/mod.rs",
+        find: "let depth = t * direction.dot(forward);",
+        replace: "let depth = t + F::splat(0.0) * direction.dot(forward);",
         caught_by: proofs(&["layers::a_wall_seen_straight_has_one_depth"]),
     },
     Mutant {

@@ -163,15 +163,15 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "transforms-last-to-first",
         file: PLACING,
-        find: "map = step * map;",
-        replace: "map = map * step;",
+        find: "Ok(step) => map = step * map,",
+        replace: "Ok(step) => map = map * step,",
         caught_by: units(&["compile::placing"]),
     },
     Mutant {
         name: "barycentre-left-behind",
         file: PLACING,
-        find: "|| map.transform_point3(barycentre)",
-        replace: "|| barycentre",
+        find: "|| map.transform_point3(subject.middle)",
+        replace: "|| subject.middle",
         caught_by: units(&["compile::placing"]),
     },
     Mutant {
@@ -184,8 +184,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "dropped-by-too-much",
         file: PLACING,
-        find: "y - lowest(&map)",
-        replace: "y + lowest(&map)",
+        find: "y - reach(&map, 1)[0]",
+        replace: "y + reach(&map, 1)[0]",
         caught_by: units(&["compile::placing"]),
     },
     Mutant {
