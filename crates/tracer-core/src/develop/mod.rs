@@ -60,33 +60,32 @@ pub struct Image {
 
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
 pub fn develop(film: &Film, look: &Look) -> Image {
-    developed(film, look, |x, y| Seen { radiance: film.radiance(x, y), background: film.background(x, y) })
+    developed(film, look, |x, y| film.radiance(x, y), |x, y| film.background(x, y))
 }
 
 /// Develops what denoising made of a film. The last of its layers, `noisy`, is the picture without it, as linear
 /// radiance, exposed as the picture is: what was filtered away cannot be had back otherwise.
 pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image {
     let Crop { x: left, y: top, width, .. } = film.crop();
-    let mut image = developed(film, look, |x, y| {
+    let radiance = |x: u32, y: u32| {
         let first = 3 * ((y - top) as usize * width as usize + (x - left) as usize);
         // It is without the background where the film keeps that by itself.
         let behind = if look.backdrop == Backdrop::Background { film.background(x, y) } else { [0.0; 3] };
-        let radiance = [0, 1, 2].map(|c| f64::from(denoised.radiance[first + c]) + behind[c]);
-        Seen { radiance, background: [0.0; 3] }
-    });
+        [0, 1, 2].map(|c| f64::from(denoised.radiance[first + c]) + behind[c])
+    };
+    let mut image = developed(film, look, radiance, |_, _| [0.0; 3]);
     let noisy = develop(film, &Look { tone_map: ToneMap::None, ..*look });
     image.layers.push(LayerImage { name: "noisy", channels: &["R", "G", "B"], values: noisy.linear });
     image
 }
 
-/// What a pixel shows.
-struct Seen {
-    radiance: [f64; 3],
-    /// What of it is background, to be left out.
-    background: [f64; 3],
-}
-
-fn developed(film: &Film, look: &Look, pixel: impl Fn(u32, u32) -> Seen + Sync) -> Image {
+/// Develops pixels of this radiance, of which so much is background where that is not to be seen.
+fn developed(
+    film: &Film,
+    look: &Look,
+    radiance: impl Fn(u32, u32) -> [f64; 3] + Sync,
+    background: impl Fn(u32, u32) -> [f64; 3] + Sync,
+) -> Image {
     let Crop { x, y, width, height } = film.crop();
     let gain = libm::exp2(look.exposure);
     let backdrop = if film.has_backdrop() { look.backdrop } else { Backdrop::Background };
@@ -99,12 +98,12 @@ fn developed(film: &Film, look: &Look, pixel: impl Fn(u32, u32) -> Seen + Sync) 
     rows.into_par_iter().with_min_len(TILE).for_each(|(linear, display, py)| {
         let pixels = linear.as_chunks_mut::<3>().0.iter_mut().zip(display.as_chunks_mut::<3>().0);
         for (px, (linear, display)) in (x..x + width).zip(pixels) {
-            let Seen { radiance: [r, g, b], background: behind } = pixel(px, py);
+            let [r, g, b] = radiance(px, py);
             let mut exposed = [r * gain, g * gain, b * gain];
             let shown = match backdrop {
                 Backdrop::Background => mapped(look.tone_map, exposed),
                 Backdrop::Clear | Backdrop::Color(_) => {
-                    let alpha = film.alpha(px, py);
+                    let (alpha, behind) = (film.alpha(px, py), background(px, py));
                     // Rounded, it may be less than none.
                     let foreground = [0, 1, 2].map(|c| (exposed[c] - behind[c] * gain).max(0.0));
                     let color = mapped(look.tone_map, foreground.map(|x| if alpha > 0.0 { x / alpha } else { 0.0 }));
