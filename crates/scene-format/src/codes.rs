@@ -262,8 +262,7 @@ codes! {
     /// )
     /// ```
     GROUP_DROP "E0211" "a group that is dropped or fitted";
-    /// A field stands beside another one that leaves it nothing to say: a `fov` where the camera's projection shows all
-    /// directions, say.
+    /// A field stands beside another one that leaves it nothing to say: a `fov` where a panorama shows all directions.
     ///
     /// ```ron
     /// Scene(camera: Camera(fov: 30, projection: Panorama), objects: [Sphere(center: (0, 0, 0), radius: 1)])
