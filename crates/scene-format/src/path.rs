@@ -249,32 +249,40 @@ pub struct Crossing {
 /// Pairs of sides that are looked at, at most: a fraction of a second.
 const MOST_PAIRS: usize = 2_000_000;
 
-/// The first two sides that cross within both of them; `None` also where there are too many to tell soon. Sides that
-/// only touch do not cross.
-pub fn crossing(sides: &[[Point; 2]]) -> Option<Crossing> {
+/// Shows the pairs of sides whose boxes meet, the smaller number first; whether all were shown: there may be too many
+/// to tell soon.
+fn near(sides: &[[Point; 2]], mut show: impl FnMut([usize; 2])) -> bool {
     let low = |k: usize, axis: usize| sides[k][0][axis].min(sides[k][1][axis]);
     let high = |k: usize, axis: usize| sides[k][0][axis].max(sides[k][1][axis]);
     let mut order: Vec<usize> = (0..sides.len()).collect();
     order.sort_by(|&a, &b| low(a, 0).total_cmp(&low(b, 0)));
-    let (mut found, mut pairs): (Option<Crossing>, usize) = (None, 0);
+    let mut pairs = 0;
     for (place, &one) in order.iter().enumerate() {
         for &other in order[place + 1..].iter().take_while(|&&other| low(other, 0) <= high(one, 0)) {
             pairs += 1;
             if pairs > MOST_PAIRS {
-                return None;
+                return false;
             }
-            if low(other, 1) > high(one, 1) || low(one, 1) > high(other, 1) {
-                continue;
-            }
-            let numbers = [one.min(other), one.max(other)];
-            if found.is_none_or(|found| numbers < found.sides)
-                && let Some((along, at)) = meet(sides[numbers[0]], sides[numbers[1]])
-            {
-                found = Some(Crossing { sides: numbers, along, at });
+            if low(other, 1) <= high(one, 1) && low(one, 1) <= high(other, 1) {
+                show([one.min(other), one.max(other)]);
             }
         }
     }
-    found
+    true
+}
+
+/// The first two sides that cross within both of them; `None` also where there are too many to tell soon. Sides that
+/// only touch do not cross.
+pub fn crossing(sides: &[[Point; 2]]) -> Option<Crossing> {
+    let mut found: Option<Crossing> = None;
+    let all = near(sides, |numbers| {
+        if found.is_none_or(|found| numbers < found.sides)
+            && let Some((along, at)) = meet(sides[numbers[0]], sides[numbers[1]])
+        {
+            found = Some(Crossing { sides: numbers, along, at });
+        }
+    });
+    found.filter(|_| all)
 }
 
 /// Where two sides cross, and how far along the first.
@@ -304,35 +312,17 @@ pub(crate) fn orientation(a: Point, b: Point, p: Point) -> f64 {
 /// The first two sides, by their numbers, of which the second begins on the first: within it, or where it begins too;
 /// `None` also where there are too many to tell soon.
 pub(crate) fn touching(sides: &[[Point; 2]]) -> Option<[usize; 2]> {
-    let low = |k: usize, axis: usize| sides[k][0][axis].min(sides[k][1][axis]);
-    let high = |k: usize, axis: usize| sides[k][0][axis].max(sides[k][1][axis]);
-    let begins_on = |one: usize, other: usize| {
+    let begins_on = |[one, other]: [usize; 2]| {
         let ([a, b], [p, _]) = (sides[one], sides[other]);
-        let inside = (0..2).all(|axis| low(one, axis) <= p[axis] && p[axis] <= high(one, axis));
+        let inside = (0..2).all(|axis| a[axis].min(b[axis]) <= p[axis] && p[axis] <= a[axis].max(b[axis]));
         a == p || inside && p != b && orientation(a, b, p) == 0.0
     };
-    let mut order: Vec<usize> = (0..sides.len()).collect();
-    order.sort_by(|&a, &b| low(a, 0).total_cmp(&low(b, 0)));
-    let (mut found, mut pairs): (Option<[usize; 2]>, usize) = (None, 0);
-    for (place, &one) in order.iter().enumerate() {
-        for &other in order[place + 1..].iter().take_while(|&&other| low(other, 0) <= high(one, 0)) {
-            pairs += 1;
-            if pairs > MOST_PAIRS {
-                return None;
-            }
-            if low(other, 1) > high(one, 1) || low(one, 1) > high(other, 1) {
-                continue;
-            }
-            let numbers = [one.min(other), one.max(other)];
-            let ways = [numbers, [numbers[1], numbers[0]]];
-            if let Some(way) = ways.into_iter().find(|&[one, other]| begins_on(one, other))
-                && found.is_none_or(|found| way < found)
-            {
-                found = Some(way);
-            }
-        }
-    }
-    found
+    let mut found: Option<[usize; 2]> = None;
+    let all = near(sides, |[one, other]| {
+        let way = [[one, other], [other, one]].into_iter().find(|&way| begins_on(way));
+        found = way.filter(|&way| found.is_none_or(|found| way < found)).or(found);
+    });
+    found.filter(|_| all)
 }
 
 /// How often a side goes round a point that is not on it, as far as what is to its right is concerned: the sum over a
