@@ -160,7 +160,10 @@ impl Camera {
             Projection::Perspective if focal_length.is_some() => {
                 none_of("`focal_length` says how wide the view is", &[("fov_axis", fov_axis)]);
             }
-            Projection::Perspective => {}
+            Projection::Perspective => {
+                let width = (self.sensor_width.value != default.sensor_width.value).then_some(self.sensor_width.span);
+                none_of("it goes with a `focal_length`", &[("sensor_width", width)]);
+            }
             Projection::Orthographic { .. } => {
                 let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
                 none_of("the `height` of the projection says what is seen", &angles);
@@ -183,4 +186,25 @@ impl Camera {
 fn unit(v: Vec3) -> Vec3 {
     let length = libm::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     v.map(|x| x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What says nothing beside the rest is told; defaults that are written out are not.
+    #[test]
+    fn fields_of_no_use() {
+        let told = |camera: Camera| camera.of_no_use().iter().map(|(name, ..)| *name).collect::<Vec<_>>();
+        let (panorama, default) = (Projection::Panorama, Camera::default);
+        assert!(told(Camera { projection: panorama.clone(), ..default() }).is_empty());
+        assert_eq!(
+            told(Camera { fov: 30.0.into(), near: Some(1.0.into()), projection: panorama, ..default() }).len(),
+            2
+        );
+        assert_eq!(told(Camera { sensor_width: 24.0.into(), ..default() }), ["sensor_width"]);
+        let lens = Camera { sensor_width: 24.0.into(), focal_length: Some(50.0.into()), ..default() };
+        assert!(told(lens.clone()).is_empty());
+        assert_eq!(told(Camera { fov_axis: FovAxis::Larger, ..lens }), ["fov_axis"]);
+    }
 }
