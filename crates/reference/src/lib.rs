@@ -142,16 +142,18 @@ impl Tracer<'_> {
         if cos <= 0.0 {
             return DVec3::ZERO;
         }
+        let f = lobes.f(s.ns, wo, direction);
+        // Directions that bring nothing may have no density either: conductors raise the normal.
+        if f == DVec3::ZERO {
+            return DVec3::ZERO;
+        }
         let by_material = lobes.density(s.ns, wo, direction);
         let density = if to_lights == 0.0 {
             by_material
         } else {
             to_lights * light::density(self.scene, s.start, direction) + (1.0 - to_lights) * by_material
         };
-        let weight = lobes.f(s.ns, wo, direction) * (cos / density);
-        if weight == DVec3::ZERO {
-            return DVec3::ZERO;
-        }
+        let weight = f * (cos / density);
         weight * self.radiance(Ray { origin: s.start, direction }, scatterings + 1, random)
     }
 }

@@ -254,6 +254,8 @@ impl Turned {
     /// Adds the triangles between two circles.
     fn band(&mut self, from: &Circle, to: &Circle, middles: Option<[u32; 3]>) {
         let n = self.segments;
+        // A wall that two lathes share is cut along the same diagonal, whichever way their profiles go.
+        let upward = [from.point[1], from.point[0]] < [to.point[1], to.point[0]];
         for k in 0..n {
             let next = (k + 1) % n;
             // Position, normal, texture coordinates of the corner on this circle.
@@ -273,12 +275,13 @@ impl Turned {
                 }
                 continue;
             }
-            if !from.is_tip() {
-                self.triangle(if to.is_tip() { [a, b, d] } else { [a, b, c] });
-            }
-            if !to.is_tip() {
-                self.triangle([a, c, d]);
-            }
+            let triangles = match (from.is_tip(), to.is_tip()) {
+                (true, _) => [Some([a, c, d]), None],
+                (_, true) => [Some([a, b, d]), None],
+                _ if upward => [Some([a, b, c]), Some([a, c, d])],
+                _ => [Some([a, b, d]), Some([b, c, d])],
+            };
+            triangles.into_iter().flatten().for_each(|triangle| self.triangle(triangle));
         }
     }
 

@@ -8,7 +8,7 @@ mod swept;
 use super::*;
 use crate::NO_INDEX;
 use scene_format::desc::{Corners, Curve, Extrude, Lathe, MaterialRef, Name, Outline, Placements, Polygon, Profile};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 
 type Vector = [f64; 3];
@@ -145,6 +145,33 @@ fn vertices_of_lathes_are_those_of_the_surface() {
         let us = uvs.map(|k| mesh.uvs[k as usize][0]);
         assert!(us.iter().all(|u| (u - us[0]).abs() < 0.02));
     }
+}
+
+/// Walls that two lathes share are of the same triangles, whichever way the profiles go: what is in one place is found
+/// by that.
+#[test]
+fn walls_that_lathes_share_are_the_same() {
+    let tumbler: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [1.1, 2.0], [1.0, 2.0], [0.9, 0.2], [0.0, 0.2]];
+    let water: &[[f64; 2]] = &[[0.0, 0.2], [0.9, 0.2], [0.95, 1.1], [0.0, 1.1]];
+    let wall: &[[f64; 2]] = &[[1.0, 2.0], [1.0, 1.0], [0.9, 0.2]];
+    let faces = |profile: &[[f64; 2]], inner: bool| -> BTreeSet<[[u32; 3]; 3]> {
+        let mesh = made(&lathe(profile, Curve::Linear, 16));
+        let on_wall = |p: &Vector| !inner || (p[1] > 0.1 && p[1] < 1.2 && libm::hypot(p[0], p[2]) > 0.85);
+        let sorted = |triangle: &[u32; 3]| {
+            let corners = corners(&mesh, *triangle);
+            let mut seen = corners.map(|p| p.map(|x| (x as f32).to_bits()));
+            seen.sort_unstable();
+            corners.iter().all(on_wall).then_some(seen)
+        };
+        mesh.triangles.iter().filter_map(sorted).collect()
+    };
+    let backwards = |profile: &[[f64; 2]]| profile.iter().rev().copied().collect::<Vec<_>>();
+    for profile in [tumbler, water, wall] {
+        assert!(faces(profile, false) == faces(&backwards(profile), false), "{profile:?}");
+    }
+    let joined: Vec<[f64; 2]> = tumbler[..4].iter().chain(&[[0.95, 1.1]]).chain(&tumbler[4..]).copied().collect();
+    let (outer, inner) = (faces(&joined, true), faces(water, true));
+    assert_eq!((inner.len(), outer.intersection(&inner).count()), (64, 64));
 }
 
 /// How far a normal may be turned where a curve leaves a circle by `off` half way over an angle of 2h: it does so by
