@@ -561,6 +561,14 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// )
     /// ```
     CROSSED_GLASS "W0313" "glass whose profile crosses itself";
+    /// Spheres, cylinders, cones or capsules lie in one place, as a `Repeat` makes them whose items do not go by its
+    /// index. One of them is seen: what shines, else what lets no light through, else the first; the others are left
+    /// out.
+    ///
+    /// ```text
+    /// Repeat(count: 5, items: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    IN_ONE_PLACE "W0316" "shapes in one place";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

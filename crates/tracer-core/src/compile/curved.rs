@@ -146,7 +146,7 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
 }
 
 /// Whether a map keeps all angles (up to rounding): it turns, moves and scales.
-fn is_similar(map: &DAffine3) -> bool {
+pub(super) fn is_similar(map: &DAffine3) -> bool {
     let m = map.matrix3;
     let (x, y, z) = (m.x_axis.length(), m.y_axis.length(), m.z_axis.length());
     let off = m.x_axis.dot(m.y_axis).abs().max(m.y_axis.dot(m.z_axis).abs()).max(m.z_axis.dot(m.x_axis).abs());

@@ -6,6 +6,7 @@ mod curved;
 mod energy;
 mod environment;
 mod files;
+mod in_one_place;
 mod kept;
 mod loading;
 mod materials;
@@ -85,7 +86,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
     let mut builder = MaterialBuilder::new(desc);
     let loaded = meshes::load(desc, kept, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
-    let curved = curved::load(desc, &mut builder, &mut diagnostics);
+    let mut curved = curved::load(desc, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let Finished { materials, images, uses, patterns } = builder.finish(kept, &mut diagnostics);
@@ -99,6 +100,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
         return Err(CompileError { diagnostics });
     }
 
+    in_one_place::leave_out(desc, &mut curved, &materials, &mut diagnostics);
     unmeant::warn(desc, &loaded, &placed, &curved, &mut diagnostics);
     curved::warn_of_open_glass(desc, &mut diagnostics);
     let start = Instant::now();

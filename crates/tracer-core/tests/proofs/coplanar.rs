@@ -6,12 +6,12 @@ use crate::support::describe::*;
 use crate::support::meshes::square;
 use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
-use scene_format::SceneDesc;
 use scene_format::desc::{
     Amount, Camera, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
     RectBox, Rectangle, Shading, Transform,
 };
 use scene_format::diagnostic::Spanned;
+use scene_format::{SceneDesc, codes};
 
 const SIZE: u32 = 32;
 const RED: [f64; 3] = [0.8, 0.1, 0.2];
@@ -376,6 +376,47 @@ fn planes_through_the_origin_have_one_winner() {
             // Of squares the first wins; a disk comes before all of them.
             assert!(if shape == "square" { blue == 0 } else { blue > 300 }, "{shape} on {size}: {blue} pixels");
             assert_eq!(red + blue, (SIZE * SIZE) as usize, "{shape} on {size}");
+        }
+    }
+}
+
+/// Of bodies in one place one is seen, as it is by itself: what lets no light through, else the first. Under a white
+/// sky a convex body has its albedo, sample by sample.
+#[test]
+fn bodies_in_one_place_have_one_winner() {
+    let squeezed = || vec![Transform::Scale { factor: [1.0, 0.5, 2.0], about: None }, rotate([1.0, 2.0, 3.0], 40.0)];
+    let ball = |material, steps: Vec<Transform>| {
+        let mut ball = sphere([0.0; 3], 0.8, material);
+        if let Object::Sphere(sphere) = &mut ball {
+            sphere.transform = steps.into_iter().map(Spanned::from).collect();
+        }
+        ball
+    };
+    let shapes: [(&str, &dyn Fn(Material) -> Object); 4] = [
+        ("sphere", &|material| ball(material, vec![])),
+        ("turned sphere", &|material| ball(material, vec![rotate([0.0, 0.0, 1.0], 30.0)])),
+        ("ellipsoid", &|material| ball(material, squeezed())),
+        ("cylinder", &|material| flat_sided("cylinder", material, squeezed())),
+    ];
+    for (name, shape) in shapes {
+        for objects in [
+            vec![shape(diffuse(RED)), shape(diffuse(BLUE)), shape(diffuse(BLUE))],
+            vec![shape(glass(1.5)), shape(diffuse(RED)), shape(diffuse(BLUE))],
+        ] {
+            let desc = scene(SIZE, vec![], objects)
+                .background([1.0; 3])
+                .camera([0.3, 2.0, 5.0], [0.0; 3], 30.0)
+                .filter(PixelFilter::None);
+            let scene = compiled(&desc);
+            assert!(scene.warnings.iter().any(|warning| warning.code == codes::IN_ONE_PLACE), "{name}");
+            let film = film(&scene, 1, 1);
+            let is = |k: u32, color: [f64; 3]| {
+                let seen = film.radiance(k % SIZE, k / SIZE);
+                (0..3).all(|c| (seen[c] - color[c]).abs() < 1e-4)
+            };
+            let red = (0..SIZE * SIZE).filter(|&k| is(k, RED)).count();
+            let white = (0..SIZE * SIZE).filter(|&k| is(k, [1.0; 3])).count();
+            assert!(red > 100 && red + white == (SIZE * SIZE) as usize, "{name}: {red} red, {white} white");
         }
     }
 }

@@ -1,0 +1,73 @@
+//! Curved shapes in one place: one of them is seen wherever both are, as of triangles in one plane
+//! ([`tracer_kernels::bvh`]), and the others are left out, so that rays that leave the one do not meet the other.
+//! Disks are told apart by the tree.
+
+use super::curved::{Curved, is_similar};
+use glam::{DAffine3, DMat3, DVec3};
+use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use std::collections::{BTreeMap, HashMap};
+use tracer_kernels::scene::Material;
+use tracer_kernels::scene::materials::BxdfFlags;
+use tracer_kernels::shapes::UnitShape;
+
+/// Where a copy is, to the last bit of single precision.
+fn place(object: &Curved, map: &DAffine3) -> [u32; 12] {
+    // How a ball is turned does not show, but in a pattern; that of the one that is seen does.
+    let ball = object.unit == UnitShape::Sphere && is_similar(map);
+    let size = DMat3::from_diagonal(DVec3::splat(map.matrix3.x_axis.length()));
+    let matrix3 = if ball { size } else { map.matrix3 };
+    // Zeros of either sign are one place.
+    DAffine3 { matrix3, ..*map }.to_cols_array().map(|x| (x as f32 + 0.0).to_bits())
+}
+
+/// Who is seen: what shines, then what lets no light through, then what comes first.
+fn rank(object: &Curved, materials: &[Material]) -> u32 {
+    let transmits =
+        |index: u32| materials.get(index as usize).is_some_and(|m| m.traits().flags.has(BxdfFlags::TRANSMISSION));
+    match object.emissive {
+        Some(_) => 0,
+        None => 1 + u32::from(transmits(object.material)),
+    }
+}
+
+/// Leaves out the copies that are in the place of others, and warns of them.
+pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material], diagnostics: &mut Diagnostics) {
+    let mut order: Vec<usize> =
+        (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
+    order.sort_by_key(|&k| rank(&curved[k], materials));
+    let mut taken: HashMap<[u32; 12], Vec<UnitShape>> = HashMap::new();
+    let mut left_out: BTreeMap<Span, usize> = BTreeMap::new();
+    for k in order {
+        let unit = curved[k].unit;
+        let free: Vec<bool> = curved[k]
+            .maps
+            .iter()
+            .map(|map| {
+                let there = taken.entry(place(&curved[k], map)).or_default();
+                let free = !there.contains(&unit);
+                if free {
+                    there.push(unit);
+                }
+                free
+            })
+            .collect();
+        let lost = free.iter().filter(|&&free| !free).count();
+        if lost > 0 {
+            let mut free = free.into_iter();
+            curved[k].maps.retain(|_| free.next().unwrap_or(true));
+            let span = desc.objects.get(curved[k].number as usize).map_or(Span::NONE, |object| object.span);
+            *left_out.entry(span).or_default() += lost;
+        }
+    }
+    for (span, count) in left_out {
+        let message = match count {
+            1 => "this shape lies in one place with another: one of the two is seen".to_owned(),
+            _ => format!("{count} copies of this shape lie in one place with others: one of them is seen"),
+        };
+        diagnostics.push(
+            Diagnostic::warning(codes::IN_ONE_PLACE, span, message)
+                .hint("give them places of their own; in a `Repeat` by its index: `center: \"=(2 * i, 0, 0)\"`"),
+        );
+    }
+}
