@@ -1,0 +1,1 @@
+//! tracer as a module of Python.
