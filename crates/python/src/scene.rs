@@ -13,6 +13,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use tracer_core::{Assets, CompileError, check_files_from, compile_from};
 
+/// Wide enough for the lines that a scene of dictionaries is laid out in.
+const STYLE: render::Style = render::Style { color: false, width: 140 };
+
 /// A scene that is right, with what it names in memory.
 pub struct Held {
     pub desc: SceneDesc,
@@ -91,7 +94,7 @@ pub fn load(args: &Bound<'_, PyTuple>) -> PyResult<Py<PyDict>> {
 /// Puts diagnostics into a dictionary: as data, and as people read them.
 pub fn told(out: &Bound<'_, PyDict>, key: &str, faults: &Faults) -> PyResult<()> {
     out.set_item(key, render::json_lines(&faults.diagnostics, &faults.sources))?;
-    out.set_item("text", render::text(&faults.diagnostics, &faults.sources, render::Style::default()))
+    out.set_item("text", render::text(&faults.diagnostics, &faults.sources, STYLE))
 }
 
 fn source(request: &Bound<'_, PyDict>) -> PyResult<From> {

@@ -1,6 +1,6 @@
 """The compiled part. Its functions are called by the package alone."""
 
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Dict, List
 
 version: str
 layers: List[str]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
@@ -126,7 +127,7 @@ class Scene:
         given = [asset(os.fspath(name), value) for name, value in (assets or {}).items()]
         request["assets"] = found + given
         made = _native.load(request)
-        _raise(made)
+        _raise(made, [str(name) for name in assets or ()])
         self.warnings: List[Diagnostic] = diagnostics(made["warnings"])
         """What is doubtful."""
         self.size: Tuple[int, int] = made["size"]
@@ -229,9 +230,8 @@ def render(scene: "SceneLike", *, layers: Optional[Sequence[str]] = None, **sett
     of_scene = {name: settings.pop(name) for name in _OF_SCENE if name in settings}
     unknown = [name for name in settings if name not in _OF_RENDER]
     if unknown:
-        from difflib import get_close_matches
-
         near = get_close_matches(unknown[0], (*_OF_SCENE, *_OF_RENDER), 1)
+        near = [_OF_OTHERS[unknown[0]]] if unknown[0] in _OF_OTHERS else near
         tip = f"; did you mean {near[0]}?" if near else f"; there are {', '.join((*_OF_SCENE, *_OF_RENDER))}"
         raise TypeError(f"render() has no setting {unknown[0]!r}{tip}")
     if isinstance(scene, Scene):
@@ -246,6 +246,15 @@ def render(scene: "SceneLike", *, layers: Optional[Sequence[str]] = None, **sett
 
 _OF_SCENE = ("set", "assets", "base_dir", "syntax")
 _OF_RENDER = ("layers", "size", "samples", "seed", "denoise", "crop", "exposure", "noise", "time", "threads", "progress")
+
+_OF_OTHERS = {
+    "width": "size=(width, height)",
+    "height": "size=(width, height)",
+    "resolution": "size=(width, height)",
+    "spp": "samples",
+    "output": "Scene(..).render(..).save(path)",
+}
+"""What other programs, or people, call it."""
 
 
 def _request(scene: "SceneLike", syntax: Optional[str]) -> Tuple[Dict[str, Any], List[Dict[str, Any]]]:
@@ -281,7 +290,7 @@ def _checked(settings: Dict[str, Any]) -> Dict[str, Any]:
             what = "(width, height)" if count == 2 else "(x, y, width, height)"
             if isinstance(value, (str, bytes)) or not hasattr(value, "__len__") or len(value) != count:
                 raise TypeError(f"{name} is {what}, and not {value!r}")
-            settings[name] = tuple(_whole(f"a number of {name}", part, 0, 2**32 - 1) for part in value)
+            settings[name] = tuple(_whole(f"each number of {name}", part, 0, 2**32 - 1) for part in value)
     for name in ("exposure", "noise", "time"):
         value = settings[name]
         if value is not None:
@@ -306,9 +315,17 @@ def _whole(name: str, value: Any, least: int, most: int) -> Optional[int]:
     return int(number)
 
 
-def _raise(made: Dict[str, Any]) -> None:
-    if "faults" in made:
-        raise SceneError(diagnostics(made["faults"]), made["text"])
+def _raise(made: Dict[str, Any], assets: Sequence[str] = ()) -> None:
+    if "faults" not in made:
+        return
+    found, text = diagnostics(made["faults"]), made["text"]
+    for diagnostic in found:
+        # That a file is not there: it may be in memory, by nearly this name.
+        missing = diagnostic.message.rpartition(" ")[2] if diagnostic.code == "E0501" else ""
+        near = get_close_matches(missing, assets, 1) if missing else []
+        if near:
+            text = f"{text.rstrip()}\n\nnote: `assets` has {near[0]!r}, and the scene names {missing!r}\n"
+    raise SceneError(found, text)
 
 
 def _outside() -> int:

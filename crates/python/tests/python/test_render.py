@@ -57,7 +57,7 @@ def test_layers_by_name(ball):
 
 
 def test_a_clear_background_has_alpha(ball):
-    picture = tracer.Scene({**ball, "output": {"backdrop": "Transparent"}}).render()
+    picture = tracer.Scene({**ball, "output": {"alpha": True}}).render()
     assert picture.linear.shape == (16, 24, 4) and picture.display.shape == (16, 24, 4)
     assert picture.linear[0, 0, 3] == 0 and picture.linear[8, 12, 3] == 1
 
