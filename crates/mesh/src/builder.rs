@@ -74,8 +74,8 @@ impl Builder {
     #[cold]
     fn no_vertex(&self, index: i64, at: usize) -> Box<Fault> {
         let expected = match self.mesh.positions.len() {
-            0 => "no face in a file without vertices".to_owned(),
-            count => format!("an index from 0 to {}, as the file has {count} vertices", count - 1),
+            0 => "no face where there are no vertices".to_owned(),
+            count => format!("an index from 0 to {}, as there are {count} vertices", count - 1),
         };
         Fault::new(at, format!("there is no vertex {index}"), expected)
     }

@@ -30,6 +30,7 @@ impl fmt::Display for Place {
 
 /// Why a mesh could not be loaded.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// The file could not be read.
     #[error(transparent)]
@@ -59,6 +60,16 @@ pub enum MeshError {
         path: PathBuf,
         /// The extension.
         name: String,
+    },
+    /// The arrays of a mesh in memory are wrong.
+    #[error("the mesh {}: {message}", path.display())]
+    Arrays {
+        /// The name that the scene gives it.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+        /// What was expected.
+        expected: String,
     },
     /// The file has no triangle.
     #[error("{}: the mesh has no triangles", path.display())]
@@ -122,6 +133,9 @@ impl MeshError {
                     .expected("a glTF file that requires no extension but KHR_mesh_quantization")
                     .hint(hint)
                     .at_line(path, 0)
+            }
+            MeshError::Arrays { expected, .. } => {
+                Diagnostic::error(codes::BROKEN_MESH, span, self.to_string()).expected(expected.clone())
             }
             MeshError::Empty { path, hint } => Diagnostic::error(codes::EMPTY_MESH, span, self.to_string())
                 .expected("at least one triangle with an area")

@@ -1,14 +1,74 @@
-//! Reading a whole input file, and what can go wrong before its first byte is looked at.
+//! Reading a whole input file, of the disk or of memory, and what can go wrong before its first byte is looked at.
 
 use scene_format::Diagnostic;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
+use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 use std::{fs, io};
+
+/// Files that are in memory, by their paths; all others are those of the disk.
+///
+/// ```
+/// use std::path::Path;
+/// use tracer_mesh::{Files, load_from};
+///
+/// let mut files = Files::default();
+/// files.insert("models/a.off", *b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+/// let mesh = load_from(Path::new("models/a.off"), &files)?;
+/// assert_eq!(mesh.triangles, [[0, 1, 2]]);
+/// # Ok::<(), tracer_mesh::MeshError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    memory: BTreeMap<PathBuf, Arc<[u8]>>,
+}
+
+impl Files {
+    /// Puts a file there, in place of one of the disk with that path.
+    pub fn insert(&mut self, path: impl AsRef<Path>, bytes: impl Into<Arc<[u8]>>) {
+        self.memory.insert(plain(path.as_ref()), bytes.into());
+    }
+
+    /// The file of this path that is in memory.
+    pub fn get(&self, path: &Path) -> Option<&Arc<[u8]>> {
+        if self.memory.is_empty() { None } else { self.memory.get(&plain(path)) }
+    }
+
+    /// All bytes of a file.
+    ///
+    /// # Errors
+    /// As [`read_regular_file`].
+    pub fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        self.get(path).map_or_else(|| read_regular_file(path), |bytes| Ok(bytes.to_vec()))
+    }
+
+    /// Whether there is such a file.
+    pub fn has(&self, path: &Path) -> bool {
+        self.get(path).is_some() || path.is_file()
+    }
+}
+
+/// One of the names that a path has: without `.`, and without `..` where that leads back.
+pub fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}
 
 /// A mesh, texture, placements or MTL file that could not be read at all.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FileError {
     /// Nothing is there.
     #[error("there is no file {}", path.display())]

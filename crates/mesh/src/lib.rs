@@ -22,6 +22,7 @@
 )]
 #![forbid(unsafe_code)]
 
+mod arrays;
 mod builder;
 mod cursor;
 mod data;
@@ -42,9 +43,10 @@ pub mod normals;
 pub mod placements;
 pub mod shapes;
 
+pub use arrays::MeshArrays;
 pub use data::{MAX_COORDINATE, MeshData, NO_INDEX};
 pub use error::{MeshError, Place};
-pub use files::{FileError, read_regular_file};
+pub use files::{FileError, Files, plain, read_regular_file};
 pub use format::MeshFormat;
 pub use inline::mesh_of;
 
@@ -56,9 +58,19 @@ use std::path::Path;
 /// When there is no such file, it cannot be read or has another extension, when it is broken (with the line or the
 /// byte), and when no triangle is left.
 pub fn load(path: &Path) -> Result<MeshData, MeshError> {
+    load_from(path, &Files::default())
+}
+
+/// As [`load`], of files that may be in memory, as may be those that it names in turn: MTL files, buffers of glTF.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(path: &Path, files: &Files) -> Result<MeshData, MeshError> {
     let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
-    let text = read_regular_file(path)?;
-    parse(&text, format, path)
+    match files.get(path) {
+        Some(bytes) => parse_from(bytes, format, path, files),
+        None => parse_from(&read_regular_file(path)?, format, path, files),
+    }
 }
 
 /// Reads a mesh from the bytes of its file. `path` is what messages show, and where MTL files are looked for beside.
@@ -66,12 +78,15 @@ pub fn load(path: &Path) -> Result<MeshData, MeshError> {
 /// # Errors
 /// As [`load`].
 pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, MeshError> {
-    let read = match format {
-        MeshFormat::Obj => obj::read,
-        MeshFormat::Off => off::read,
-        MeshFormat::Ply => ply::read,
-        MeshFormat::Stl => stl::read,
-        MeshFormat::Gltf | MeshFormat::Glb => gltf::read,
-    };
-    read(text, path)
+    parse_from(text, format, path, &Files::default())
+}
+
+fn parse_from(text: &[u8], format: MeshFormat, path: &Path, files: &Files) -> Result<MeshData, MeshError> {
+    match format {
+        MeshFormat::Obj => obj::read(text, path, files),
+        MeshFormat::Off => off::read(text, path),
+        MeshFormat::Ply => ply::read(text, path),
+        MeshFormat::Stl => stl::read(text, path),
+        MeshFormat::Gltf | MeshFormat::Glb => gltf::read(text, path, files),
+    }
 }

@@ -168,8 +168,8 @@ fn errors_say_the_line_and_what_was_expected() {
         ("3 0 1 -2", "`-2` is not a whole number from 0", FACE),
         ("3 0 1 x", "`x` is not a whole number from 0", FACE),
         ("999999999999 0 1 2", "a number is missing at the end of the line", FACE),
-        ("3 0 1 3", "there is no vertex 3", "an index from 0 to 2, as the file has 3 vertices"),
-        ("3 0 1 4294967296", "there is no vertex 4294967296", "an index from 0 to 2, as the file has 3 vertices"),
+        ("3 0 1 3", "there is no vertex 3", "an index from 0 to 2, as there are 3 vertices"),
+        ("3 0 1 4294967296", "there is no vertex 4294967296", "an index from 0 to 2, as there are 3 vertices"),
         ("3 0 1 2 red", "`red` is not a number", "nothing more, or a colour"),
         ("3 0 1 2 0 0 0 0 9", "`9` is too much after a face of 3 corners", "at most 4 numbers of a colour"),
     ] {

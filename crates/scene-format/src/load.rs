@@ -10,6 +10,7 @@ use crate::overrides::{self, Override};
 use crate::read;
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
 use crate::tree::NO_SOURCE;
+use crate::write::{Defaults, to_json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -177,11 +178,53 @@ fn described(scene: Scene) -> SceneDesc {
 
 /// Reads a scene from JSON that nobody will see: spans point nowhere, and no file is looked at.
 pub(crate) fn unseen(text: &str) -> Result<SceneDesc, Diagnostics> {
+    match unseen_with_warnings(text) {
+        (Some(scene), _) => Ok(scene),
+        (None, faults) => Err(faults),
+    }
+}
+
+fn unseen_with_warnings(text: &str) -> (Option<SceneDesc>, Diagnostics) {
     let mut sink = Sink::default();
     let tree = parse_as(NO_SOURCE, text, Syntax::Json, &mut sink);
-    match read::scene(&tree, &mut sink) {
-        Some(scene) if sink.errors == 0 => Ok(described(scene)),
-        _ => Err(sink.diagnostics),
+    let scene = read::scene(&tree, &mut sink).filter(|_| sink.errors == 0);
+    (scene.map(described), sink.diagnostics)
+}
+
+impl SceneDesc {
+    /// What is wrong with a scene that was built in code, or doubtful: all that reading it would tell, in its order. The
+    /// diagnostics name fields (`objects[0].radius`) and no places. A scene that was read is right already. The files
+    /// that it names are not looked at: compiling does that.
+    ///
+    /// ```
+    /// use scene_format::desc::{Background, Object, Sphere};
+    /// use scene_format::{SceneDesc, Severity};
+    ///
+    /// let mut scene = SceneDesc { background: Background::Color([1.0; 3]), ..SceneDesc::default() };
+    /// assert_eq!(scene.validate()[0].code.as_str(), "E0301");
+    ///
+    /// let ball = |radius: f64| {
+    ///     let (center, radius) = ([0.0; 3].into(), radius.into());
+    ///     let (material, placements) = (Default::default(), Default::default());
+    ///     let (transform, name) = (Vec::new(), Default::default());
+    ///     Object::Sphere(Box::new(Sphere { center, radius, material, transform, placements, name }))
+    /// };
+    /// scene.objects = vec![ball(1.0).into(), ball(-1.0).into(), ball(f64::NAN).into()];
+    /// scene.render.samples = 0.into();
+    /// let faults = scene.validate();
+    /// let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();
+    /// assert_eq!(paths, ["render.samples", "objects[1].radius", "objects[2].radius"]);
+    /// assert!(faults.iter().all(|fault| fault.severity == Severity::Error));
+    ///
+    /// scene.objects.truncate(1);
+    /// scene.render.samples = 16.into();
+    /// assert!(scene.validate().is_empty());
+    /// ```
+    pub fn validate(&self) -> Diagnostics {
+        let mut found = unseen_with_warnings(&to_json(self, Defaults::Hidden)).1;
+        // What reading offers to mend is in a text that nobody sees.
+        found.iter_mut().for_each(|fault| fault.edit = None);
+        found
     }
 }
 

@@ -23,6 +23,7 @@ pub struct Denoised {
 
 /// Why a film cannot be denoised.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DenoiseError {
     /// It was rendered without what denoising needs.
     #[error("it was rendered without what denoising needs ({0})")]

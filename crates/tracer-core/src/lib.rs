@@ -43,7 +43,8 @@ mod film;
 pub mod scene;
 pub mod texture;
 
-pub use compile::{CompileError, Kept, check_files, compile, compile_keeping, named_files};
+pub use compile::{Asset, Assets, compile_from};
+pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
 pub use denoise::{DENOISE_REACH, DenoiseError, Denoised, GUIDES, denoise, lacks as denoise_lacks};
 pub use develop::{Backdrop, Image, Look, develop, develop_denoised, srgb_decode, srgb_encode};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};

@@ -1,4 +1,5 @@
-//! The command line of tracer, and its fifth hand: [`write()`] puts a developed picture into a file.
+//! The command line of tracer. The fifth hand, [`write()`], which puts a developed picture into a file, is a crate of its
+//! own, `tracer_picture`; here it is known as `write`.
 #![forbid(unsafe_code)]
 
 pub mod args;
@@ -18,9 +19,9 @@ pub mod opening;
 pub mod progress;
 pub mod report;
 pub mod shell;
-pub mod write;
 
-pub use write::write;
+pub use tracer_picture as write;
+pub use tracer_picture::write;
 
 use args::{Cli, Command, When};
 use clap::{ColorChoice, FromArgMatches};

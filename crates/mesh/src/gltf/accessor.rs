@@ -2,7 +2,7 @@
 
 use super::document::{Document, Element, List};
 use crate::cursor::{Fault, shown};
-use crate::files::read_regular_file;
+use crate::files::Files;
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -238,6 +238,8 @@ impl Values<'_, 1> {
 pub(super) struct Buffers<'a> {
     document: &'a Document<'a>,
     path: &'a Path,
+    /// Where buffers are that lie beside it.
+    files: &'a Files,
     chunk: Option<&'a [u8]>,
     known: BTreeMap<u32, Bytes<'a>>,
     of_files: BTreeMap<PathBuf, Bytes<'a>>,
@@ -247,8 +249,13 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    pub(super) fn new(document: &'a Document<'a>, path: &'a Path, chunk: Option<&'a [u8]>, size: u64) -> Self {
-        Buffers { document, path, chunk, known: BTreeMap::new(), of_files: BTreeMap::new(), size, spent: 0 }
+    pub(super) fn new(
+        document: &'a Document<'a>,
+        (path, files): (&'a Path, &'a Files),
+        chunk: Option<&'a [u8]>,
+        size: u64,
+    ) -> Self {
+        Buffers { document, path, files, chunk, known: BTreeMap::new(), of_files: BTreeMap::new(), size, spent: 0 }
     }
 
     /// The files that were read.
@@ -312,7 +319,9 @@ impl<'a> Buffers<'a> {
         if let Some(known) = self.of_files.get(&path) {
             return Ok(known.clone());
         }
-        let bytes = read_regular_file(&path)
+        let bytes = self
+            .files
+            .read(&path)
             .map_err(|error| Fault::new(at, format!("{label}: {error}"), "the buffer's file beside the mesh"))?;
         self.size += bytes.len() as u64;
         let bytes = Bytes::Own(Arc::new(bytes));

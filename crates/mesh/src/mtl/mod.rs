@@ -18,7 +18,7 @@
 mod library;
 
 use super::error::MeshError;
-use super::files::read_regular_file;
+use super::files::Files;
 use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::codes;
@@ -48,15 +48,20 @@ pub(super) struct MeshMaterials {
 }
 
 /// Reads the MTL files that `mtllib` names in the OBJ file at `obj_path`, and turns the used materials.
-pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result<MeshMaterials, MeshError> {
+pub(super) fn load(
+    libraries: &[&str],
+    used: &[&str],
+    obj_path: &Path,
+    files: &Files,
+) -> Result<MeshMaterials, MeshError> {
     let mut found = MeshMaterials::default();
     if used.is_empty() {
         return Ok(found);
     }
     let mut notes = Notes::default();
     let mut defined: BTreeMap<String, MtlMaterial> = BTreeMap::new();
-    for path in library_paths(libraries, obj_path, &mut notes) {
-        let text = match read_regular_file(&path) {
+    for path in library_paths(libraries, obj_path, files, &mut notes) {
+        let text = match files.read(&path) {
             Ok(text) => text,
             Err(error) => {
                 notes.missing.insert(error.to_string());
@@ -79,24 +84,24 @@ pub(super) fn load(libraries: &[&str], used: &[&str], obj_path: &Path) -> Result
             notes.current = name.to_owned();
         }
         found.index_of_name.push(Some(found.materials.len() as u32));
-        found.materials.push(NamedMaterial { name: name.to_owned().into(), material: turn(mtl, &mut notes) });
+        found.materials.push(NamedMaterial { name: name.to_owned().into(), material: turn(mtl, files, &mut notes) });
     }
     found.warning = notes.into_warning(obj_path);
     Ok(found)
 }
 
 /// The MTL files to read, each once: `mtllib` names one, with blanks in its name, or several.
-fn library_paths(libraries: &[&str], obj_path: &Path, notes: &mut Notes) -> Vec<PathBuf> {
+fn library_paths(libraries: &[&str], obj_path: &Path, files: &Files, notes: &mut Notes) -> Vec<PathBuf> {
     let mut known = BTreeSet::new();
     let mut paths = Vec::new();
     for &names in libraries {
         if !known.insert(names) {
             continue;
         }
-        let whole = find_beside(obj_path, names);
+        let whole = find_beside(obj_path, names, files);
         let found: Vec<Option<PathBuf>> = match whole {
             Some(path) => vec![Some(path)],
-            None => names.split_whitespace().map(|name| find_beside(obj_path, name)).collect(),
+            None => names.split_whitespace().map(|name| find_beside(obj_path, name, files)).collect(),
         };
         if found.contains(&None) {
             notes.missing.insert(format!("there is no file {names}"));
@@ -110,11 +115,11 @@ fn library_paths(libraries: &[&str], obj_path: &Path, notes: &mut Notes) -> Vec<
 
 /// A file named in another one: from that one's folder, with backslashes for slashes, or by its bare name beside it
 /// (MTL files often keep the paths of their author's machine).
-fn find_beside(path: &Path, name: &str) -> Option<PathBuf> {
+fn find_beside(path: &Path, name: &str, files: &Files) -> Option<PathBuf> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let slashed = name.replace('\\', "/");
     let bare = slashed.rsplit('/').next().unwrap_or_default().to_owned();
-    [name, &slashed, &bare].into_iter().map(|name| folder.join(name)).find(|path| path.is_file())
+    [name, &slashed, &bare].into_iter().map(|name| folder.join(name)).find(|path| files.has(path))
 }
 
 /// What MTL says and a scene cannot have.
@@ -181,7 +186,7 @@ fn of_materials(what: &str, materials: &BTreeSet<String>) -> String {
 }
 
 /// The scene's material for one of MTL.
-fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
+fn turn(mtl: &MtlMaterial, files: &Files, notes: &mut Notes) -> Material {
     for statement in &mtl.unsupported {
         notes.unsupported(statement);
     }
@@ -211,7 +216,7 @@ fn turn(mtl: &MtlMaterial, notes: &mut Notes) -> Material {
         }
         return Material::Mirror(Mirror { reflectance: specular.unwrap_or([1.0; 3]).into() });
     }
-    let picture = picture_of(mtl, diffuse, notes);
+    let picture = picture_of(mtl, diffuse, files, notes);
     let glossy = specular.filter(|_| is_specular && !matches!(mtl.illumination, Some(0 | 1)));
     if let (Some(specular), Some(exponent)) = (glossy, mtl.exponent.filter(|&exponent| exponent > 0.0)) {
         if exponent > *EXPONENTS.end() {
@@ -245,9 +250,9 @@ fn default_albedo() -> Color {
 }
 
 /// The picture of `map_Kd`, when it is there.
-fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, notes: &mut Notes) -> Option<Albedo> {
+fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, files: &Files, notes: &mut Notes) -> Option<Albedo> {
     let picture = mtl.picture.as_ref()?;
-    let Some(file) = find_beside(&mtl.file, &picture.name) else {
+    let Some(file) = find_beside(&mtl.file, &picture.name, files) else {
         notes.pictures.insert(picture.name.clone());
         return None;
     };

@@ -5,6 +5,7 @@ use super::{MOST, Oddities, Oddity};
 use crate::cursor::{Fault, shown};
 use crate::data::{MeshData, NO_INDEX};
 use crate::error::MeshError;
+use crate::files::Files;
 use crate::mtl;
 use crate::polygon::{PolygonCutter, TooIntricate, is_degenerate};
 use rayon::prelude::*;
@@ -90,7 +91,7 @@ impl<'a> Assembly<'a> {
     pub(super) fn into_mesh(
         mut self,
         text: &'a [u8],
-        path: &Path,
+        (path, files): (&Path, &Files),
         oddities: &mut Oddities,
     ) -> Result<MeshData, MeshError> {
         let positions = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.positions)).collect());
@@ -137,7 +138,7 @@ impl<'a> Assembly<'a> {
         let normals = without_needless_indices(normals, take(|part| &mut part.normals), &triangles, positions.len());
         let uvs = without_needless_indices(uvs, take(|part| &mut part.uvs), &triangles, positions.len());
 
-        let materials = mtl::load(&libraries, &names, path)?;
+        let materials = mtl::load(&libraries, &names, path, files)?;
         let mut triangle_material = join(good.into_iter().map(|part| part.materials).collect());
         if materials.materials.is_empty() {
             triangle_material.clear();

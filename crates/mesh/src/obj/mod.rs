@@ -17,6 +17,7 @@ mod piece;
 use super::cursor::Fault;
 use super::data::MeshData;
 use super::error::MeshError;
+use super::files::Files;
 use super::oddities::{Oddities, Oddity};
 use assemble::Assembly;
 use piece::Piece;
@@ -30,11 +31,11 @@ const PIECE: usize = 1 << 20;
 const MOST: usize = 1 << 31;
 
 /// Reads an OBJ file.
-pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
-    read_in_pieces(text, path, PIECE)
+pub(super) fn read(text: &[u8], path: &Path, files: &Files) -> Result<MeshData, MeshError> {
+    read_in_pieces(text, path, files, PIECE)
 }
 
-fn read_in_pieces(text: &[u8], path: &Path, piece_bytes: usize) -> Result<MeshData, MeshError> {
+fn read_in_pieces(text: &[u8], path: &Path, files: &Files, piece_bytes: usize) -> Result<MeshData, MeshError> {
     if let Some(fault) = foreign_encoding(text) {
         return Err(MeshError::at_line(path, text, *fault));
     }
@@ -49,7 +50,7 @@ fn read_in_pieces(text: &[u8], path: &Path, piece_bytes: usize) -> Result<MeshDa
         good.push(piece);
     }
     let assembly = Assembly::new(good).map_err(|fault| MeshError::at_line(path, text, *fault))?;
-    let mesh = assembly.into_mesh(text, path, &mut oddities)?;
+    let mesh = assembly.into_mesh(text, (path, files), &mut oddities)?;
     if mesh.triangles.is_empty() {
         let odd = oddities.summary();
         let hint = match mesh.positions.len() {

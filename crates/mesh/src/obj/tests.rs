@@ -9,7 +9,8 @@ const SAMPLE: &str = "# sample\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n\nv 1 1 
     s1\ns2\ns3\ns4\ns5\ns1\ns6\ns7\ns8\ns9\ns1\n";
 
 fn read(text: &str, piece_bytes: usize) -> Result<MeshData, String> {
-    read_in_pieces(text.as_bytes(), Path::new("m.obj"), piece_bytes).map_err(|error| error.to_string())
+    read_in_pieces(text.as_bytes(), Path::new("m.obj"), &Files::default(), piece_bytes)
+        .map_err(|error| error.to_string())
 }
 
 #[test]

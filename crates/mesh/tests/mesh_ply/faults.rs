@@ -149,8 +149,8 @@ fn errors_in_text_say_the_line_and_what_was_expected() {
         ("3.0 0 1 2", "`3.0` is not a whole number from 0", FACE),
         ("3 0 1 2.0", "`2.0` is not a whole number", FACE),
         ("3 0 1 x", "`x` is not a whole number", FACE),
-        ("3 0 1 -1", "there is no vertex -1", "an index from 0 to 2, as the file has 3 vertices"),
-        ("3 0 1 3", "there is no vertex 3", "an index from 0 to 2, as the file has 3 vertices"),
+        ("3 0 1 -1", "there is no vertex -1", "an index from 0 to 2, as there are 3 vertices"),
+        ("3 0 1 3", "there is no vertex 3", "an index from 0 to 2, as there are 3 vertices"),
         ("999999999999 0 1 2", "a number is missing at the end of the line", FACE),
     ] {
         let text = ascii("x y z q", good, &format!("{face}\n"));
@@ -198,7 +198,7 @@ fn errors_in_binary_data_say_the_byte() {
     let put = |at: usize, bytes: &[u8], data: &mut Vec<u8>| data[at..at + bytes.len()].copy_from_slice(bytes);
     // What is stepped over may be anything.
     assert_eq!(read(changed(&|data| put(12, &[0xff; 4], data)).1).triangles, [[0, 1, 2]]);
-    let indices = "an index from 0 to 2, as the file has 3 vertices";
+    let indices = "an index from 0 to 2, as there are 3 vertices";
     type Change<'a> = &'a dyn Fn(&mut Vec<u8>);
     let faults: [(Change, usize, &str, &str); 9] = [
         (&|data| put(20, &f32::NAN.to_le_bytes(), data), 20, "`NaN` is not a finite number", "finite numbers"),

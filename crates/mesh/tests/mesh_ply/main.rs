@@ -327,6 +327,6 @@ fn strips_of_triangles_are_unwound() {
         assert_eq!(mesh.triangles, [[0, 1, 3], [3, 1, 2], [4, 5, 7], [7, 5, 6]]);
         let [message, expected] = faults::error(file(&[0.0, 1.0, 2.0, -2.0]));
         assert!(message.ends_with("there is no vertex -2"), "{message}");
-        assert_eq!(expected, "an index from 0 to 7, as the file has 8 vertices");
+        assert_eq!(expected, "an index from 0 to 7, as there are 8 vertices");
     }
 }

@@ -1,6 +1,7 @@
 //! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see
 //! [`tracer_kernels::shapes`]).
 
+use super::assets::Sources;
 use super::materials::MaterialBuilder;
 use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
@@ -111,7 +112,12 @@ pub struct Curved {
 }
 
 /// Finds materials and places of the objects with curved sides, in order.
-pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut Diagnostics) -> Vec<Curved> {
+pub fn load(
+    desc: &SceneDesc,
+    sources: &Sources<'_>,
+    builder: &mut MaterialBuilder,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Curved> {
     let mut all = Vec::new();
     for (number, object) in (0..).zip(&desc.objects) {
         let Some(Written { unit, local, noun }) = written(&object.value) else { continue };
@@ -122,12 +128,12 @@ pub fn load(desc: &SceneDesc, builder: &mut MaterialBuilder, diagnostics: &mut D
         if !faults.is_empty() {
             diagnostics.extend(faults);
             // A placements file is read even when something else is wrong: all faults in one run.
-            place_all(desc, transform, placements, &Subject::unknown(noun), diagnostics);
+            place_all((desc, sources), transform, placements, &Subject::unknown(noun), diagnostics);
             continue;
         }
         let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
         let subject = Subject { noun, local, middle: local.translation, reach: Some(&reach) };
-        let maps = place_all(desc, transform, placements, &subject, diagnostics);
+        let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
         if emissive.is_some() && (unit != UnitShape::Sphere || !maps.iter().all(is_similar)) {

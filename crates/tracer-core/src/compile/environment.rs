@@ -1,6 +1,7 @@
 //! The background: black, a colour, or a picture of all directions.
 
-use crate::texture::{self, Panorama};
+use super::assets::Sources;
+use crate::texture::Panorama;
 use glam::DVec3;
 use scene_format::desc::{self, Background};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -15,13 +16,13 @@ pub(super) enum Loaded<'d> {
 }
 
 /// Loads it. Where that fails it is black.
-pub(super) fn load<'d>(desc: &'d SceneDesc, diagnostics: &mut Diagnostics) -> Loaded<'d> {
+pub(super) fn load<'d>(desc: &'d SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Loaded<'d> {
     let environment = match &desc.background {
         Background::Color(color) => return Loaded::Color(*color),
         Background::Environment(environment) => environment,
     };
     let span = environment.file.span;
-    match texture::load_environment(&desc.base_dir.join(&environment.file.value)) {
+    match sources.environment(&desc.base_dir.join(&environment.file.value)) {
         Ok(mut picture) => {
             diagnostics.extend(picture.warnings.drain(..).map(|warning| Diagnostic { span, ..warning }));
             Loaded::Environment(environment, picture)

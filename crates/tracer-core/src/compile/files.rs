@@ -1,20 +1,29 @@
 //! The files of a scene whose text is wrong: what is wrong with them is told in the same run.
 
+use super::assets::{Assets, DISK, Sources};
 use super::nearby;
-use crate::texture;
 use rayon::prelude::*;
 use scene_format::desc::Material;
 use scene_format::diagnostic::{Source, Span};
 use scene_format::{Diagnostics, FileKind, NamedFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tracer_mesh::{self as mesh, placements::load_placements};
 
 /// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it,
 /// and its faults come back in order of their places in the scene. Warnings are left out, as the scene is going to be
 /// mended first. Paths start from `base_dir`; `sources` are the texts that the places point into.
 pub fn check_files(files: &[NamedFile], base_dir: &Path, sources: &[Source]) -> Diagnostics {
-    let faults: Vec<Diagnostics> = files.par_iter().map(|file| faults_of(file, &base_dir.join(&file.path))).collect();
+    check(files, base_dir, sources, &DISK)
+}
+
+/// As [`check_files`], where files may be in memory.
+pub fn check_files_from(files: &[NamedFile], base_dir: &Path, sources: &[Source], assets: &Assets) -> Diagnostics {
+    check(files, base_dir, sources, &Sources::new(assets, base_dir))
+}
+
+fn check(files: &[NamedFile], base_dir: &Path, sources: &[Source], from: &Sources<'_>) -> Diagnostics {
+    let of_file = |file: &NamedFile| faults_of(file, &base_dir.join(&file.path), from);
+    let faults: Vec<Diagnostics> = files.par_iter().map(of_file).collect();
     let mut faults: Diagnostics = faults.into_iter().flatten().collect();
     faults.sort_by_key(|fault| fault.span);
     let wanted: BTreeMap<Span, &Path> = files.iter().map(|file| (file.span, &*file.path)).collect();
@@ -22,25 +31,23 @@ pub fn check_files(files: &[NamedFile], base_dir: &Path, sources: &[Source]) -> 
     faults
 }
 
-fn faults_of(file: &NamedFile, path: &Path) -> Diagnostics {
-    let of_texture = |path: &Path| texture::load(path).err().map(|error| error.to_diagnostic(file.span));
+fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
+    let of_texture = |path: &Path| from.texture(path).err().map(|error| error.to_diagnostic(file.span));
     match file.kind {
         FileKind::Texture => of_texture(path).into_iter().collect(),
-        FileKind::Environment => texture::load_environment(path)
-            .err()
-            .map(|error| error.to_environment_diagnostic(file.span))
-            .into_iter()
-            .collect(),
+        FileKind::Environment => {
+            from.environment(path).err().map(|error| error.to_environment_diagnostic(file.span)).into_iter().collect()
+        }
         FileKind::Heights => {
-            let error = texture::load_heights(path).err();
+            let error = from.heights(path).err();
             error.map(|error| error.to_heights_diagnostic(file.span)).into_iter().collect()
         }
         // The loader has read it, and told what is wrong with it.
         FileKind::Scene => Vec::new(),
         FileKind::Placements => {
-            load_placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
+            from.placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
         }
-        FileKind::Mesh => match mesh::load(path) {
+        FileKind::Mesh => match from.mesh(path) {
             Err(error) => vec![error.to_diagnostic(file.span)],
             Ok(data) => {
                 let mut textures: Vec<PathBuf> =

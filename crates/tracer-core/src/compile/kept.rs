@@ -66,37 +66,23 @@ fn file<T, E>(
 }
 
 /// A mesh file, read or kept.
-pub(super) fn load_mesh(kept: Option<&Kept>, path: &Path) -> Result<Arc<MeshData>, MeshError> {
-    match kept {
-        None => mesh::load(path).map(Arc::new),
-        Some(kept) => file(
-            &kept.meshes,
-            path,
-            || mesh::load(path),
-            |mesh| {
-                // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one
-                // is read again.
-                let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
-                mesh.libraries.iter().cloned().chain(odd).collect()
-            },
-        ),
-    }
+pub(super) fn load_mesh(kept: &Kept, path: &Path) -> Result<Arc<MeshData>, MeshError> {
+    // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read again.
+    let others = |mesh: &MeshData| {
+        let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
+        mesh.libraries.iter().cloned().chain(odd).collect()
+    };
+    file(&kept.meshes, path, || mesh::load(path), others)
 }
 
 /// A texture, read or kept.
-pub(super) fn load_texture(kept: Option<&Kept>, path: &Path) -> Result<Arc<Texture>, TextureError> {
-    match kept {
-        None => texture::load(path).map(Arc::new),
-        Some(kept) => file(&kept.textures, path, || texture::load(path), |_| Vec::new()),
-    }
+pub(super) fn load_texture(kept: &Kept, path: &Path) -> Result<Arc<Texture>, TextureError> {
+    file(&kept.textures, path, || texture::load(path), |_| Vec::new())
 }
 
 /// Heights, read or kept.
-pub(super) fn load_heights(kept: Option<&Kept>, path: &Path) -> Result<Arc<Landscape>, TextureError> {
-    match kept {
-        None => texture::load_heights(path).map(Arc::new),
-        Some(kept) => file(&kept.heights, path, || texture::load_heights(path), |_| Vec::new()),
-    }
+pub(super) fn load_heights(kept: &Kept, path: &Path) -> Result<Arc<Landscape>, TextureError> {
+    file(&kept.heights, path, || texture::load_heights(path), |_| Vec::new())
 }
 
 /// A tree, built or kept.

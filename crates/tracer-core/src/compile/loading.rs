@@ -1,7 +1,7 @@
 //! Where triangles come from: mesh files loaded once each, what the scene writes out itself, shapes that triangles are
 //! made for, pictures of heights.
 
-use super::kept::{Kept, load_heights, load_mesh};
+use super::assets::Sources;
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -37,7 +37,7 @@ impl Loaded {
 
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
 // Long: one arm for each way that triangles come into a scene.
-pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Loaded {
+pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Loaded {
     let mut paths: Vec<(PathBuf, Span)> = Vec::new();
     let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
@@ -79,7 +79,7 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
             }
         });
     }
-    let results: Vec<_> = paths.par_iter().map(|(path, _)| load_mesh(kept, path)).collect();
+    let results: Vec<_> = paths.par_iter().map(|(path, _)| sources.mesh(path)).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
     for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
@@ -97,7 +97,7 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
         }
     }
     let made: Vec<_> = made.par_iter().map(|(shape, span)| shape.mesh(*span)).collect();
-    let fields = height_fields(desc, kept, &fields, diagnostics);
+    let fields = height_fields(desc, sources, &fields, diagnostics);
     let mut written = |results: Vec<Result<MeshData, Box<Diagnostic>>>| -> Vec<Option<usize>> {
         let file_of = |result| match result {
             Ok(data) => {
@@ -133,7 +133,7 @@ pub fn load(desc: &SceneDesc, kept: Option<&Kept>, diagnostics: &mut Diagnostics
 /// The triangles of height fields. A picture that several of them have is read once, and told of where the first is.
 fn height_fields(
     desc: &SceneDesc,
-    kept: Option<&Kept>,
+    sources: &Sources<'_>,
     fields: &[&HeightField],
     diagnostics: &mut Diagnostics,
 ) -> Vec<Result<MeshData, Box<Diagnostic>>> {
@@ -148,7 +148,7 @@ fn height_fields(
             })
         })
         .collect();
-    let read: Vec<_> = paths.par_iter().map(|(path, _)| load_heights(kept, path)).collect();
+    let read: Vec<_> = paths.par_iter().map(|(path, _)| sources.heights(path)).collect();
     for (landscape, (_, span)) in read.iter().zip(&paths) {
         let warnings = landscape.iter().flat_map(|landscape| &landscape.warnings);
         diagnostics.extend(warnings.map(|w| Diagnostic { span: *span, ..w.clone() }));

@@ -1,6 +1,6 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
-use super::kept::{Kept, load_texture};
+use super::assets::Sources;
 use super::textures::pattern;
 use crate::texture::{Texels, Texture};
 use rayon::prelude::*;
@@ -255,9 +255,9 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// Loads the textures.
-    pub fn finish(self, kept: Option<&Kept>, diagnostics: &mut Diagnostics) -> Finished {
+    pub fn finish(self, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Finished {
         let load = |image: &Image| match image {
-            Image::File(path, span) => load_texture(kept, path).map_err(|error| Box::new(error.to_diagnostic(*span))),
+            Image::File(path, span) => sources.texture(path).map_err(|error| Box::new(error.to_diagnostic(*span))),
             Image::Squares(colors) => Ok(Arc::new(squares(*colors))),
         };
         let loaded: Vec<_> = self.images.par_iter().map(load).collect();

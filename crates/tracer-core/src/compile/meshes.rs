@@ -5,6 +5,7 @@
 //! triangles together ([`flattened`]). Any other stays in a frame of its own, recentred and scaled by a power of two to
 //! a size of about one, and its instances carry matrices.
 
+use super::assets::Sources;
 use super::kept::{Kept, build_tree};
 pub use super::loading::{Loaded, load};
 use super::materials::MaterialBuilder;
@@ -69,13 +70,13 @@ pub struct Placed {
 }
 
 /// Evaluates transforms and placements.
-pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
+pub fn place(desc: &SceneDesc, sources: &Sources<'_>, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
     let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
     for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
         let Some(data) = file.map(|f| &loaded.files[f]) else {
             // A placements file is read even when the mesh is missing: all faults in one run.
             let unknown = Subject::unknown(object.noun);
-            place_all(desc, object.transform, object.placements, &unknown, diagnostics);
+            place_all((desc, sources), object.transform, object.placements, &unknown, diagnostics);
             placed.maps.push(Vec::new());
             placed.boxes.push([DVec3::ZERO; 2]);
             continue;
@@ -97,7 +98,7 @@ pub fn place(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) -
             _ => object.local.transform_point3(DVec3::from(data.barycentre())),
         };
         let subject = Subject { noun: object.noun, local: object.local, middle, reach: Some(&reach) };
-        let maps = place_all(desc, object.transform, object.placements, &subject, diagnostics);
+        let maps = place_all((desc, sources), object.transform, object.placements, &subject, diagnostics);
         let at = object.transform.first().map_or(object.span, |t| t.span);
         check(&maps, at, object.noun, diagnostics);
         placed.maps.push(maps);

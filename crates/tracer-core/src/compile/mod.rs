@@ -1,6 +1,7 @@
 //! From [`SceneDesc`] to [`Scene`]: assets loaded, names resolved, everything in render space, tables and tree built.
 //! The second hand.
 
+mod assets;
 mod camera;
 mod curved;
 mod energy;
@@ -21,8 +22,10 @@ mod unmeant;
 
 use crate::develop::{Backdrop, Look};
 use crate::scene::{CompileTimes, Scene, backdrop, film_layers};
+pub use assets::{Asset, Assets};
+use assets::{DISK, Sources};
 use curved::Curved;
-pub use files::check_files;
+pub use files::{check_files, check_files_from};
 use glam::{DAffine3, DVec3};
 pub use kept::Kept;
 use materials::{Finished, MaterialBuilder};
@@ -63,7 +66,15 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
 /// All faults of the assets at once: missing or unreadable files, wrong meshes and textures, singular transforms, each
 /// at the place in the scene file that names it.
 pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
-    compile_with(desc, None)
+    compile_with(desc, &DISK)
+}
+
+/// As [`compile`], of a scene whose files may be in memory.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_from(desc: &SceneDesc, assets: &Assets) -> Result<Scene, CompileError> {
+    compile_with(desc, &Sources::new(assets, &desc.base_dir))
 }
 
 /// As [`compile`], to the same scene, but what is in `kept` and has not changed is neither read nor built anew, and
@@ -72,7 +83,7 @@ pub fn compile(desc: &SceneDesc) -> Result<Scene, CompileError> {
 /// # Errors
 /// As [`compile`].
 pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileError> {
-    let compiled = compile_with(desc, Some(kept));
+    let compiled = compile_with(desc, &Sources::keeping(kept));
     // A scene with faults has not told what it uses.
     if compiled.is_ok() {
         kept.sweep();
@@ -80,18 +91,18 @@ pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileEr
     compiled
 }
 
-fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileError> {
+fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, CompileError> {
     let start = Instant::now();
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
-    let loaded = meshes::load(desc, kept, &mut diagnostics);
+    let loaded = meshes::load(desc, sources, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
-    let mut curved = curved::load(desc, &mut builder, &mut diagnostics);
+    let mut curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
-    let Finished { materials, images, uses, patterns } = builder.finish(kept, &mut diagnostics);
-    let background = environment::load(desc, &mut diagnostics);
-    let placed = meshes::place(desc, &loaded, &mut diagnostics);
+    let Finished { materials, images, uses, patterns } = builder.finish(sources, &mut diagnostics);
+    let background = environment::load(desc, sources, &mut diagnostics);
+    let placed = meshes::place(desc, sources, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
@@ -145,6 +156,7 @@ fn compile_with(desc: &SceneDesc, kept: Option<&Kept>) -> Result<Scene, CompileE
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
+    let kept = sources.kept;
     let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;

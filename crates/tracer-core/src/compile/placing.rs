@@ -1,11 +1,12 @@
 //! Transforms of the scene language as matrices.
 
+use super::assets::Sources;
 use super::patterns;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Extent, Placements, Transform, group_fault};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use tracer_mesh::placements::{load_placements, rotation};
+use tracer_mesh::placements::rotation;
 
 /// What steps ask of what they move.
 pub struct Subject<'a> {
@@ -42,14 +43,14 @@ impl Subject<'_> {
 
 /// From an object's own frame to the world: its transforms and, after them, each copy's.
 pub fn place_all(
-    desc: &SceneDesc,
+    of: (&SceneDesc, &Sources<'_>),
     transforms: &[Spanned<Transform>],
     placements: &Placements,
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<DAffine3> {
     let map = place(transforms, subject, diagnostics);
-    let copies = subject.under(&map, |moved| copies(desc, placements, moved, diagnostics));
+    let copies = subject.under(&map, |moved| copies(of, placements, moved, diagnostics));
     let map = map * subject.local;
     copies.into_iter().map(|copy| copy * map).collect()
 }
@@ -165,7 +166,7 @@ const MOST_COPIES: u64 = 100_000_000;
 
 /// The maps of the copies, in the world. A fault of a group is told once, whatever stands in it.
 fn copies(
-    desc: &SceneDesc,
+    of: (&SceneDesc, &Sources<'_>),
     placements: &Placements,
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
@@ -173,7 +174,7 @@ fn copies(
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
         Placements::List(list) => list.iter().map(|steps| place(steps, subject, diagnostics)).collect(),
-        Placements::File(file) => match load_placements(&desc.base_dir.join(&file.value)) {
+        Placements::File(file) => match of.1.placements(&of.0.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {
                 diagnostics.push(error.to_diagnostic(file.span));
@@ -182,11 +183,11 @@ fn copies(
         },
         Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
         Placements::Within(within) => {
-            let mut maps = copies(desc, &within.own, subject, diagnostics);
+            let mut maps = copies(of, &within.own, subject, diagnostics);
             let mut found = Diagnostics::new();
             for group in within.groups.outwards() {
                 let step = place(&group.transform, &Subject::GROUP, &mut found);
-                let around = copies(desc, &group.placements, &Subject::GROUP, &mut found);
+                let around = copies(of, &group.placements, &Subject::GROUP, &mut found);
                 if maps.len() as u64 * around.len() as u64 > MOST_COPIES {
                     let at = group.placements.files().first().map_or(Span::NONE, |file| file.span);
                     let message = format!("groups make more than {MOST_COPIES} copies of an object");
@@ -232,6 +233,7 @@ pub fn sides(n: DVec3) -> [DVec3; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::assets::DISK;
     use super::*;
 
     fn near(a: DVec3, b: [f64; 3]) {
@@ -285,7 +287,7 @@ mod tests {
         let desc = loaded.expect("a scene").scene;
         let of = |object: usize| {
             let placements = desc.objects[object].value.placements();
-            place_all(&desc, &[], placements, &Subject::unknown("sphere"), &mut Diagnostics::new())
+            place_all((&desc, &DISK), &[], placements, &Subject::unknown("sphere"), &mut Diagnostics::new())
         };
         let centres: Vec<DVec3> = of(0).iter().map(|map| map.transform_point3(DVec3::ZERO)).collect();
         let inner = [[2.0, 0.0, 1.0], [0.0, 6.0, 1.0], [0.0, 0.0, 0.0], [0.0, 3.0, 1.0]];
@@ -429,7 +431,8 @@ mod tests {
             std::path::Path::new(""),
             &[],
         );
-        let maps = place_all(&desc.expect("a scene").scene, &own, &placements, &subject, &mut Diagnostics::new());
+        let maps =
+            place_all((&desc.expect("a scene").scene, &DISK), &own, &placements, &subject, &mut Diagnostics::new());
         assert_eq!(maps.iter().map(|map| cube(map, 1)).collect::<Vec<_>>(), [[1.0, 5.0], [-4.0, 4.0]]);
     }
 }

@@ -31,6 +31,7 @@ use tracer_kernels::scene::Scene;
 
 /// Why a film cannot be gone on with ([`resume`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Misfit {
     /// It was made with another setting: which.
     #[error("the film was made with another {0}")]

@@ -43,6 +43,7 @@ pub type Note = (String, String);
 
 /// Why a saved film cannot be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FilmError {
     /// It could not be read.
     #[error("it cannot be read: {0}")]

@@ -33,6 +33,7 @@ pub enum Gaps {
 
 /// Why parts do not make a film. Parts have the numbers of their heads, from zero.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MergeError {
     /// There is none.
     #[error("there are no parts")]

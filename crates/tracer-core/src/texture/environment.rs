@@ -29,9 +29,20 @@ const LARGEST_HALF: f32 = 65504.0;
 /// When there is no such file, it cannot be read, is of another format or broken, or too large in itself or for its
 /// file.
 pub fn load_environment(path: &Path) -> Result<Panorama, TextureError> {
-    let bytes = read_regular_file(path)?;
-    let format = format_of(&bytes, path, &ENVIRONMENTS)?;
-    let picture = checked(&bytes, path, format)?;
+    decode_environment(&read_regular_file(path)?, path)
+}
+
+/// Decodes such a picture from the bytes of its file; `path` is what messages show.
+///
+/// # Errors
+/// As [`load_environment`].
+pub fn decode_environment(bytes: &[u8], path: &Path) -> Result<Panorama, TextureError> {
+    let format = format_of(bytes, path, &ENVIRONMENTS)?;
+    Ok(panorama(checked(bytes, path, format)?, path))
+}
+
+/// A decoded picture as one of all directions.
+pub(super) fn panorama(picture: DynamicImage, path: &Path) -> Panorama {
     let size = [picture.width(), picture.height()];
     let mut texels = match picture {
         DynamicImage::ImageRgb32F(picture) => picture.into_raw().as_chunks::<3>().0.to_vec(),
@@ -65,7 +76,7 @@ pub fn load_environment(path: &Path) -> Result<Panorama, TextureError> {
         let taken = format!("taken as black, and infinite ones as {LARGEST_HALF}");
         warnings.push(warning.hint(taken).at_line(path, 0));
     }
-    Ok(Panorama { size, texels, warnings })
+    Panorama { size, texels, warnings }
 }
 
 /// Of sRGB code values, packed as `0x00BBGGRR`.

@@ -10,6 +10,7 @@ use tracer_mesh::FileError;
 
 /// Why a texture could not be loaded.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum TextureError {
     /// The file could not be read.
     #[error(transparent)]
@@ -58,6 +59,20 @@ pub enum TextureError {
         /// The file.
         path: PathBuf,
         /// How many.
+        wrong: usize,
+    },
+    /// What stands there in memory is a mesh.
+    #[error("{} is a mesh", path.display())]
+    Mesh {
+        /// The name that the scene gives it.
+        path: PathBuf,
+    },
+    /// Numbers from memory are no colours of a surface.
+    #[error("{wrong} pixels of the picture {} have numbers outside of 0 to 1", path.display())]
+    Range {
+        /// The name that the scene gives it.
+        path: PathBuf,
+        /// How many pixels.
         wrong: usize,
     },
 }
@@ -140,6 +155,12 @@ impl TextureError {
                      file"
                 ))
                 .hint("save the picture smaller"),
+            TextureError::Mesh { .. } => {
+                Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string()).expected("a picture")
+            }
+            TextureError::Range { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
+                .expected("linear reflectance, 0 to 1 in each channel")
+                .hint("divide by the largest number, or cut off what is beyond"),
             TextureError::Heights { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())
                 .expected("a finite number in each pixel")
                 .hint("where a picture has no height, fill it in: with 0, or with the heights around it"),

@@ -24,12 +24,23 @@ pub struct Landscape {
 /// When there is no such file, it cannot be read, is of another format or broken, has less than two pixels along a side
 /// or more than [`MOST_HEIGHTS`], or a height is not finite.
 pub fn load_heights(path: &Path) -> Result<Landscape, TextureError> {
-    let bytes = read_regular_file(path)?;
-    let format = format_of(&bytes, path, &ENVIRONMENTS)?;
-    let picture = checked_up_to(&bytes, path, format, MOST_HEIGHTS)?;
+    decode_heights(&read_regular_file(path)?, path)
+}
+
+/// Decodes heights from the bytes of their file; `path` is what messages show.
+///
+/// # Errors
+/// As [`load_heights`].
+pub fn decode_heights(bytes: &[u8], path: &Path) -> Result<Landscape, TextureError> {
+    let format = format_of(bytes, path, &ENVIRONMENTS)?;
+    landscape(checked_up_to(bytes, path, format, MOST_HEIGHTS)?, path, bytes.len() as u64)
+}
+
+/// The heights of a picture of so many bytes.
+pub(super) fn landscape(picture: DynamicImage, path: &Path, bytes: u64) -> Result<Landscape, TextureError> {
     let (width, depth) = (picture.width(), picture.height());
-    if width < 2 || depth < 2 {
-        return Err(TextureError::Size { path: path.to_owned(), width, height: depth, bytes: bytes.len() as u64 });
+    if width < 2 || depth < 2 || u64::from(width) * u64::from(depth) > MOST_HEIGHTS {
+        return Err(TextureError::Size { path: path.to_owned(), width, height: depth, bytes });
     }
     let warnings = warning_of_alpha(&picture, path).into_iter().collect();
     let values = values(picture);

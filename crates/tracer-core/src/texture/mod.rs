@@ -19,10 +19,12 @@ mod environment;
 mod error;
 mod extent;
 mod heights;
+mod pixels;
 
-pub use environment::{Panorama, load_environment};
+pub use environment::{Panorama, decode_environment, load_environment};
 pub use error::TextureError;
-pub use heights::{Landscape, load_heights};
+pub use heights::{Landscape, decode_heights, load_heights};
+pub use pixels::{Pixels, PixelsError};
 pub use tracer_kernels::scene::Texels;
 pub use tracer_kernels::srgb::SRGB_TO_LINEAR;
 

@@ -79,6 +79,20 @@ pub const PROOFS: &[Proof] = &[
         &["cargo test --locked --workspace --test truth"],
     ),
     proof(
+        "python",
+        Always,
+        "the wheel of the module for Python: built, installed, tested by pytest, its types by mypy, the examples of \
+         docs/python.md; two minutes, once the program is built with `--release`",
+        &[Python(&["maturin==1.16.0", "numpy", "pytest==9.2.0", "mypy==2.4.1"]), Program("strip", "binutils")],
+        &[
+            "rm -rf target/prove/wheels && python -m pip wheel --quiet --disable-pip-version-check --no-deps \
+             --no-build-isolation --wheel-dir target/prove/wheels crates/python",
+            "python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
+             target/prove/wheels/tracer_render-*.whl",
+            "python -m pytest -q -c crates/python/pyproject.toml crates/python/tests/python --pyargs tracer",
+        ],
+    ),
+    proof(
         "slurm",
         Always,
         "`tracer farm` with a Slurm of its own: nodes that die, limits, failures, and parts by GNU parallel, the same \

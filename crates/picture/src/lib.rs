@@ -1,7 +1,29 @@
 //! The fifth hand: a developed [`Image`] becomes a file, whole or not at all.
 //!
+//! ```
+//! use scene_format::{Syntax, load_str};
+//! use std::path::Path;
+//! use tracer_core::{RenderOptions, Unobserved, compile, develop, render};
+//! use tracer_picture::{Bits, Encoding, Place, Provenance, encode, write};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let text = "Scene(image: Image(width: 16, height: 12), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+//! let scene = compile(&load_str("ball.ron", text, Syntax::Ron, Path::new(""), &[])?.scene)?;
+//! let film = render(&scene, &RenderOptions { samples: Some(2), ..RenderOptions::default() }, &Unobserved);
+//! let image = develop(&film, &scene.look);
+//! let png = encode(&image, Encoding::Png(Bits::Eight), &Provenance::default())?;
+//! assert!(png.starts_with(b"\x89PNG"));
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("ball.exr");
+//! let written = write(&image, Encoding::from_path(&path, Bits::Eight)?, &Place::File(path), &Provenance::default())?;
+//! assert!(written.bytes > 0 && written.sha256.len() == 64);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! EXR, HDR and PFM hold linear exposed radiance; PNG holds display values, rounded to the nearest code value. The
 //! bytes depend on the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine.
+#![forbid(unsafe_code)]
 
 mod encoding;
 mod error;

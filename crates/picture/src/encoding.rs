@@ -14,6 +14,7 @@ pub enum Bits {
 
 /// How a picture is put into bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Encoding {
     /// PNG: display values, sRGB.
     Png(Bits),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 /// Why a file could not be written. In all cases an older file of that name is as it was.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum WriteError {
     /// The folder that the file should be in is not there.
     #[error("cannot write {}: there is no folder {}; make it, or name another place", path.display(), folder.display())]

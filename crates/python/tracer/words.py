@@ -1,0 +1,1260 @@
+"""The words of scenes as types, for editors and type checkers.
+
+Made of the schema (`tracer schema`); `UPDATE_EXPECT=1 cargo test -p tracer-python --test words` makes it anew.
+
+>>> from tracer.words import SceneDict
+>>> scene: SceneDict = {"background": 1, "objects": [{"Sphere": {"center": [0, 0, 0], "radius": 1}}]}
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, TypedDict, Union
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from ._assets import Mesh as MeshArrays
+
+    Array = npt.NDArray[Any]
+    File = Union[str, "os.PathLike[str]", Array, MeshArrays]
+else:
+    Array = Any
+    File = Any
+
+AlignItem = TypedDict("AlignItem", {"Align": "Align"})
+ArrowItem = TypedDict("ArrowItem", {"Arrow": "Arrow"})
+BlackmanHarrisItem = TypedDict("BlackmanHarrisItem", {"BlackmanHarris": "BlackmanHarris"})
+BlinnPhongItem = TypedDict("BlinnPhongItem", {"BlinnPhong": "BlinnPhong"})
+BoxItem = TypedDict("BoxItem", {"Box": "Box"})
+CapsuleItem = TypedDict("CapsuleItem", {"Capsule": "Capsule"})
+CheckerboardItem = TypedDict("CheckerboardItem", {"Checkerboard": "Checkerboard"})
+ConductorItem = TypedDict("ConductorItem", {"Conductor": "Conductor"})
+ConeItem = TypedDict("ConeItem", {"Cone": "Cone"})
+CylinderItem = TypedDict("CylinderItem", {"Cylinder": "Cylinder"})
+DiffuseItem = TypedDict("DiffuseItem", {"Diffuse": "Diffuse"})
+DiskItem = TypedDict("DiskItem", {"Disk": "Disk"})
+DotsItem = TypedDict("DotsItem", {"Dots": "Dots"})
+DropToItem = TypedDict("DropToItem", {"DropTo": "Union[DropTo, float, str]"})
+EmissiveItem = TypedDict("EmissiveItem", {"Emissive": "Emissive"})
+EnvironmentItem = TypedDict("EnvironmentItem", {"Environment": "Environment"})
+ExtrudeItem = TypedDict("ExtrudeItem", {"Extrude": "Extrude"})
+FisheyeItem = TypedDict("FisheyeItem", {"Fisheye": "Fisheye"})
+FitToItem = TypedDict("FitToItem", {"FitTo": "FitTo"})
+GaussianItem = TypedDict("GaussianItem", {"Gaussian": "Gaussian"})
+GradientItem = TypedDict("GradientItem", {"Gradient": "Gradient"})
+GridItem = TypedDict("GridItem", {"Grid": "Grid"})
+GroupItem = TypedDict("GroupItem", {"Group": "Group"})
+HeightFieldItem = TypedDict("HeightFieldItem", {"HeightField": "HeightField"})
+IncludeItem = TypedDict("IncludeItem", {"Include": "Include"})
+LatheItem = TypedDict("LatheItem", {"Lathe": "Lathe"})
+LinesItem = TypedDict("LinesItem", {"Lines": "Lines"})
+MarbleItem = TypedDict("MarbleItem", {"Marble": "Marble"})
+MatrixItem = TypedDict("MatrixItem", {"Matrix": "Matrix"})
+MeshItem = TypedDict("MeshItem", {"Mesh": "Mesh"})
+MirrorItem = TypedDict("MirrorItem", {"Mirror": "Mirror"})
+NoiseItem = TypedDict("NoiseItem", {"Noise": "Noise"})
+ObjectItem = TypedDict("ObjectItem", {"Object": "ObjectKind"})
+OrthographicItem = TypedDict("OrthographicItem", {"Orthographic": "Orthographic"})
+PickItem = TypedDict("PickItem", {"Pick": "Pick"})
+PolygonItem = TypedDict("PolygonItem", {"Polygon": "Polygon"})
+RectangleItem = TypedDict("RectangleItem", {"Rectangle": "Rectangle"})
+RepeatItem = TypedDict("RepeatItem", {"Repeat": "Repeat"})
+RingItem = TypedDict("RingItem", {"Ring": "Ring"})
+RotateItem = TypedDict("RotateItem", {"Rotate": "Rotate"})
+ScaleItem = TypedDict("ScaleItem", {"Scale": "Union[Scale, float, str, Sequence[Union[float, str]], Array]"})
+ScatterItem = TypedDict("ScatterItem", {"Scatter": "Scatter"})
+SphereItem = TypedDict("SphereItem", {"Sphere": "Sphere"})
+SphereLightItem = TypedDict("SphereLightItem", {"SphereLight": "SphereLight"})
+TextureItem = TypedDict("TextureItem", {"Texture": "Texture"})
+ThinLensItem = TypedDict("ThinLensItem", {"ThinLens": "ThinLens"})
+TorusItem = TypedDict("TorusItem", {"Torus": "Torus"})
+TranslateItem = TypedDict("TranslateItem", {"Translate": "Union[Sequence[Union[float, str]], Array, str]"})
+TransparentItem = TypedDict("TransparentItem", {"Transparent": "Transparent"})
+TubeItem = TypedDict("TubeItem", {"Tube": "Tube"})
+UvItem = TypedDict("UvItem", {"Uv": "Uv"})
+VoronoiItem = TypedDict("VoronoiItem", {"Voronoi": "Voronoi"})
+WoodItem = TypedDict("WoodItem", {"Wood": "Wood"})
+WorldItem = TypedDict("WorldItem", {"World": "World"})
+
+_PickRequired = TypedDict(
+    "_PickRequired",
+    {
+    "from": "Sequence[Any]",
+    "index": "Union[int, str, PickItem]",
+    },
+)
+_PickFields = TypedDict("_PickFields", {
+}, total=False)
+
+
+class Pick(_PickRequired, _PickFields, total=False):
+    """One of several values, by a number: `Pick(from: ["red", "blue"], index: "=i")`.
+
+    from: The values: anything that may stand where the pick does.
+    index: Which of them, counted from 0; after the last one the first follows again.
+    """
+
+
+class _RepeatRequired(TypedDict):
+    count: Union[int, str, PickItem]
+    items: Sequence[Any]
+
+
+class Repeat(_RepeatRequired, total=False):
+    """Puts its items into the list so many times.
+
+    count: How many times.
+    index: The name that counts from 0 in expressions within.
+    vars: Values by name, reckoned anew each time.
+    items: What is put into the list each time.
+    """
+
+    index: Union[str, PickItem]
+    vars: Dict[str, Any]
+
+
+class Camera(TypedDict, total=False):
+    """A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
+
+    position: Eye point. Unit: the scene's unit.
+    look_at: A point in the middle of the picture. Unit: the scene's unit.
+    up: The direction that is up in the picture.
+    fov: Field of view in degrees: the picture's height, unless `fov_axis` says otherwise.
+    fov_axis: Side of the picture that `fov` is measured along.
+    focal_length: Instead of `fov`, as photographers say it: the focal length of a lens before film that is `sensor_width` wide. 50 is normal for film of 36 mm, 24 wide, 85 a portrait. The picture's width sees 2 atan(sensor_width / 2 focal_length). How sharp it is, `effects` say. Unit: millimetres.
+    sensor_width: Width of the film for `focal_length`. Unit: millimetres.
+    shift: Moves the film, as a view camera does: what is seen moves by so many picture heights to the right and up, and upright walls stay parallel where `up` lies in the film. (0, 0.5) shows the upper half twice as high up. Unit: picture heights.
+    near: What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It still shades and shows in mirrors. Unit: the scene's unit.
+    projection: How directions become places in the picture.
+    """
+
+    position: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    look_at: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    up: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    fov: Union[float, str, PickItem]
+    fov_axis: Union[FovAxis, PickItem]
+    focal_length: Any
+    sensor_width: Union[float, str, PickItem]
+    shift: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    near: Any
+    projection: Union[Projection, PickItem]
+
+
+FovAxis = Literal["Vertical", "Horizontal", "Diagonal", "Smaller", "Larger"]
+
+Projection = Union[Literal["Perspective", "Panorama"], "OrthographicItem", "FisheyeItem"]
+
+class _OrthographicRequired(TypedDict):
+    height: Union[float, str, PickItem]
+
+
+class Orthographic(_OrthographicRequired, total=False):
+    """Parallel rays from the plane of `position`: nothing becomes smaller with distance, as in plans and figures. What lies behind that plane is not seen.
+
+    height: What the picture's height shows. Unit: the scene's unit.
+    """
+
+
+class Fisheye(TypedDict, total=False):
+    """A fisheye lens: a round picture in the middle of the frame, as large as its shorter side. Around it there is nothing: black, and no part of `alpha`.
+
+    fov: The whole angle that the circle shows; 360 is all there is. Unit: degrees.
+    mapping: From the angle to the view direction to the distance from the middle.
+    """
+
+    fov: Union[float, str, PickItem]
+    mapping: Union[FisheyeMapping, PickItem]
+
+
+FisheyeMapping = Literal["Equidistant", "Equisolid", "Stereographic", "Orthographic"]
+
+class Image(TypedDict, total=False):
+    """Size of the picture in pixels.
+
+    width: Pixels across. Unit: pixels.
+    height: Pixels down. Unit: pixels.
+    """
+
+    width: Union[int, str, PickItem]
+    height: Union[int, str, PickItem]
+
+
+class Render(TypedDict, total=False):
+    """How to render.
+
+    samples: Camera samples per pixel.
+    max_bounces: Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces, and one more to a light.
+    seed: Seed of all random choices.
+    acceleration: What finds the hits; the picture is the same, byte for byte.
+    integrator: With or without what saves noise.
+    reuse: Whether the pixels of a block share what they find.
+    caustics: How light comes over mirrors and glass to diffuse surfaces.
+    indirect: How light comes to second vertices over further surfaces.
+    clamp: The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one light path brings (`caustics`) counts at most as much; a caustic of many may be brighter. Unit: W/(sr m^2).
+    noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is a bound from above, since samples are stratified: 1.2 to 2.1 times the true error on figures 4, 6 and 8, more where the edge of a bright lamp is in view (4.6 in Cornell's box). `samples` are the most. It is looked at with 16, 32, 64, 128, 192, .. samples, so the picture depends on nothing else. `None`: all samples.
+    time: The rendering ends when the program has run so long. `samples` are the most. `None`: all samples. Unit: seconds.
+    """
+
+    samples: Union[int, str, PickItem]
+    max_bounces: Union[int, str, PickItem]
+    seed: Union[int, str, PickItem]
+    acceleration: Union[Acceleration, PickItem]
+    integrator: Union[Integrator, PickItem]
+    reuse: Union[Reuse, PickItem]
+    caustics: Union[Caustics, PickItem]
+    indirect: Union[Indirect, PickItem]
+    clamp: Any
+    noise: Any
+    time: Any
+
+
+Acceleration = Any
+
+Integrator = Literal["Full", "Path"]
+
+Reuse = Any
+
+Caustics = Any
+
+Indirect = Literal["Map", "Paths"]
+
+class Effects(TypedDict, total=False):
+    """Film and lens effects.
+
+    antialiasing: The pixel's reconstruction filter.
+    depth_of_field: Lens; `None` is a pinhole.
+    exposure: Exposure in stops: the radiance is multiplied by 2^exposure.
+    tone_map: Curve from exposed radiance to display.
+    """
+
+    antialiasing: Union[PixelFilter, PickItem]
+    depth_of_field: Union[DepthOfField, PickItem]
+    exposure: Union[float, str, PickItem]
+    tone_map: Union[ToneMap, PickItem]
+
+
+PixelFilter = Any
+
+class Gaussian(TypedDict, total=False):
+    """A Gaussian of this standard deviation, in pixels.
+
+    sigma: Standard deviation in pixels.
+    """
+
+    sigma: Union[float, str, PickItem]
+
+
+class BlackmanHarris(TypedDict, total=False):
+    """The Blackman-Harris window, 4 terms, of this radius in pixels.
+
+    radius: Half width in pixels.
+    """
+
+    radius: Union[float, str, PickItem]
+
+
+DepthOfField = Any
+
+class _ThinLensRequired(TypedDict):
+    aperture: Union[float, str, PickItem]
+
+
+class ThinLens(_ThinLensRequired, total=False):
+    """A thin lens: a disc-shaped aperture, or one with blades, sharp at the plane of focus. Where that is, is said by exactly one of `focus_distance` and `focus_on`.
+
+    aperture: Diameter of the lens, in the scene's unit: a point at distance d along the view axis is blurred to a disc that is aperture * |d - focus_distance| / d across in the plane of focus. A photographer's f-number is focal length over aperture.
+    focus_distance: Distance from the eye to the plane of focus, along the view axis. Unit: the scene's unit.
+    focus_on: A point that is sharp: the plane of focus goes through it. Unit: the scene's unit.
+    blades: Blades of the aperture: blurred lights become polygons with so many corners, as large as the disc. 0: discs.
+    rotation: Turns the aperture, counter-clockwise as the picture shows it; at 0 it has a corner to the right. Unit: degrees.
+    tilt: Turns the plane of focus about the picture's right, then about its up, as a view camera does: (-80, 0) makes a table sharp from front to back. Unit: degrees.
+    """
+
+    focus_distance: Any
+    focus_on: Any
+    blades: Union[int, str, PickItem]
+    rotation: Union[float, str, PickItem]
+    tilt: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+ToneMap = Any
+
+class Output(TypedDict, total=False):
+    """What is written beside the picture.
+
+    layers: Layers that EXR files get beside the picture: what camera rays hit first. The picture is the same with and without them.
+    alpha: Leaves the background out, to lay the picture over another one: PNG and EXR files say how much of each pixel is covered. It still lights the scene, and shows in mirrors and through glass.
+    backdrop: A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still lights the scene, and shows in mirrors and through glass.
+    """
+
+    layers: Sequence[Union[Layer, RepeatItem, PickItem]]
+    alpha: Union[bool, str, PickItem]
+    backdrop: Any
+
+
+Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha"]
+
+Background = EnvironmentItem
+
+class _EnvironmentRequired(TypedDict):
+    file: File
+
+
+class Environment(_EnvironmentRequired, total=False):
+    """Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera looks by default, to -z, what is right of there to +x, and its top row at `up`.
+
+    file: HDR, EXR, PNG or JPEG, relative to the scene file; twice as wide as it is high.
+    scale: Radiance where the picture has 1: one number, or three of red, green and blue. Unit: W/(sr m^2).
+    rotation: Turns it about `up`, counter-clockwise seen from there. Unit: degrees.
+    up: Direction of the top row.
+    camera_visible: Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
+    """
+
+    scale: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    rotation: Union[float, str, PickItem]
+    up: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    camera_visible: Union[bool, str, PickItem]
+
+
+Light = SphereLightItem
+
+class _SphereLightRequired(TypedDict):
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    radius: Union[float, str, PickItem]
+
+
+class SphereLight(_SphereLightRequired, total=False):
+    """A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`, `radiance` and `power`.
+
+    center: Centre. Unit: the scene's unit.
+    radius: Radius. Unit: the scene's unit.
+    intensity: Radiant intensity: L = I / (pi r^2). Unit: W/sr.
+    radiance: Radiance L of every point of the sphere. Unit: W/(sr m^2).
+    power: Power: L = P / (4 pi^2 r^2). Unit: W.
+    name: What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
+    """
+
+    intensity: Any
+    radiance: Any
+    power: Any
+    name: Any
+
+
+Material = Union["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
+
+class Diffuse(TypedDict, total=False):
+    """Lambert: albedo / pi.
+
+    albedo: Reflected share per channel.
+    """
+
+    albedo: Union[float, Sequence[Union[float, str]], Array, str, Pattern, PickItem]
+
+
+Pattern = Union["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem"]
+
+class _TextureRequired(TypedDict):
+    file: File
+
+
+class Texture(_TextureRequired, total=False):
+    """A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
+
+    file: PNG or JPEG, relative to the scene file.
+    filter: Between texels.
+    wrap: Beyond the borders.
+    mapping: Where it lies.
+    """
+
+    filter: Union[TextureFilter, PickItem]
+    wrap: Union[TextureWrap, PickItem]
+    mapping: Union[Mapping, PickItem]
+
+
+TextureFilter = Literal["Bilinear", "Nearest"]
+
+TextureWrap = Literal["Repeat", "Clamp", "Mirror"]
+
+Mapping = UvItem
+
+class Uv(TypedDict, total=False):
+    """By the surface's texture coordinates: scaled, then turned, then moved.
+
+    scale: So many times along each side, or one number for both.
+    rotation: Angle, counter-clockwise where v points up. Unit: degrees.
+    offset: Added at last.
+    """
+
+    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    rotation: Union[float, str, PickItem]
+    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Checkerboard(TypedDict, total=False):
+    """Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is even. In space they are cubes.
+
+    a: One colour.
+    b: The other one.
+    mapping: How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along a unit of length.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+SolidMapping = Union["UvItem", "ObjectItem", "WorldItem"]
+
+class ObjectKind(TypedDict, total=False):
+    """By the coordinates that the shape is written in, before its `transform` and `placements` and those of groups: the texture goes with the object, which is turned to turn it. A `center` other than the origin is such a coordinate, too.
+
+    scale: So many cells of the texture a unit along each axis, or one number for all.
+    offset: Added at last.
+    """
+
+    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class World(TypedDict, total=False):
+    """By the scene's coordinates, after all transforms: objects move through the texture, and those side by side share it.
+
+    scale: So many cells of the texture a unit along each axis, or one number for all.
+    offset: Added at last.
+    """
+
+    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Lines(TypedDict, total=False):
+    """Lines where the mapped coordinates are whole: a grid, tiles with joints, stripes.
+
+    a: The colour of the lines.
+    b: The colour between them.
+    width: How wide a line is; lines are one apart. 0.5 makes even stripes.
+    along: Which way the lines run.
+    mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    width: Union[float, str, PickItem]
+    along: Union[LinesAlong, PickItem]
+    mapping: Union[Mapping, PickItem]
+
+
+LinesAlong = Literal["Both", "U", "V"]
+
+class Dots(TypedDict, total=False):
+    """Round dots, one in the middle of each unit square of the mapped coordinates.
+
+    a: The colour between the dots.
+    b: The colour of the dots.
+    radius: Half a dot's width; dots are one apart.
+    mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    radius: Union[float, str, PickItem]
+    mapping: Union[Mapping, PickItem]
+
+
+class Gradient(TypedDict, total=False):
+    """From `a` where the mapped coordinate is 0 to `b` where it is 1, linear between, and constant beyond.
+
+    a: The colour at 0.
+    b: The colour at 1.
+    axis: What runs from 0 to 1.
+    mapping: How it lies.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    axis: Union[GradientAxis, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+GradientAxis = Literal["Y", "X", "Z", "Radial"]
+
+class Noise(TypedDict, total=False):
+    """Perlin's improved noise (2002), mixed from octaves: clouds, dirt, wear. It seldom comes near its two colours: of `Fbm` with six octaves 98 % of all points have t from 0.32 to 0.68, of `Perlin` from 0.21 to 0.80, of `Turbulence` from 0.06 to 0.46 (half of them below 0.21). For more contrast take `a` darker and `b` lighter than what is to be seen.
+
+    a: The colour where the noise is lowest.
+    b: The colour where it is highest.
+    kind: How octaves are mixed.
+    octaves: How many; Perlin has one whatever is said here.
+    lacunarity: Each octave is so many times finer than the last.
+    gain: Each octave counts so many times what the last does.
+    mapping: How it lies: `Object(scale: 4)` puts four cells of noise along a unit of length.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    kind: Union[NoiseKind, PickItem]
+    octaves: Union[int, str, PickItem]
+    lacunarity: Union[float, str, PickItem]
+    gain: Union[float, str, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+NoiseKind = Literal["Fbm", "Perlin", "Turbulence"]
+
+class Wood(TypedDict, total=False):
+    """Rings around the y axis, one a unit of the mapped coordinates, bent by noise. Along y it looks like the side of a plank, in stripes; across it, at the end of a plank, like a cut tree, in rings about the origin. There is no field that turns it: with `mapping: Object()` it turns with the object's `transform`. So a plank whose grain runs along x is written upright and turned: `Box(size: (0.2, 2, 0.1), transform: [Rotate(axis: (0, 0, 1), degrees: 90)])`. The heart of the tree is at x = 0, z = 0: an `offset` moves it.
+
+    a: The colour in a ring's middle, and on the axis.
+    b: The colour between.
+    distortion: How far noise bends the rings, in rings.
+    mapping: How it lies: `Object(scale: 4)` makes it four times finer.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    distortion: Union[float, str, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+class Marble(TypedDict, total=False):
+    """Veins across the x axis, one a unit of the mapped coordinates, bent by six octaves of turbulence. With `mapping: Object()` they turn with the object's `transform`, as `Wood` does.
+
+    a: The colour of the veins.
+    b: The colour between them.
+    distortion: How far turbulence bends the veins, in veins.
+    mapping: How it lies: `Object(scale: 4)` makes it four times finer.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    distortion: Union[float, str, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+class Voronoi(TypedDict, total=False):
+    """Cells about scattered points, one point in each unit cube of the mapped coordinates (Worley 1996): stones, scales, cracks.
+
+    a: The colour where the feature is 0.
+    b: The colour where it is 1.
+    feature: What goes from 0 to 1.
+    jitter: How far points are from the middles of their cubes: at 0 they are there, at 1 anywhere in the cube.
+    mapping: How it lies: `Object(scale: 4)` puts four cells along a unit of length.
+    """
+
+    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    feature: Union[VoronoiFeature, PickItem]
+    jitter: Union[float, str, PickItem]
+    mapping: Union[SolidMapping, PickItem]
+
+
+VoronoiFeature = Literal["F1", "F2MinusF1", "Cell"]
+
+class Mirror(TypedDict, total=False):
+    """A perfect mirror.
+
+    reflectance: Reflected share per channel.
+    """
+
+    reflectance: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class _TransparentRequired(TypedDict):
+    ior: Union[float, str, PickItem]
+
+
+class Transparent(_TransparentRequired, total=False):
+    """A smooth dielectric: exact Fresnel reflection and refraction.
+
+    ior: Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
+    transmittance: Share of refracted light that passes each surface, per channel.
+    """
+
+    transmittance: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class _BlinnPhongRequired(TypedDict):
+    exponent: Union[float, str, PickItem]
+    specular: Union[float, str, PickItem]
+
+
+class BlinnPhong(_BlinnPhongRequired, total=False):
+    """Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
+
+    albedo: Colour of both lobes.
+    exponent: alpha: 1 is dull, 100000 nearly a mirror.
+    specular: s: share of the glossy lobe, 0 to 1.
+    energy_conserving: The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
+    """
+
+    albedo: Union[float, Sequence[Union[float, str]], Array, str, Pattern, PickItem]
+    energy_conserving: Union[bool, str, PickItem]
+
+
+class Conductor(TypedDict, total=False):
+    """A metal, smooth or rough: GGX. What it reflects is said by exactly one of `metal`, `ior` (with `k`) and `reflectance`.
+
+    metal: A measured metal.
+    ior: Index of refraction per channel, for Fresnel's equations.
+    k: Extinction coefficient per channel; with `ior` only.
+    reflectance: Reflected share at normal incidence per channel; it grows to 1 at grazing angles (F82-tint model).
+    edge_tint: What the reflected share at about 82 degrees is multiplied by, per channel; with `reflectance` only. None: 1.
+    roughness: r: 0 is a mirror, 1 dull. The width of the lobe is alpha = r^2.
+    multiple_scattering: Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017): without it rough metals are too dark.
+    """
+
+    metal: Any
+    ior: Any
+    k: Any
+    reflectance: Any
+    edge_tint: Any
+    roughness: Union[float, str, PickItem]
+    multiple_scattering: Union[bool, str, PickItem]
+
+
+Metal = Literal["Silver", "Gold", "Copper", "Aluminum", "Iron", "Chromium", "Nickel", "Titanium", "Brass", "Platinum", "Steel"]
+
+class Emissive(TypedDict, total=False):
+    """A surface that shines and reflects nothing: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses, arrows and meshes with it are lights. How much it shines is said by exactly one of `radiance` and `power`.
+
+    radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
+    power: Power of each copy: L = P / (pi A), A the area that shines (both sides where `two_sided`). Unit: W.
+    two_sided: Whether it shines to both sides; else only to the normal's: outwards.
+    """
+
+    radiance: Any
+    power: Any
+    two_sided: Union[bool, str, PickItem]
+
+
+Object = Union["SphereItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "GroupItem", "IncludeItem"]
+
+class _SphereRequired(TypedDict):
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    radius: Union[float, str, PickItem]
+
+
+class Sphere(_SphereRequired, total=False):
+    """A sphere; an ellipsoid by `Scale` in `transform`.
+
+    center: Centre. Unit: the scene's unit.
+    radius: Radius. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last; textures turn along.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+Transform = Union["TranslateItem", "ScaleItem", "RotateItem", "DropToItem", "MatrixItem", "AlignItem", "FitToItem"]
+
+class _ScaleRequired(TypedDict):
+    factor: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+
+
+class Scale(_ScaleRequired, total=False):
+    """Scales; `Scale(2)` is short for `Scale(factor: 2)`.
+
+    factor: One factor, or one per axis; negative ones mirror.
+    about: Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin. Unit: the scene's unit.
+    """
+
+    about: Any
+
+
+class _RotateRequired(TypedDict):
+    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    degrees: Union[float, str, PickItem]
+
+
+class Rotate(_RotateRequired, total=False):
+    """Rotates by the right-hand rule.
+
+    axis: Axis of rotation (any length but zero).
+    degrees: Angle in degrees.
+    about: Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin. Unit: the scene's unit.
+    """
+
+    about: Any
+
+
+class _DropToRequired(TypedDict):
+    y: Union[float, str, PickItem]
+
+
+class DropTo(_DropToRequired, total=False):
+    """Moves along y so that the lowest point lies at this height.
+
+    y: Height of the lowest point. Unit: the scene's unit.
+    """
+
+
+class _MatrixRequired(TypedDict):
+    rows: Union[Sequence[Union[Sequence[Union[float, str]], Array, str]], Array, PickItem]
+
+
+class Matrix(_MatrixRequired, total=False):
+    """An affine map, about the origin: the point (px, py, pz) comes to a px + b py + c pz + x, and so on. It may turn, scale, mirror, shear and move. Blender's `matrix_world` and Mitsuba's `to_world` have these rows and a fourth, which is left out; glTF and pbrt list columns. Worlds of POV-Ray and pbrt are mirrored: there the signs of x's row and then of x's column change.
+
+    rows: Three rows of four numbers: three factors, and how far it moves.
+    """
+
+
+_AlignRequired = TypedDict(
+    "_AlignRequired",
+    {
+    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    },
+)
+_AlignFields = TypedDict("_AlignFields", {
+    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "about": "Any",
+}, total=False)
+
+
+class Align(_AlignRequired, _AlignFields, total=False):
+    """Turns by the least rotation that takes one direction to another. Where they are opposite it is half a turn about what is right on a `Rectangle` whose normal is `from`: x for (0, 1, 0).
+
+    from: The direction that is turned (any length but zero).
+    to: The direction that it is turned to.
+    about: Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin. Unit: the scene's unit.
+    """
+
+
+class FitTo(TypedDict, total=False):
+    """Scales by one factor so that the object has this extent along one axis of the world, or as its largest. What has no extent along that axis is an error.
+
+    height: Extent along y, from the lowest point to the highest. Unit: the scene's unit.
+    width: Extent along x. Unit: the scene's unit.
+    depth: Extent along z. Unit: the scene's unit.
+    size: The largest of the three. Unit: the scene's unit.
+    about: Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin. Unit: the scene's unit.
+    """
+
+    height: Union[float, str, PickItem]
+    width: Union[float, str, PickItem]
+    depth: Union[float, str, PickItem]
+    size: Union[float, str, PickItem]
+    about: Any
+
+
+PlacementPattern = Union["GridItem", "RingItem", "ScatterItem"]
+
+class _GridRequired(TypedDict):
+    count: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Grid(_GridRequired, total=False):
+    """Rows and columns about the origin, x first, then y, then z: `Grid(count: (5, 1, 5), spacing: (2, 1, 2))`.
+
+    count: How many along x, y and z.
+    spacing: From one to the next along x, y and z. Unit: the scene's unit.
+    """
+
+    spacing: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class _RingRequired(TypedDict):
+    count: Union[int, str, PickItem]
+    radius: Union[float, str, PickItem]
+
+
+class Ring(_RingRequired, total=False):
+    """Evenly on a circle about the origin, counter-clockwise seen from the tip of `axis`.
+
+    count: How many.
+    radius: Radius of the circle. Unit: the scene's unit.
+    axis: What the circle goes round.
+    start: Angle of the first copy. At 0 it stands where (0, 1, 0) x axis points, or (1, 0, 0) where the axis is upright. Unit: degrees.
+    turn: Whether copies turn with the circle, as the seats of a carousel do; else all look the same way.
+    """
+
+    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    start: Union[float, str, PickItem]
+    turn: Union[bool, str, PickItem]
+
+
+class _ScatterRequired(TypedDict):
+    count: Union[int, str, PickItem]
+    min: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    max: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Scatter(_ScatterRequired, total=False):
+    """By chance, evenly over a box.
+
+    count: How many.
+    min: A corner of the box. Unit: the scene's unit.
+    max: The corner opposite; the same y gives copies on the ground. Unit: the scene's unit.
+    seed: Another number gives other places.
+    spacing: Least distance between copies. A copy that finds no room in 32 tries is left out, which is a warning. Unit: the scene's unit.
+    turn: Axis about which each copy is turned by an angle of its own; `None`: none is.
+    scale: The least and the greatest factor of the copies' sizes.
+    """
+
+    seed: Union[int, str, PickItem]
+    spacing: Any
+    turn: Any
+    scale: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Rectangle(TypedDict, total=False):
+    """A flat rectangle. Seen against its normal, its sides run to the right and upwards: to the right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. Texture coordinates grow along the sides from 0 to 1. Where it shines it shines to the normal's side.
+
+    center: Its middle. Unit: the scene's unit.
+    normal: Direction that it faces.
+    size: Lengths of its sides to the right and upwards, or one number for both. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    size: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class Box(TypedDict, total=False):
+    """A box with right angles, its sides along the axes before `transform`. Each face has texture coordinates from 0 to 1, as a `Rectangle` that faces outwards: on the four upright ones v grows along y, and u to the right as seen from outside; on top and bottom u grows along x, and v along -z on top and along z below.
+
+    center: Its middle. Unit: the scene's unit.
+    size: Lengths of its sides along x, y and z, or one number for all. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    size: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class Disk(TypedDict, total=False):
+    """A flat disk, or a ring. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards from 0 to 1 over the square around it. It is open: it has no inside.
+
+    center: Its middle. Unit: the scene's unit.
+    normal: Direction that it faces.
+    radius: Radius. Unit: the scene's unit.
+    inner_radius: Radius of the hole in its middle, less than `radius`; 0: there is none. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    radius: Union[float, str, PickItem]
+    inner_radius: Union[float, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+_CylinderRequired = TypedDict(
+    "_CylinderRequired",
+    {
+    "radius": "Union[float, str, PickItem]",
+    },
+)
+_CylinderFields = TypedDict("_CylinderFields", {
+    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "caps": "Union[bool, str, PickItem]",
+    "material": "Union[str, Material, PickItem]",
+    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
+    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "name": "Any",
+}, total=False)
+
+
+class Cylinder(_CylinderRequired, _CylinderFields, total=False):
+    """A round cylinder. With its caps it is closed; without them it is a tube of no thickness, which is seen from inside, too. Its front is its outside. Texture coordinates: u goes once round it from 0 to 1, counter-clockwise seen from beyond `to`, v from 0 at `from` to 1 at `to`; on the caps both grow from 0 to 1 as on a `Disk` that faces outwards.
+
+    from: Middle of its first end. Unit: the scene's unit.
+    to: Middle of its other end. Unit: the scene's unit.
+    radius: Radius. Unit: the scene's unit.
+    caps: Whether disks close its ends.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+
+_ConeRequired = TypedDict(
+    "_ConeRequired",
+    {
+    "radius": "Union[float, str, PickItem]",
+    },
+)
+_ConeFields = TypedDict("_ConeFields", {
+    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "tip_radius": "Union[float, str, PickItem]",
+    "caps": "Union[bool, str, PickItem]",
+    "material": "Union[str, Material, PickItem]",
+    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
+    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "name": "Any",
+}, total=False)
+
+
+class Cone(_ConeRequired, _ConeFields, total=False):
+    """A round cone, or a part of one: a lampshade, a bucket. With its caps it is closed; without them it has no thickness and is seen from inside, too. Texture coordinates are those of a `Cylinder`.
+
+    from: Middle of the end of radius `radius`. Unit: the scene's unit.
+    to: The tip, or the middle of the end of radius `tip_radius`. Unit: the scene's unit.
+    radius: Radius at `from`. Unit: the scene's unit.
+    tip_radius: Radius at `to`; 0: a tip. Unit: the scene's unit.
+    caps: Whether disks close its ends.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+
+_CapsuleRequired = TypedDict(
+    "_CapsuleRequired",
+    {
+    "radius": "Union[float, str, PickItem]",
+    },
+)
+_CapsuleFields = TypedDict("_CapsuleFields", {
+    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "material": "Union[str, Material, PickItem]",
+    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
+    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "name": "Any",
+}, total=False)
+
+
+class Capsule(_CapsuleRequired, _CapsuleFields, total=False):
+    """A cylinder with half spheres on its ends: all points at most `radius` away from the way between two points. Texture coordinates: u goes round it, v along its outline from 0 below `from` to 1 beyond `to`, by the length of the way.
+
+    from: Middle of its first half sphere. Unit: the scene's unit.
+    to: Middle of the other one. Unit: the scene's unit.
+    radius: Radius. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+
+class _LatheRequired(TypedDict):
+    profile: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+
+
+class Lathe(_LatheRequired, total=False):
+    """What a profile passes over as it turns about the y axis: a vase, a glass, a chess piece. Where both ends of the profile lie on the axis, or its last point is its first, it is closed and faces outwards, either way round. Else it is open: it has no thickness, and its front is on the right of its profile, drawn with the axis on the left: outwards where the profile goes up. An open `Emissive` one shines to its front, and open glass has no inside. It is made of triangles. Texture coordinates: u goes round from 0 to 1 as a sphere's, beginning at -z and at 1/4 at -x, v grows from 0 at the first point to 1 at the last, by length along the profile.
+
+    profile: Two or more points (distance from the axis, height). A point that repeats the last one is left out. Unit: the scene's unit.
+    curve: How the points are joined. A `CatmullRom` curve swings out where a long way between points meets a short one: between two points of a thin stem it comes nearer to the axis than they are, and one that would cross the axis goes along it. Points at even distances prevent that.
+    segments: How many flat pieces go round; curves of the profile are as fine.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
+    """
+
+    curve: Union[Curve, PickItem]
+    segments: Union[int, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+Curve = Literal["Linear", "CatmullRom"]
+
+class _ExtrudeRequired(TypedDict):
+    outline: Union[Sequence[Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    depth: Union[float, str, PickItem]
+
+
+class Extrude(_ExtrudeRequired, total=False):
+    """An outline that is pushed along z: a letter, a star, a moulding, a plate with holes. It is closed, faces outwards, and is made of triangles. Texture coordinates of the ends go from 0 to 1 over the square around the outline, which has its middle, as on a `Rectangle` that faces outwards: of the end at `depth`, seen from +z, u grows along x and v along y; of that at 0, seen from -z, u grows along -x. On the sides u goes from 0 to 1 once round each ring, counter-clockwise round the outer one and clockwise round holes, from the ring's first point, and v from 0 at z = 0 to 1 at `depth`.
+
+    outline: Rings of three or more points (x, y): the outer one first, then those of holes. Either way round; none meets itself or another. A point that repeats the last one, or at the end the first, is left out. Unit: the scene's unit.
+    depth: How far it is pushed: from z = 0 to this. Unit: the scene's unit.
+    curve: How the points of each ring are joined.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.depth=2` finds it where no other has this name.
+    """
+
+    curve: Union[Curve, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class _TubeRequired(TypedDict):
+    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    radius: Union[float, str, Sequence[Union[float, str, RepeatItem, PickItem]], Array, PickItem]
+
+
+class Tube(_TubeRequired, total=False):
+    """What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its ends are round, and so are its elbows where the points are joined by straight lines; a ball that swallows others is round, too. It is made of triangles, shaded as round. Where the path bends tighter than the radius, an elbow has less room than its inner side takes, or the path turns straight back, it passes through itself, which shows in glass and in the `power` of a light only. Texture coordinates: u goes round, v from 0 to 1 by length along it, round ends and the outer side of elbows included.
+
+    points: Two or more points that the middle of the ball passes, three or more of a closed one. Of points that repeat the last one, or at the end of a closed one the first, one is left, with the largest radius. Unit: the scene's unit.
+    radius: The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve: CatmullRom`. Unit: the scene's unit.
+    curve: How the points are joined.
+    closed: Whether the path goes on from the last point to the first.
+    segments: How many flat pieces go round; curves of the path are as fine.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
+    """
+
+    curve: Union[Curve, PickItem]
+    closed: Union[bool, str, PickItem]
+    segments: Union[int, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class _TorusRequired(TypedDict):
+    radius: Union[float, str, PickItem]
+    tube_radius: Union[float, str, PickItem]
+
+
+class Torus(_TorusRequired, total=False):
+    """A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes round its axis as a sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
+
+    center: Its middle. Unit: the scene's unit.
+    axis: Direction that it goes round.
+    radius: From its middle to the middle of the section. Unit: the scene's unit.
+    tube_radius: Radius of the section, at most `radius`. Unit: the scene's unit.
+    segments: How many flat pieces go round, and round the section.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about its middle.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    segments: Union[int, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+_ArrowRequired = TypedDict(
+    "_ArrowRequired",
+    {
+    "radius": "Union[float, str, PickItem]",
+    },
+)
+_ArrowFields = TypedDict("_ArrowFields", {
+    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "head_radius": "Any",
+    "head_length": "Any",
+    "segments": "Union[int, str, PickItem]",
+    "material": "Union[str, Material, PickItem]",
+    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
+    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "name": "Any",
+}, total=False)
+
+
+class Arrow(_ArrowRequired, _ArrowFields, total=False):
+    """A round shaft with a cone at its tip: an axis, a direction, a force. It is closed, and made of triangles. Texture coordinates: u goes round it as round a cylinder, v from 0 to 1 by length along its outline.
+
+    from: Middle of its flat end. Unit: the scene's unit.
+    to: Its tip. Unit: the scene's unit.
+    radius: Radius of the shaft. Unit: the scene's unit.
+    head_radius: Radius of the head; without it 2.5 times that of the shaft. Unit: the scene's unit.
+    head_length: Length of the head; without it 6 radii of the shaft, or half of the arrow where that is less. As long as the arrow: it is a cone. Unit: the scene's unit.
+    segments: How many flat pieces go round.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about the middle between its ends.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+
+class _HeightFieldRequired(TypedDict):
+    file: File
+    size: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class HeightField(_HeightFieldRequired, total=False):
+    """A landscape: a picture whose pixels are heights. Each pixel is a point, so a picture has two pixels or more along each side; between four of them are two triangles. Seen from above with -z up it looks as the picture does: its top row lies at -z, its first column at -x. Texture coordinates: u from 0 to 1 along x, v from 0 to 1 along -z, so that the same picture as a texture lies on its heights.
+
+    file: PNG, JPEG, EXR or HDR file, relative to the scene file, of at most 8192 x 8192 pixels. Grey of 16 bits has the finest steps. Heights are its numbers as they stand, without a curve: 0.5 or 128 is half. Of colours their luminance is taken. EXR and HDR may go below 0 and above 1.
+    size: How far it reaches along x, how high white is over black, and how far it reaches along z. Unit: the scene's unit.
+    center: Its middle along x and z; black is as high as this. Unit: the scene's unit.
+    smooth: Whether it is shaded as round, but at creases of more than 40 degrees; else every triangle is flat.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about its `center`.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.smooth=false` finds it where no other has this name.
+    """
+
+    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    smooth: Union[bool, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class _PolygonRequired(TypedDict):
+    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+
+
+class Polygon(_PolygonRequired, total=False):
+    """A flat face with any number of corners: a roof, a window that is no rectangle. Its front is the side from which they go round counter-clockwise; an `Emissive` one shines to that side, and the back is seen as the front is. Seen from the front, u grows to the right and v upwards, as on a `Rectangle` that faces the same way: right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright. The square around it that has the same middle has coordinates from 0 to 1. It is open: it has no inside.
+
+    points: Three or more corners, in one plane (to a ten-thousandth of its size). Its sides do not meet but at the corners. A corner that repeats the last one, or at the end the first, is left out. Unit: the scene's unit.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name.
+    """
+
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class Mesh(TypedDict, total=False):
+    """A triangle mesh, from a file or written out as `points` and `faces`.
+
+    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them; its materials, vertex colours, lights, cameras, skins, morph targets and animations are not.
+    points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
+    faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
+    material: Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    instances: Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
+    shading: Whether normals are interpolated.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    file: File
+    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    faces: Union[Sequence[Union[Sequence[Union[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    instances: Union[Instances, PickItem]
+    shading: Union[Shading, PickItem]
+    name: Any
+
+
+Instances = Literal["Auto", "Always", "Never"]
+
+Shading = Literal["Auto", "Smooth", "Flat"]
+
+class Group(TypedDict, total=False):
+    """Objects and lights that are moved and copied as one. What stands in it may be a group again, sixteen deep.
+
+    objects: What is in it.
+    material: The material of those objects in it that have none of their own.
+    transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin. A group has no `DropTo` and no `FitTo`.
+    placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    lights: Lights that move with it. Each copy has one, as bright as it is written.
+    name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
+    """
+
+    objects: Sequence[Union[Object, RepeatItem, PickItem]]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    lights: Sequence[Union[Light, RepeatItem, PickItem]]
+    name: Any
+
+
+class _IncludeRequired(TypedDict):
+    file: File
+
+
+class Include(_IncludeRequired, total=False):
+    """The objects and lights of another scene, moved and copied as one. Its names are its own: materials and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
+
+    file: The scene file, in any syntax. Paths in it start from its own folder.
+    vars: Other values for its `vars`.
+    materials: Other materials for names of its `materials`: names of this scene, or written here.
+    transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin. It has no `DropTo` and no `FitTo`.
+    placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
+    """
+
+    vars: Dict[str, Any]
+    materials: Dict[str, Union[str, Material]]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+_SceneDictRequired = TypedDict(
+    "_SceneDictRequired",
+    {
+    "objects": "Sequence[Union[Object, RepeatItem, PickItem]]",
+    },
+)
+_SceneDictFields = TypedDict("_SceneDictFields", {
+    "version": "Union[int, str, PickItem]",
+    "include": "Sequence[Union[str, RepeatItem, PickItem]]",
+    "vars": "Dict[str, Any]",
+    "camera": "Camera",
+    "image": "Image",
+    "render": "Render",
+    "effects": "Effects",
+    "output": "Output",
+    "background": "Union[float, Sequence[Union[float, str]], Array, str, Background, PickItem]",
+    "lights": "Sequence[Union[Light, RepeatItem, PickItem]]",
+    "materials": "Dict[str, Material]",
+    "$schema": "str",
+}, total=False)
+
+
+class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
+    """A whole scene: one file.
+
+    version: Version of the language. Files of version 1 load for ever.
+    include: Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
+    vars: Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
+    camera: The camera.
+    image: The picture's size.
+    render: How to render.
+    effects: Film and lens effects.
+    output: What is written beside the picture.
+    background: Radiance of everything that no object covers. Unit: W/(sr m^2).
+    lights: Lights. A scene needs one, or a background.
+    materials: Materials by name, for objects to use.
+    objects: What is to be seen; at least one.
+    $schema: Where this schema is, for the editor.
+    """
+
+
