@@ -6,7 +6,7 @@ use super::rendering::{NoPicture, load, stamp};
 use crate::args::GoldenAcceptArgs;
 use crate::failure::{Failure, exit};
 use crate::shell::Shell;
-use crate::write::{is_one_file, save};
+use crate::write::{advice, is_one_file, save};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -41,7 +41,8 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
     for Acceptance { case, made, png, exr } in accepted {
         let is_new = !case.png.exists();
         if let Some(folder) = case.png.parent() {
-            let io = |error| Failure::could_not(format!("cannot make {}: {error}", folder.display()));
+            let io =
+                |error| Failure::could_not(format!("cannot make {}: {error}; {}", folder.display(), advice(&error)));
             std::fs::create_dir_all(folder).map_err(io)?;
         }
         // The reason comes first: should the program be ended here, there is a reason without a picture, and never a
@@ -97,8 +98,12 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     let Some(Record { stamp: known, files, .. }) = made.record() else {
         return Err(Failure::wrong(format!("{folder}/{name}: no picture waits to be accepted; {again}")));
     };
-    let now = load(case, &opened.settings).map(|desc| stamp(&desc, &files));
-    if !now.is_ok_and(|now| now == known) {
+    let now = match load(case, &opened.settings) {
+        Ok(desc) => Some(stamp(&desc, &files)),
+        Err(NoPicture::Wrong { what, .. }) => return Err(Failure::wrong(format!("{folder}/{name}: {what}; {again}"))),
+        Err(NoPicture::Interrupted) => None,
+    };
+    if now.is_none_or(|now| now != known) {
         let what = "the scene, a file that it uses or the settings have changed since the picture was made";
         return Err(Failure::wrong(format!("{folder}/{name}: {what}; {again}")));
     }
@@ -109,7 +114,7 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     let exr = opened.settings.noise.then(|| bytes(&made.path(NOISE))).transpose()?;
     let targets = [Some(&case.png), exr.as_ref().map(|_| &case.exr)];
     for target in targets.into_iter().flatten() {
-        if read.iter().any(|file| is_one_file(file, target)) {
+        if read.iter().any(|file| is_one_file(target, file)) {
             let shown = target.display();
             return Err(Failure::wrong(format!(
                 "{folder}/{name}: {shown} is read by a scene and is not replaced; give the scene or that file \

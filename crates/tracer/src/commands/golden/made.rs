@@ -74,10 +74,10 @@ impl Made {
     /// # Errors
     /// When it cannot be written, or would replace what the scene was made of.
     pub fn keep(&self, picture: &Rgb8, noise: Option<&[u8]>, record: &Record) -> Result<(), WriteError> {
-        let io = |source| WriteError::Io { path: self.folder.clone(), source };
+        let io = |why| WriteError::Io { path: self.folder.clone(), why };
         std::fs::create_dir_all(&self.folder).map_err(io)?;
         let read = [PICTURE, NOISE, RECORD].map(|file| self.path(file));
-        if let Some(path) = read.iter().find(|path| record.files.iter().any(|file| is_one_file(file, path))) {
+        if let Some(path) = read.iter().find(|path| record.files.iter().any(|file| is_one_file(path, file))) {
             return Err(WriteError::There { path: path.clone() });
         }
         save(&self.path(PICTURE), &png(picture, &record.name)?)?;
