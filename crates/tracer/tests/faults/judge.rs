@@ -190,7 +190,7 @@ fn said(case: &Case, ran: &Ran, wrong: &mut Vec<String>) {
         wrong.push("it does not say which file".to_owned());
     }
     let tips = ["make room", "name another", "name a place"];
-    if hit.contains(" w ") && file != "stdout" && !tips.iter().any(|tip| ran.err.contains(tip)) {
+    if hit.contains(" w ") && !ran.err.contains("standard output") && !tips.iter().any(|tip| ran.err.contains(tip)) {
         wrong.push("it does not say what to do".to_owned());
     }
 }

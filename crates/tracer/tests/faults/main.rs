@@ -9,6 +9,7 @@ mod cases;
 mod disks;
 mod judge;
 mod memory;
+mod preview;
 mod run;
 
 use cases::Case;

@@ -7,6 +7,7 @@
 //! | `FAULT_AT` | the number of the call that fails |
 //! | `FAULT_HOW` | how: a number of `errno`, or `short`: only a half is read or written |
 //! | `FAULT_ON` | where it is set, all calls that write fail from then on, as on a full disk |
+//! | `FAULT_CALL` | the name of a call that fails for all files: for programs whose calls come in any order |
 //! | `FAULT_BLOCK` | the number of the large block of memory that is not given; blocks are counted apart |
 //!
 //! Not counted are standard error, where the program tells of faults, and the system's own files (`/proc`, `/etc`, ..).
@@ -116,6 +117,8 @@ fn fate(call: &str, file: &[u8], writes: bool) -> Fate {
     let this = CALLS.fetch_add(1, SeqCst) + 1;
     let at = number(c"FAULT_AT").unwrap_or(0);
     let is_it = at > 0 && (this == at || (this > at && writes && variable(c"FAULT_ON").is_some()));
+    let is_named = writes && file != b"stdout" && variable(c"FAULT_CALL") == Some(call.as_bytes());
+    let is_it = is_it || is_named;
     let how = variable(c"FAULT_HOW").unwrap_or(b"5");
     let mut line = Line::new();
     line.number(this).text(b" ").text(call.as_bytes()).text(if writes { b" w " } else { b" r " }).text(file);

@@ -34,7 +34,7 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
             "nothing waits to be accepted in {shown}; `tracer golden run {shown}` first"
         )));
     }
-    let read = files_of_scenes(&opened);
+    let read = files_of_scenes(&opened)?;
     let accepted = names.iter().map(|name| acceptance(&opened, name, &read)).collect::<Result<Vec<_>, Failure>>()?;
     let log = opened.path.join(FILE);
     let mut out = std::io::stdout().lock();
@@ -69,18 +69,21 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
 
 /// What the scenes of a folder read, as far as they say: their own files, what they name, and what runs found that
 /// these name.
-fn files_of_scenes(opened: &Opened) -> Vec<PathBuf> {
+///
+/// # Errors
+/// When what a run found cannot be read.
+fn files_of_scenes(opened: &Opened) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for case in &opened.folder.cases {
         files.push(case.scene.clone());
-        files.extend(Made::of(&opened.made(), &case.name).record().map(|record| record.files).unwrap_or_default());
+        files.extend(Made::of(&opened.made(), &case.name).record()?.map(|record| record.files).unwrap_or_default());
         match load(case, &opened.settings) {
             Ok(desc) => files.extend(named_files(&desc)),
             Err(NoPicture::Wrong { files: named, .. }) => files.extend(named),
             Err(NoPicture::Interrupted) => {}
         }
     }
-    files
+    Ok(files)
 }
 
 /// # Errors
@@ -95,7 +98,7 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     })?;
     let made = Made::of(&opened.made(), name);
     let again = format!("`tracer golden run {folder} --only {name}` makes one");
-    let Some(Record { stamp: known, files, .. }) = made.record() else {
+    let Some(Record { stamp: known, files, .. }) = made.record()? else {
         return Err(Failure::wrong(format!("{folder}/{name}: no picture waits to be accepted; {again}")));
     };
     let now = match load(case, &opened.settings) {

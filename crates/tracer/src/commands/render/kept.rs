@@ -52,7 +52,7 @@ impl Places {
         {
             if !is_film(place.file()) {
                 return Err(Failure::wrong(format!(
-                    "--checkpoint {} would replace what is no checkpoint; name another file",
+                    "--checkpoint {} would replace what is no checkpoint, or cannot be read; name another file",
                     place.name()
                 )));
             }

@@ -54,7 +54,9 @@ pub(super) fn place(args: &RenderArgs) -> Result<Place, Failure> {
         return Err(Failure::wrong(format!("--report and {option} both name {}; name two places", path.display())));
     }
     if path.try_exists().unwrap_or(true) && !is_film(path) {
-        return Err(Failure::wrong(format!("-o {shown} would replace what is no part; name another file")));
+        return Err(Failure::wrong(format!(
+            "-o {shown} would replace what is no part, or cannot be read; name another file"
+        )));
     }
     Place::new(path)
 }
