@@ -132,7 +132,7 @@ fn the_address_space_ends() {
             Folder::new().run_within(&schema, &[("FAULT_AT", "0".to_owned())], Some(*kilobytes)).code == Some(0)
         };
         let first = (1..).map(|k| 4096 * k).find(starts).expect("it starts at all");
-        let step = if is_long() { 1024 } else { 16384 };
+        let step = if is_long() { 4096 } else { 16384 };
         let mut space = first;
         loop {
             let folder = case.folder.copy();
