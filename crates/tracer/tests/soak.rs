@@ -1,8 +1,8 @@
 //! A day of a cluster in minutes: renderings are killed at random, ended by signals, gone on with, divided, merged,
 //! their checkpoints cut and deleted; the picture is always the one of a single quiet run, byte for byte.
 //!
-//! `cargo xtask prove soak` runs it for twenty minutes, or as long as `TRACER_SOAK` says, in seconds; `TRACER_SOAK_SEED`
-//! repeats what was drawn.
+//! `cargo xtask prove soak` runs it for twenty minutes, or as long as `TRACER_SOAK` says, in seconds;
+//! `TRACER_SOAK_SEED` repeats what was drawn.
 #![cfg(unix)]
 
 use std::collections::HashMap;

@@ -3,7 +3,7 @@
 //!
 //! | variable | what it says |
 //! |---|---|
-//! | `FAULT_LOG` | the file for a line of each call: number, name, `w` or `r`, file, `FAULT` where it was made to fail |
+//! | `FAULT_LOG` | the file for a line of each call: number, name, `w` or `r`, file, `FAULT` where it has failed |
 //! | `FAULT_AT` | the number of the call that fails |
 //! | `FAULT_HOW` | how: a number of `errno`, or `short`: only a half is read or written |
 //! | `FAULT_ON` | where it is set, all calls that write fail from then on, as on a full disk |
