@@ -34,12 +34,12 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// The system says no: permission, disk full, a broken disk.
-    #[error("cannot write {}", path.display())]
+    #[error("cannot write {}: {why}; {}", path.display(), advice(why))]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        why: io::Error,
     },
     /// Standard output takes no more.
     #[error("cannot write to standard output")]
@@ -60,6 +60,15 @@ pub enum WriteError {
         /// Pixels down.
         height: u32,
     },
+}
+
+/// What to do where a file cannot be written.
+pub fn advice(why: &io::Error) -> &'static str {
+    match why.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or name another place",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "name a place where you may write",
+        _ => "name another place, should that stay so",
+    }
 }
 
 impl WriteError {

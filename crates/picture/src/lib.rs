@@ -35,10 +35,11 @@ mod provenance;
 mod whole_file;
 
 pub use encoding::{Bits, Encoding, UnknownEncoding};
-pub use error::WriteError;
+pub use error::{WriteError, advice};
 pub use provenance::{Provenance, Setting};
 pub use whole_file::{
-    forget_unfinished, is_one_file, probe, real_place, remember_unfinished, remove_unfinished, save, spare,
+    forget_unfinished, is_one_file, leads_to_same, probe, real_place, remember_unfinished, remove_unfinished, save,
+    spare, try_remove_unfinished,
 };
 
 use sha2::{Digest, Sha256};

@@ -23,6 +23,16 @@ pub fn remove_unfinished() {
     }
 }
 
+/// The same for a program that is about to exit in the middle of anything: where somebody has the list in hand, its
+/// files stay.
+pub fn try_remove_unfinished() {
+    if let Ok(mut paths) = UNFINISHED.try_lock() {
+        for path in paths.drain(..) {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
 /// Has [`remove_unfinished`] delete this one, too.
 pub fn remember_unfinished(path: &Path) {
     unfinished().push(path.to_owned());
@@ -40,7 +50,7 @@ pub fn forget_unfinished(path: &Path) {
 pub fn probe(path: &Path) -> Result<(), WriteError> {
     match Target::new(path)? {
         Target::Device => Ok(()),
-        Target::File(file) => Unfinished::beside(&file).map(drop).map_err(|source| io_error(path, source)),
+        Target::File(file) => Unfinished::beside(&file).map(drop).map_err(|why| io_error(path, why)),
     }
 }
 
@@ -54,11 +64,11 @@ pub fn save(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         Target::Device => write_device(path, bytes),
         Target::File(file) => write_file(&file, bytes),
     };
-    saved.map_err(|source| io_error(path, source))
+    saved.map_err(|why| io_error(path, why))
 }
 
-fn io_error(path: &Path, source: io::Error) -> WriteError {
-    WriteError::Io { path: path.to_owned(), source }
+fn io_error(path: &Path, why: io::Error) -> WriteError {
+    WriteError::Io { path: path.to_owned(), why }
 }
 
 /// The file that [`save`] would write for a name: two names of one file give the same. A link is followed even when
@@ -71,11 +81,14 @@ pub fn real_place(path: &Path) -> io::Result<PathBuf> {
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
-        if path.exists() {
-            return fs::canonicalize(path);
+        match fs::metadata(&path) {
+            Ok(_) => return fs::canonicalize(path),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
         }
         match fs::read_link(&path) {
             Ok(target) => path = folder_of(&path).join(target),
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             Err(_) => {
                 let name = path.file_name().ok_or(io::ErrorKind::NotFound)?;
                 return Ok(fs::canonicalize(folder_of(&path))?.join(name));
@@ -85,8 +98,22 @@ pub fn real_place(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links"))
 }
 
-/// Whether two names lead to the same file, or would.
-pub fn is_one_file(a: &Path, b: &Path) -> bool {
+/// Whether a place to write and another file's name lead to the same file, or would. Where the system does not tell
+/// where a place lies, it is taken for the same, so that nothing is replaced.
+pub fn is_one_file(place: &Path, other: &Path) -> bool {
+    if place == other {
+        return true;
+    }
+    // Asked once more: what cannot be read at all is told by whoever reads it.
+    match (real_place(place), real_place(other).or_else(|_| real_place(other))) {
+        (Ok(place), Ok(other)) => place == other,
+        (Err(error), _) => !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory),
+        (_, Err(_)) => false,
+    }
+}
+
+/// Whether two names lead to the same file, as far as the system tells.
+pub fn leads_to_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((real_place(a), real_place(b)), (Ok(a), Ok(b)) if a == b)
 }
 
@@ -94,12 +121,16 @@ pub fn is_one_file(a: &Path, b: &Path) -> bool {
 /// scene is written once.
 ///
 /// # Errors
-/// When something of that name is there, and `force` does not allow to replace it.
+/// When something of that name is there, and `force` does not allow to replace it; when the system does not tell.
 pub fn spare(path: &Path, force: bool) -> Result<(), WriteError> {
-    if path.symlink_metadata().is_ok_and(|found| found.is_file() || found.is_symlink()) && !force {
-        return Err(WriteError::There { path: path.to_owned() });
+    match path.symlink_metadata() {
+        _ if force => Ok(()),
+        Ok(found) if found.is_file() || found.is_symlink() => Err(WriteError::There { path: path.to_owned() }),
+        Err(error) if !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+            Err(io_error(path, error))
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// What a name stands for.
@@ -117,16 +148,18 @@ impl Target {
             Ok(found) if found.is_dir() => Err(WriteError::Folder { path: owned() }),
             Ok(found) if !found.is_file() => Ok(Target::Device),
             Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: owned() }),
-            Ok(_) => fs::canonicalize(path).map(Target::File).map_err(|source| io_error(path, source)),
+            Ok(_) => fs::canonicalize(path).map(Target::File).map_err(|why| io_error(path, why)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 let folder = folder_of(path);
-                if folder.is_dir() {
-                    Ok(Target::File(owned()))
-                } else {
-                    Err(WriteError::NoFolder { path: owned(), folder: folder.to_owned() })
+                match fs::metadata(folder) {
+                    Ok(found) if found.is_dir() => Ok(Target::File(owned())),
+                    Err(why) if !matches!(why.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                        Err(io_error(path, why))
+                    }
+                    _ => Err(WriteError::NoFolder { path: owned(), folder: folder.to_owned() }),
                 }
             }
-            Err(source) => Err(io_error(path, source)),
+            Err(why) => Err(io_error(path, why)),
         }
     }
 }
@@ -144,8 +177,11 @@ fn write_device(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut unfinished = Unfinished::beside(path)?;
     unfinished.file.write_all(bytes)?;
-    if let Ok(old) = fs::metadata(path) {
-        unfinished.file.set_permissions(old.permissions())?;
+    match fs::metadata(path) {
+        Ok(old) => unfinished.file.set_permissions(old.permissions())?,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        // What nobody else may read must not become what all may.
+        Err(error) => return Err(error),
     }
     unfinished.file.sync_all()?;
     unfinished.become_file(path)?;

@@ -29,8 +29,9 @@ pub(crate) use state::Keeper;
 use tracer_kernels::sampling::blocks::TILE;
 
 use bytemuck::Zeroable;
-use bytemuck::allocation::zeroed_vec;
+use bytemuck::allocation::try_zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
+use std::alloc::{Layout, handle_alloc_error};
 use std::ops::Range;
 use tracer_kernels::layers::{Kept, Layer, LayerSet};
 use tracer_kernels::level::Level;
@@ -285,7 +286,9 @@ impl Film {
         let tile_columns = end[0].saturating_sub(first_tile[0]);
         let count = tile_columns as usize * end[1].saturating_sub(first_tile[1]) as usize;
         // Memory that nothing has been written to: the threads that add to it first have it brought in, not this one.
-        let mut tiles: Vec<Tile> = zeroed_vec(count);
+        // What is not to be had ends the program as any other block would; who can ask before does (`Film::bytes_of`).
+        let none = |()| handle_alloc_error(Layout::array::<Tile>(count).unwrap_or(Layout::new::<Tile>()));
+        let mut tiles: Vec<Tile> = try_zeroed_vec(count).unwrap_or_else(none);
         if clamp.is_some() {
             tiles.iter_mut().for_each(Tile::keep_taken);
         }

@@ -1,6 +1,9 @@
 //! Films that are saved, at the end or at work, and gone on with: the same film as made at once, and nothing taken on
 //! trust.
 
+mod film_support;
+
+use film_support::Victim;
 use scene_format::{Override, Syntax, load_str};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -11,7 +14,6 @@ use tracer_core::{
     Costs, Crop, Film, FilmError, FilmState, Misfit, Observer, Progress, RenderOptions, SavedFilm, Scene, Unobserved,
     compile, render, resume,
 };
-use xxhash_rust::xxh3::xxh3_64;
 
 const SCENE: &str = r#"Scene(
     version: 1,
@@ -205,41 +207,15 @@ fn mutants_of(scene: &Scene) {
         let error = Film::load(&mut &file[..len]).expect_err("it is cut");
         assert!(matches!(error, FilmError::Damaged(_)), "{len}: {error}");
     }
-    let mut random = 1_u64;
-    let mut next = |most: usize| {
-        random = random.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (random >> 33) as usize % most
-    };
-    let head = 16 + u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
-    for k in 0..3000 {
-        let mut mutant = file.clone();
-        // Half of them in the head, which is small.
-        let place = if k % 2 == 0 { next(head) } else { next(file.len()) };
-        match k % 5 {
-            0 => mutant[place] ^= 1 << next(8),
-            1 => mutant[place] = 0xff,
-            2 => mutant.iter_mut().skip(place).take(4).for_each(|byte| *byte = 0xff),
-            3 => drop(mutant.drain(place..(place + 1 + next(40)).min(file.len()))),
-            _ => mutant.insert(place, next(256) as u8),
+    let refused = |mutant: &[u8]| Film::load(&mut &*mutant).is_err();
+    Victim::new(&file).each(3000, refused, |mutant| {
+        // What is read is a film, or an error.
+        if let Ok(film) = Film::load(&mut &*mutant) {
+            film.samples();
+            // What fits the scene can be gone on with, whatever is in it.
+            let _ = resume(scene, &options(8, None), film, &Watcher::new(0));
         }
-        if mutant == file {
-            continue;
-        }
-        assert!(Film::load(&mut mutant.as_slice()).is_err(), "{k}");
-        // The same by somebody who knows checksums: what is read then is a film, or an error.
-        if mutant.len() > head + 16 {
-            let sum = xxh3_64(&mutant[..head]).to_le_bytes();
-            mutant[head..head + 8].copy_from_slice(&sum);
-            let end = mutant.len() - 8;
-            let sum = xxh3_64(&mutant[..end]).to_le_bytes();
-            mutant[end..].copy_from_slice(&sum);
-            if let Ok(film) = Film::load(&mut mutant.as_slice()) {
-                film.samples();
-                // What fits the scene can be gone on with, whatever is in it.
-                let _ = resume(scene, &options(8, None), film, &Watcher::new(0));
-            }
-        }
-    }
+    });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
     later[8] = 5;

@@ -1,5 +1,8 @@
 //! Parts of a rendering, made anyhow and merged in any order: the film of one machine, and nothing taken on trust.
 
+mod film_support;
+
+use film_support::{Random, Victim};
 use scene_format::{Override, Syntax, load_str};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -8,7 +11,6 @@ use tracer_core::{
     Costs, Counters, Crop, Film, FilmError, FilmHead, Gap, Gaps, Level, MergeError, Misfit, Observer, Part, Progress,
     RenderOptions, SavedFilm, Scene, Split, Unobserved, compile, film_faults, render, resume,
 };
-use xxhash_rust::xxh3::xxh3_64;
 
 const SCENE: &str = r#"Scene(
     version: 1,
@@ -27,15 +29,6 @@ fn scene(set: &[&str]) -> Scene {
     let set: Vec<Override> = set.iter().map(|&set| Override::from(set.to_owned())).collect();
     let loaded = load_str("scene.ron", SCENE, Syntax::Ron, Path::new("."), &set).expect("a scene");
     compile(&loaded.scene).expect("nothing to load")
-}
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, most: usize) -> usize {
-        self.0 = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (self.0 >> 33) as usize % most
-    }
 }
 
 fn bytes(film: &Film) -> Vec<u8> {
@@ -271,35 +264,17 @@ fn mutants_are_refused() {
     for len in (0..300).chain((300..one.len()).step_by(61)) {
         assert!(merged(&one[..len]).is_err(), "{len}");
     }
-    let mut random = Random(1);
-    let head = 16 + u32::from_le_bytes([one[12], one[13], one[14], one[15]]) as usize;
     let mut lied = 0;
-    for k in 0..2000 {
-        let mut mutant = one.clone();
-        let place = if k % 2 == 0 { random.below(head) } else { random.below(one.len()) };
-        match k % 5 {
-            0 => mutant[place] ^= 1 << random.below(8),
-            1 => mutant[place] = 0xff,
-            2 => mutant.iter_mut().skip(place).take(4).for_each(|byte| *byte = 0xff),
-            3 => drop(mutant.drain(place..(place + 1 + random.below(40)).min(one.len()))),
-            _ => mutant.insert(place, random.below(256) as u8),
-        }
-        if mutant == one {
-            continue;
-        }
-        assert!(merged(&mutant).is_err(), "{k}");
-        if mutant.len() > head + 16 {
-            let sum = xxh3_64(&mutant[..head]).to_le_bytes();
-            mutant[head..head + 8].copy_from_slice(&sum);
-            let end = mutant.len() - 8;
-            let sum = xxh3_64(&mutant[..end]).to_le_bytes();
-            mutant[end..].copy_from_slice(&sum);
-            if let Ok(film) = merged(&mutant) {
+    Victim::new(&one).each(
+        2000,
+        |mutant| merged(mutant).is_err(),
+        |mutant| {
+            if let Ok(film) = merged(mutant) {
                 lied += 1;
                 let Counters { camera_rays, .. } = film.counters;
                 assert!(camera_rays > 0 && film.radiance(3, 3).iter().all(|x| !x.is_nan()));
             }
-        }
-    }
+        },
+    );
     assert!(lied > 10, "{lied} lies were believed");
 }

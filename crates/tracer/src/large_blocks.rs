@@ -1,5 +1,6 @@
 //! Large blocks of memory: on huge pages, and the system's again as soon as they are freed.
 
+use crate::out_of_memory::refused;
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// Has the C library give large blocks back to the system as soon as they are freed. By itself it keeps blocks of up to
@@ -27,7 +28,11 @@ const LARGE: usize = 4 << 20;
 
 fn advise(block: *mut u8, size: usize) {
     const PAGE: usize = 4096;
-    if size < LARGE || block.is_null() {
+    if block.is_null() {
+        refused(size);
+        return;
+    }
+    if size < LARGE {
         return;
     }
     let skipped = block.align_offset(PAGE);

@@ -10,6 +10,7 @@ use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tracer_core::mesh::MeshFormat;
 use tracer_core::{CompileError, Scene};
 
@@ -181,6 +182,7 @@ fn unread(path: &Path, error: &std::io::Error) -> Failure {
 /// # Errors
 /// When assets are wrong: then everything that is wrong has been printed.
 pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result<Scene, Failure> {
+    use_threads(None)?;
     let sources: &[Source] = &desc.sources;
     let scene = tracer_core::compile(desc).map_err(|CompileError { diagnostics }| {
         shell.diagnostics(&diagnostics, sources, form);
@@ -234,9 +236,14 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
 /// # Errors
 /// When the system gives no threads.
 pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|error| Failure::could_not(format!("cannot start {threads} threads: {error}; lower --threads")))
+    /// Whether there is a pool.
+    static DONE: AtomicBool = AtomicBool::new(false);
+    if DONE.swap(true, Ordering::Relaxed) {
+        return Ok(());
+    }
+    let (number, few) = threads.map_or((0, "; name fewer by --threads"), |number| (number.into(), "; lower --threads"));
+    rayon::ThreadPoolBuilder::new().num_threads(number).build_global().map_err(|error| {
+        let count = threads.map_or("threads".to_owned(), |number| counted(number.into(), "thread"));
+        Failure::could_not(format!("cannot start {count}: {error}{few}"))
+    })
 }

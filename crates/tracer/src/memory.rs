@@ -16,14 +16,24 @@ pub fn peak() -> Option<u64> {
     kibibytes(&read_to_string("/proc/self/status").ok()?, "VmHWM:")
 }
 
-/// Bytes that this process may still take: what the machine has free, or its control group allows.
+/// Bytes that this process may still take: what the machine has free, or its control group or the limit of its address
+/// space (`ulimit -v`) allows.
 pub fn available() -> Option<u64> {
     let machine = kibibytes(&read_to_string("/proc/meminfo").ok()?, "MemAvailable:")?;
     let number = |path: &str| read_to_string(path).ok()?.trim().parse::<u64>().ok();
     let group = number("/sys/fs/cgroup/memory.max")
         .zip(number("/sys/fs/cgroup/memory.current"))
         .map(|(most, current)| most.saturating_sub(current));
-    Some(group.map_or(machine, |group| group.min(machine)))
+    let space = address_space(&read_to_string("/proc/self/limits").unwrap_or_default())
+        .zip(kibibytes(&read_to_string("/proc/self/status").unwrap_or_default(), "VmSize:"))
+        .map(|(most, current)| most.saturating_sub(current));
+    Some([group, space].into_iter().flatten().fold(machine, u64::min))
+}
+
+/// The soft limit; `None` where there is none.
+fn address_space(limits: &str) -> Option<u64> {
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    line.split_whitespace().next()?.parse().ok()
 }
 
 fn kibibytes(text: &str, field: &str) -> Option<u64> {
@@ -59,5 +69,8 @@ mod tests {
     fn fields_of_proc_are_read() {
         assert_eq!(kibibytes("VmPeak:\t  10 kB\nVmHWM:\t    12 kB\n", "VmHWM:"), Some(12 * 1024));
         assert_eq!(kibibytes("VmPeak:\t  10 kB\n", "VmHWM:"), None);
+        let limits = |soft: &str| format!("Limit  Soft Limit\nMax address space         {soft}  unlimited  bytes\n");
+        assert_eq!(address_space(&limits("4096")), Some(4096));
+        assert_eq!(address_space(&limits("unlimited")), None);
     }
 }

@@ -184,7 +184,9 @@ impl Painter<'_> {
         let cells = Cells::new(film, keeper);
         std::thread::scope(|scope| {
             if cells.keeper().is_some() {
-                scope.spawn(|| cells.keep_all());
+                // Where there is no further thread, it is done before the pass.
+                let helper = std::thread::Builder::new().spawn_scoped(scope, || cells.keep_all());
+                helper.map(drop).unwrap_or_else(|_| cells.keep_all());
             }
             light = self.bring(pass, light..samples.end, &cells);
             self.pool.on_all(&|batch: &mut Batch| {

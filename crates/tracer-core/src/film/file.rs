@@ -462,9 +462,10 @@ impl<R: Read> SavedFilm<R> {
             keep(place as usize, &bytes).ok_or(FilmError::Damaged("a tile is wrong"))?;
         }
         check_sum(&mut self.from, &mut self.sum)?;
-        match self.from.read(&mut [0])? {
-            0 => Ok(()),
-            _ => Err(FilmError::Damaged("it goes on behind its end")),
+        match self.from.read_exact(&mut [0]) {
+            Ok(()) => Err(FilmError::Damaged("it goes on behind its end")),
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(()),
+            Err(error) => Err(error.into()),
         }
     }
 }

@@ -16,6 +16,7 @@ pub use told::{as_json, as_text, note, part_told};
 
 use crate::memory::human;
 use crate::shell::{Shell, Verbosity};
+use crate::write::advice;
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -146,7 +147,7 @@ impl Inner {
         let now = written.as_ref().err().map(io::Error::to_string);
         match (&*failed, written) {
             (before, Err(error)) if *before != now => self.shell.say(&format!(
-                "warning: {}; the rendering goes on, and the next checkpoint is tried at its time",
+                "warning: {} (the rendering goes on, and the next checkpoint is tried at its time)",
                 self.failure(error)
             )),
             (Some(_), Ok(())) if self.shell.verbosity > Verbosity::Quiet => {
@@ -158,6 +159,6 @@ impl Inner {
     }
 
     fn failure(&self, error: &io::Error) -> String {
-        format!("cannot write the checkpoint {}: {error}", self.place.name())
+        format!("cannot write the checkpoint {}: {error}; {}", self.place.name(), advice(error))
     }
 }

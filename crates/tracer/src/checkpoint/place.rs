@@ -29,7 +29,7 @@ impl Place {
     /// Why it cannot.
     pub fn new(path: &Path) -> Result<Self, Failure> {
         probe(path)?;
-        let real = real_place(path).map_err(|source| WriteError::Io { path: path.to_owned(), source })?;
+        let real = real_place(path).map_err(|why| WriteError::Io { path: path.to_owned(), why })?;
         if path.exists() && !path.is_file() {
             return Err(Failure::wrong(format!("{} is no file; a checkpoint needs one", path.display())));
         }
@@ -121,8 +121,15 @@ impl Place {
             // A second name, so that there is a checkpoint under the first at any moment; where there are no links, a
             // moment without.
             fs::hard_link(&self.real, &previous).or_else(|_| fs::rename(&self.real, &previous))?;
+            fs::rename(writing, &self.real).inspect_err(|_| {
+                // Should it have lost its name, it gets that back.
+                if !self.real.exists() {
+                    let _ = fs::rename(&previous, &self.real);
+                }
+            })?;
+        } else {
+            fs::rename(writing, &self.real)?;
         }
-        fs::rename(writing, &self.real)?;
         // The name is on the disk only when the folder is; not all systems can do this.
         let _ = File::open(self.folder()).and_then(|folder| folder.sync_all());
         Ok(bytes)
@@ -138,7 +145,13 @@ impl Place {
             Failure::could_not(format!("cannot lock the checkpoint {}: {error}; name another place", self.name()))
         };
         loop {
-            let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(could_not)?;
+            let opened = OpenOptions::new().create_new(true).write(true).open(&path);
+            let is_new = opened.is_ok();
+            let file = opened.or_else(|error| match error.kind() {
+                io::ErrorKind::AlreadyExists => OpenOptions::new().create(true).truncate(false).write(true).open(&path),
+                _ => Err(error),
+            });
+            let file = file.map_err(could_not)?;
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
@@ -147,8 +160,15 @@ impl Place {
                         self.name()
                     )));
                 }
-                Err(TryLockError::Error(error)) => return Err(could_not(error)),
+                Err(TryLockError::Error(error)) => {
+                    if is_new {
+                        let _ = fs::remove_file(&path);
+                    }
+                    return Err(could_not(error));
+                }
             }
+            // Whatever ends the program by its own will takes it along.
+            remember_unfinished(&path);
             let lock = Lock { file, path: path.clone() };
             // Whoever had it before may have deleted it since it was opened.
             if lock.is_the_file() {
@@ -186,5 +206,6 @@ impl Drop for Lock {
         if self.is_the_file() {
             let _ = fs::remove_file(&self.path);
         }
+        forget_unfinished(&self.path);
     }
 }

@@ -25,11 +25,12 @@ enum Fault {
     Refused(Failure),
 }
 
-/// Whether a file begins as a saved film does.
+/// Whether a file begins as a saved film does, as far as it can be read.
 pub fn is_film(path: &Path) -> bool {
     let Ok(file) = File::open(path) else { return false };
     // Only what opens with the head's first bytes is anything but foreign.
-    path.is_file() && !matches!(SavedFilm::open(file.take(16)), Err(FilmError::Foreign)) && !is_empty(path)
+    let head = SavedFilm::open(file.take(16));
+    path.is_file() && !matches!(head, Err(FilmError::Foreign | FilmError::Io(_))) && !is_empty(path)
 }
 
 fn is_empty(path: &Path) -> bool {

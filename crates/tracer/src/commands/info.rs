@@ -47,8 +47,7 @@ fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::wrong(format!("{} is a checkpoint; --resolved and --set are for scenes", path.display())));
     }
     let file = File::open(path).map_err(FilmError::Io);
-    let size = |file: &File| file.metadata().map_or(0, |found| found.len());
-    let checked = file.and_then(|file| Ok((size(&file), SavedFilm::open(file)?.check()?)));
+    let checked = file.and_then(|file| Ok((file.metadata()?.len(), SavedFilm::open(file)?.check()?)));
     let (bytes, head) = checked.map_err(|error| {
         let shown = path.display();
         Failure::could_not(format!("{shown} cannot be used: {error}; the one before is {shown}.previous"))

@@ -1,7 +1,7 @@
 //! `tracer merge`: the parts of a rendering become its pictures.
 
 use super::render::outputs::{self, Output};
-use super::render::rescue::{Rescued, rescue};
+use super::render::rescue::{Pictures, pictures};
 use super::render::write_report;
 use crate::args::MergeArgs;
 use crate::checkpoint::{Asked, differences, look, part_told, picture_layers, provenance};
@@ -10,9 +10,8 @@ use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
 use crate::memory;
 use crate::merge_report::{MergeReport, PartReport};
-use crate::report::FileReport;
 use crate::shell::{Shell, counted};
-use crate::write::{Place, is_one_file, write};
+use crate::write::{Place, is_one_file, leads_to_same};
 use rayon::prelude::*;
 use std::fs::File;
 use std::path::PathBuf;
@@ -51,13 +50,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let (image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
     let developed = started.elapsed().as_secs_f64();
     let provenance = provenance(notes, &film, denoised.is_some());
-    let (mut files, mut elsewhere) = (Vec::new(), false);
-    for Output { place, encoding } in &outputs {
-        let rescued = rescue(place, shell, |place| write(&image, *encoding, place, &provenance))?;
-        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
-        elsewhere |= is_elsewhere;
-        files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
-    }
+    let Pictures { files, failed } = pictures(&outputs, &image, &provenance, shell)?;
     let total = started.elapsed().as_secs_f64();
     if let Some(denoised) = denoised.filter(|_| shell.is_told()) {
         shell.say(&denoised.to_text());
@@ -76,7 +69,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
             MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, (layers, denoised), seconds, files);
         write_report(path, report.to_json())?;
     }
-    Ok(ExitCode::from(if elsewhere { exit::FAILED } else { exit::DONE }))
+    Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
 }
 
 /// Sees that no picture replaces a part.
@@ -87,7 +80,7 @@ fn spare_parts(args: &MergeArgs, outputs: &[Output]) -> Result<(), Failure> {
     });
     let report = args.report.as_deref().filter(|report| !is_dash(report)).map(|report| ("--report", report));
     for (option, path) in pictures.chain(report) {
-        if args.parts.iter().any(|part| is_one_file(part, path)) {
+        if args.parts.iter().any(|part| is_one_file(path, part)) {
             return Err(Failure::wrong(format!("{option} {} would replace a part; name another file", path.display())));
         }
     }
@@ -104,7 +97,7 @@ fn read(paths: &[PathBuf]) -> Result<(Vec<Head>, Vec<String>), Failure> {
         if is_dash(path) {
             return Err(Failure::wrong("parts are files, which are read twice: standard input cannot be one"));
         }
-        if paths[..k].iter().any(|other| is_one_file(other, path)) {
+        if paths[..k].iter().any(|other| leads_to_same(other, path)) {
             return Err(Failure::wrong(format!("{} is named twice; name each part once", path.display())));
         }
     }

@@ -188,6 +188,33 @@ pub const PROOFS: &[Proof] = &[
         &["TRACER_MUTANTS=500000 cargo test --release --locked -p tracer-mesh --test mesh_mutations"],
     ),
     proof(
+        "film-mutants",
+        Asked,
+        "a million broken checkpoints and a million broken parts, read, gone on with and merged without a panic; \
+         twenty minutes",
+        &[],
+        &[
+            "FILM_MUTANTS=500000 cargo test --locked --workspace --test film_file -- mutants",
+            "FILM_MUTANTS=1000000 cargo test --locked --workspace --test film_parts -- mutants",
+        ],
+    ),
+    proof(
+        "faults",
+        Asked,
+        "every call to the system that concerns a file fails in every usual way, every large block of memory is \
+         refused, disks of all sizes are full; ten minutes",
+        &[],
+        &["FAULTS=long cargo test --locked --workspace --test faults -- --nocapture"],
+    ),
+    proof(
+        "soak",
+        Asked,
+        "renderings killed, signalled, gone on with, divided and merged at random, the same bytes; twenty minutes, or \
+         TRACER_SOAK seconds",
+        &[],
+        &["cargo test --locked --workspace --test soak -- --nocapture"],
+    ),
+    proof(
         "goldens-release",
         Asked,
         "the goldens with all optimisations: the bytes are those of the profile `dev`; ten minutes",

@@ -6,7 +6,7 @@ use super::rendering::{NoPicture, load, stamp};
 use crate::args::GoldenAcceptArgs;
 use crate::failure::{Failure, exit};
 use crate::shell::Shell;
-use crate::write::{is_one_file, save};
+use crate::write::{advice, is_one_file, save};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -34,14 +34,15 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
             "nothing waits to be accepted in {shown}; `tracer golden run {shown}` first"
         )));
     }
-    let read = files_of_scenes(&opened);
+    let read = files_of_scenes(&opened)?;
     let accepted = names.iter().map(|name| acceptance(&opened, name, &read)).collect::<Result<Vec<_>, Failure>>()?;
     let log = opened.path.join(FILE);
     let mut out = std::io::stdout().lock();
     for Acceptance { case, made, png, exr } in accepted {
         let is_new = !case.png.exists();
         if let Some(folder) = case.png.parent() {
-            let io = |error| Failure::could_not(format!("cannot make {}: {error}", folder.display()));
+            let io =
+                |error| Failure::could_not(format!("cannot make {}: {error}; {}", folder.display(), advice(&error)));
             std::fs::create_dir_all(folder).map_err(io)?;
         }
         // The reason comes first: should the program be ended here, there is a reason without a picture, and never a
@@ -68,18 +69,21 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
 
 /// What the scenes of a folder read, as far as they say: their own files, what they name, and what runs found that
 /// these name.
-fn files_of_scenes(opened: &Opened) -> Vec<PathBuf> {
+///
+/// # Errors
+/// When what a run found cannot be read.
+fn files_of_scenes(opened: &Opened) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for case in &opened.folder.cases {
         files.push(case.scene.clone());
-        files.extend(Made::of(&opened.made(), &case.name).record().map(|record| record.files).unwrap_or_default());
+        files.extend(Made::of(&opened.made(), &case.name).record()?.map(|record| record.files).unwrap_or_default());
         match load(case, &opened.settings) {
             Ok(desc) => files.extend(named_files(&desc)),
             Err(NoPicture::Wrong { files: named, .. }) => files.extend(named),
             Err(NoPicture::Interrupted) => {}
         }
     }
-    files
+    Ok(files)
 }
 
 /// # Errors
@@ -94,11 +98,15 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     })?;
     let made = Made::of(&opened.made(), name);
     let again = format!("`tracer golden run {folder} --only {name}` makes one");
-    let Some(Record { stamp: known, files, .. }) = made.record() else {
+    let Some(Record { stamp: known, files, .. }) = made.record()? else {
         return Err(Failure::wrong(format!("{folder}/{name}: no picture waits to be accepted; {again}")));
     };
-    let now = load(case, &opened.settings).map(|desc| stamp(&desc, &files));
-    if !now.is_ok_and(|now| now == known) {
+    let now = match load(case, &opened.settings) {
+        Ok(desc) => Some(stamp(&desc, &files)),
+        Err(NoPicture::Wrong { what, .. }) => return Err(Failure::wrong(format!("{folder}/{name}: {what}; {again}"))),
+        Err(NoPicture::Interrupted) => None,
+    };
+    if now.is_none_or(|now| now != known) {
         let what = "the scene, a file that it uses or the settings have changed since the picture was made";
         return Err(Failure::wrong(format!("{folder}/{name}: {what}; {again}")));
     }
@@ -109,7 +117,7 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     let exr = opened.settings.noise.then(|| bytes(&made.path(NOISE))).transpose()?;
     let targets = [Some(&case.png), exr.as_ref().map(|_| &case.exr)];
     for target in targets.into_iter().flatten() {
-        if read.iter().any(|file| is_one_file(file, target)) {
+        if read.iter().any(|file| is_one_file(target, file)) {
             let shown = target.display();
             return Err(Failure::wrong(format!(
                 "{folder}/{name}: {shown} is read by a scene and is not replaced; give the scene or that file \

@@ -6,6 +6,7 @@ use crate::commands::scenes::is_scene;
 use crate::compare::flip::flip;
 use crate::compare::magma;
 use crate::failure::Failure;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tracer_core::Level;
@@ -50,11 +51,13 @@ impl Opened {
     /// # Errors
     /// When it is none, its settings are wrong, or it has no scenes.
     pub fn open(path: &Path, name: &str) -> Result<Self, Failure> {
-        if !path.is_dir() {
-            return Err(Failure::wrong(format!(
-                "there is no folder {}; `tracer golden new` makes one",
-                path.display()
-            )));
+        let shown = path.display();
+        match path.metadata() {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(Failure::could_not(format!("cannot read the folder {shown}: {error}")));
+            }
+            Ok(found) if found.is_dir() => {}
+            _ => return Err(Failure::wrong(format!("there is no folder {shown}; `tracer golden new` makes one"))),
         }
         let settings = Settings::load(path).map_err(|error| Failure::Wrong(error.into()))?;
         let folder = Folder::find(path, &settings, &is_scene).map_err(|error| Failure::Wrong(error.into()))?;

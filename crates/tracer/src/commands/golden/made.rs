@@ -1,5 +1,6 @@
 //! Pictures that were made and are not accepted: kept where the settings say, each in a folder of its name.
 
+use crate::failure::Failure;
 use crate::write::{Bits, Encoding, Provenance, Setting, WriteError, encode, is_one_file, save};
 use serde::{Deserialize, Serialize};
 use std::io;
@@ -65,8 +66,16 @@ impl Made {
     }
 
     /// What the picture was made of; `None` where there is none.
-    pub fn record(&self) -> Option<Record> {
-        serde_json::from_slice(&std::fs::read(self.path(RECORD)).ok()?).ok()
+    ///
+    /// # Errors
+    /// When it is there and cannot be read.
+    pub fn record(&self) -> Result<Option<Record>, Failure> {
+        let path = self.path(RECORD);
+        match std::fs::read(&path) {
+            Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(Failure::could_not(format!("cannot read {}: {error}", path.display()))),
+        }
     }
 
     /// Keeps a picture, its noise where that is known, and what it was made of.
@@ -74,10 +83,10 @@ impl Made {
     /// # Errors
     /// When it cannot be written, or would replace what the scene was made of.
     pub fn keep(&self, picture: &Rgb8, noise: Option<&[u8]>, record: &Record) -> Result<(), WriteError> {
-        let io = |source| WriteError::Io { path: self.folder.clone(), source };
+        let io = |why| WriteError::Io { path: self.folder.clone(), why };
         std::fs::create_dir_all(&self.folder).map_err(io)?;
         let read = [PICTURE, NOISE, RECORD].map(|file| self.path(file));
-        if let Some(path) = read.iter().find(|path| record.files.iter().any(|file| is_one_file(file, path))) {
+        if let Some(path) = read.iter().find(|path| record.files.iter().any(|file| is_one_file(path, file))) {
             return Err(WriteError::There { path: path.clone() });
         }
         save(&self.path(PICTURE), &png(picture, &record.name)?)?;
@@ -90,7 +99,7 @@ impl Made {
 
     /// Takes it away, with folders that are empty then; only what [`Made::keep`] made is.
     pub fn clear(&self) {
-        if self.record().is_none() {
+        if !matches!(self.record(), Ok(Some(_))) {
             return;
         }
         for file in [PICTURE, NOISE, RECORD, PAGE] {

@@ -6,7 +6,7 @@ use crate::args::GoldenRunArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::use_threads;
 use crate::shell::Shell;
-use crate::write::{is_one_file, probe, save};
+use crate::write::{is_one_file, leads_to_same, probe, save};
 use crate::{interrupt, lanes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ pub(super) fn run(args: &GoldenRunArgs, shell: &Shell) -> Result<ExitCode, Failu
 fn open(paths: &[PathBuf]) -> Result<Vec<Opened>, Failure> {
     let mut folders: Vec<Opened> = Vec::new();
     for path in paths {
-        if !folders.iter().any(|opened| is_one_file(&opened.path, path)) {
+        if !folders.iter().any(|opened| leads_to_same(&opened.path, path)) {
             let shown = path.display().to_string();
             let name = shown.trim_end_matches(['/', '\\']);
             folders.push(Opened::open(path, if name.is_empty() { &shown } else { name })?);
@@ -155,7 +155,7 @@ impl<'a> Outputs<'a> {
     /// The first that would.
     fn spare(&self, read: &[PathBuf]) -> Result<(), Failure> {
         for (option, path) in &self.files {
-            if let Some(input) = read.iter().find(|input| is_one_file(input, path)) {
+            if let Some(input) = read.iter().find(|input| is_one_file(path, input)) {
                 let also = if *path == input { String::new() } else { format!(" (it is {})", input.display()) };
                 let shown = path.display();
                 return Err(Failure::wrong(format!(

@@ -47,10 +47,12 @@ impl Places {
         let resume = args.resume.as_deref().map(Place::new).transpose()?;
         let write = args.checkpoint.as_deref().map(Place::new).transpose()?;
         let is_resumed = |place: &Place| resume.as_ref().is_some_and(|resume| resume.is(place));
-        if let Some(place) = write.as_ref().filter(|place| !is_resumed(place) && place.file().exists()) {
+        if let Some(place) =
+            write.as_ref().filter(|place| !is_resumed(place) && place.file().try_exists().unwrap_or(true))
+        {
             if !is_film(place.file()) {
                 return Err(Failure::wrong(format!(
-                    "--checkpoint {} would replace what is no checkpoint; name another file",
+                    "--checkpoint {} would replace what is no checkpoint, or cannot be read; name another file",
                     place.name()
                 )));
             }

@@ -18,11 +18,10 @@ use crate::report::{
     Seconds, Stats, Transport, Tree, VERSION,
 };
 use crate::shell::Shell;
-use crate::write::{Place, save, write};
+use crate::write::{Place, save};
 use crate::{denoising, interrupt, lanes, memory};
 use kept::{Kept, Places};
-use outputs::Output;
-use rescue::{Rescued, rescue};
+use rescue::{Pictures, Rescued, pictures, rescue};
 use scene_format::SceneDesc;
 use std::io::Write;
 use std::mem::ManuallyDrop;
@@ -113,15 +112,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     if let Some(Err(error)) = &kept {
         shell.error(error);
     }
-    let mut files = Vec::new();
-    let mut elsewhere = false;
-    for Output { place, encoding } in &outputs {
-        let Some(image) = &image else { break };
-        let rescued = rescue(place, shell, |place| write(image, *encoding, place, &provenance))?;
-        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
-        elsewhere |= is_elsewhere;
-        files.push(FileReport { path, format: encoding.name(), bytes: written.bytes, sha256: written.sha256 });
-    }
+    let written = image.as_ref().map(|image| pictures(&outputs, image, &provenance, shell)).transpose()?;
+    let Pictures { mut files, failed: mut elsewhere } = written.unwrap_or_default();
     if let Some(file) = &part_file {
         let place = Place::File(file.named().to_owned());
         let is_there = is_kept && matches!(kept, Some(Ok(_)));

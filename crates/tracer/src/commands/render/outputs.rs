@@ -45,7 +45,10 @@ pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
     // Otherwise the option would be said to go with names that nobody has written.
     let kind = args.format.take().unwrap_or_else(|| "png".to_owned());
     let picture = scene.with_extension(&kind);
-    if Encoding::from_path(&picture, Bits::default()).is_ok() && picture.exists() && !is_picture(&picture) {
+    if Encoding::from_path(&picture, Bits::default()).is_ok()
+        && picture.try_exists().unwrap_or(true)
+        && !is_picture(&picture)
+    {
         let shown = picture.display();
         return Err(Failure::wrong(format!("{shown} is there already and is no picture; name another file by -o")));
     }

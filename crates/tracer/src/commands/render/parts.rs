@@ -53,8 +53,10 @@ pub(super) fn place(args: &RenderArgs) -> Result<Place, Failure> {
     if let Some((option, path)) = kept(args).find(|(_, path)| report.is_some_and(|report| is_one_file(report, path))) {
         return Err(Failure::wrong(format!("--report and {option} both name {}; name two places", path.display())));
     }
-    if path.exists() && !is_film(path) {
-        return Err(Failure::wrong(format!("-o {shown} would replace what is no part; name another file")));
+    if path.try_exists().unwrap_or(true) && !is_film(path) {
+        return Err(Failure::wrong(format!(
+            "-o {shown} would replace what is no part, or cannot be read; name another file"
+        )));
     }
     Place::new(path)
 }
@@ -121,7 +123,7 @@ pub(super) fn split_name(split: Split) -> &'static str {
 /// When it cannot be written; an older one is then as it was.
 pub(super) fn save(place: &Output, film: &Film, notes: &[Note], shell: &Shell) -> Result<Written, WriteError> {
     let Output::File(path) = place else { return Err(WriteError::Stdout(io::ErrorKind::Unsupported.into())) };
-    let could_not = |source: io::Error| WriteError::Io { path: path.clone(), source };
+    let could_not = |why: io::Error| WriteError::Io { path: path.clone(), why };
     // Its folder may be gone since.
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir());
     if let Some(folder) = folder {
@@ -162,7 +164,7 @@ impl Write for Summed<'_> {
 /// When it is gone.
 pub(super) fn written(place: &Output) -> Result<Written, WriteError> {
     let Output::File(path) = place else { return Err(WriteError::Stdout(io::ErrorKind::Unsupported.into())) };
-    let could_not = |source: io::Error| WriteError::Io { path: path.clone(), source };
+    let could_not = |why: io::Error| WriteError::Io { path: path.clone(), why };
     let bytes = path.metadata().map_err(could_not)?.len();
     Ok(Written { bytes, sha256: sha256_of(path).map_err(could_not)? })
 }

@@ -1,10 +1,13 @@
 //! Pictures whose place is gone when they are done: hours of work are not lost for a folder.
 
-use super::outputs::name;
+use super::outputs::{Output, name};
+use crate::failure::Failure;
+use crate::report::FileReport;
 use crate::shell::Shell;
-use crate::write::{Place, WriteError, Written};
+use crate::write::{Place, Provenance, WriteError, Written, write};
 use std::fs;
 use std::path::{Path, PathBuf};
+use tracer_core::Image;
 
 /// A picture that was written, and where.
 pub struct Rescued {
@@ -13,6 +16,43 @@ pub struct Rescued {
     pub name: String,
     /// It is not where it was asked for.
     pub elsewhere: bool,
+}
+
+/// What became of all pictures.
+#[derive(Default)]
+pub struct Pictures {
+    pub files: Vec<FileReport>,
+    /// One is not where it was asked for.
+    pub failed: bool,
+}
+
+/// Writes a picture to all its places. One that cannot be written is told, and keeps no other from its place.
+///
+/// # Errors
+/// When the reader of standard output is gone.
+pub fn pictures(
+    outputs: &[Output],
+    image: &Image,
+    provenance: &Provenance,
+    shell: &Shell,
+) -> Result<Pictures, Failure> {
+    let mut pictures = Pictures::default();
+    let mut closed = Ok(());
+    for Output { place, encoding } in outputs {
+        match rescue(place, shell, |place| write(image, *encoding, place, provenance)) {
+            Ok(Rescued { written, name: path, elsewhere }) => {
+                pictures.failed |= elsewhere;
+                let Written { bytes, sha256 } = written;
+                pictures.files.push(FileReport { path, format: encoding.name(), bytes, sha256 });
+            }
+            Err(error) if error.is_broken_pipe() => closed = Err(error.into()),
+            Err(error) => {
+                shell.error(&error.into());
+                pictures.failed = true;
+            }
+        }
+    }
+    closed.map(|()| pictures)
 }
 
 /// Writes a picture: into a folder that is made again if it is gone, else to the system's temporary folder. Either is
