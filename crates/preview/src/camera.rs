@@ -80,8 +80,12 @@ fn tidy(count: f64, step: f64) -> f64 {
 /// Writes a camera, or the one that is seen, into the scene's file; how many places of it were changed.
 pub fn write(shared: &Shared, undo: &Mutex<Undo>, pose: Option<Pose>) -> Result<usize, Refused> {
     let now = |why: &str| Refused::Now(why.to_owned());
-    if shared.options.overrides.iter().any(|set| set.argument.trim_start().starts_with("camera")) {
-        return Err(now("the camera is set by --set, which counts more than the file; start the preview without it"));
+    let set = shared.options.overrides.iter().find(|set| set.argument.trim_start().starts_with("camera"));
+    if let Some(set) = set {
+        return Err(Refused::Now(format!(
+            "the camera is set by {}, which counts more than the file; start the preview without it",
+            set.option
+        )));
     }
     let seen = {
         let state = shared.state();

@@ -368,7 +368,7 @@ fn faults(error: LoadError, scene: &Path, width: usize) -> (Vec<Told>, Vec<PathB
 
 /// Texts of the scene beside its first.
 fn more_files(desc: &SceneDesc, scene: &Path) -> Vec<PathBuf> {
-    let more = desc.sources.iter().skip(1).filter(|source: &&Source| source.name != "--set");
+    let more = desc.sources.iter().skip(1).filter(|source: &&Source| !source.name.starts_with("--"));
     more.filter_map(|source| file_of(source, scene)).collect()
 }
 

@@ -5,18 +5,7 @@
 
 mod code;
 
-pub use code::Code;
-
-/// A code with its documentation.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// `E0301`
-    pub code: Code,
-    /// What is wrong, in general.
-    pub title: &'static str,
-    /// Why it is wrong and how to mend it; Markdown, with an example of the fault where one helps.
-    pub text: &'static str,
-}
+pub use code::{Code, Entry, explain, find};
 
 macro_rules! codes {
     ($( $(#[doc = $doc:literal])+ $NAME:ident $code:literal $title:literal; )+) => {
@@ -31,16 +20,6 @@ macro_rules! codes {
             $( Entry { code: $NAME, title: $title, text: concat!($($doc, "\n"),+) }, )+
         ];
     };
-}
-
-/// The explanation of a code, for `tracer explain`; letters may be small. `None`: there is no such code.
-pub fn explain(code: &str) -> Option<&'static str> {
-    find(code).map(|found| found.text)
-}
-
-/// The entry of a code.
-pub fn find(code: &str) -> Option<&'static Entry> {
-    CODES.iter().find(|known| known.code.as_str().eq_ignore_ascii_case(code.trim()))
 }
 
 codes! {
@@ -370,7 +349,12 @@ codes! {
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
 BAD_VAR_NAME "E0408" "a name that no expression can use";
-
+    /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
+    ///
+    /// ```ron
+    /// Scene(cameras: { "a": Camera() }, camera: "b", background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UNKNOWN_CAMERA "E0409" "an unknown camera";
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
@@ -426,6 +410,13 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])
     /// ```
     BAD_OUTLINE "E0545" "an outline that bounds no face";
+    /// The `matrix` of a camera turns and moves it, nothing else. Its columns are the directions to the right, upwards and
+    /// backwards in the picture, and the eye. A scale, a shear or a mirroring in it has no meaning for a camera.
+    ///
+    /// ```text
+    /// Scene(camera: Camera(matrix: ((2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5))), objects: [..])
+    /// ```
+    CAMERA_MATRIX "E0546" "a matrix that is not a camera's";
     /// The picture of an `Environment` cannot be decoded as HDR, EXR, PNG or JPEG.
     BROKEN_ENVIRONMENT "E0552" "an environment cannot be read";
     /// A file that `include` or an `Include` names cannot be read, or `include` names one with objects: of a library
@@ -585,6 +576,12 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNUSED_VAR "W0402" "a var is not used";
+    /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Sphere(center: ("=time", 0, 0), radius: 1)])
+    /// ```
+    NOTHING_MOVES "W0403" "time does not go by";
     /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are
     /// counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";

@@ -81,10 +81,15 @@ pub fn write_viewpoint(
         return Ok(Vec::new());
     }
     let tree = parse(text, syntax, &mut Sink::default());
-    let edits = edits(&tree, text, syntax, &fields).ok_or(ViewpointError::Unknown)?;
+    let name = before.camera_name.as_deref();
+    let edits = edits(&tree, text, syntax, &fields, name).ok_or(ViewpointError::Unknown)?;
     // The proof that nothing else has changed.
     let after = read(&apply_edits(text, &edits)).map_err(|_| ViewpointError::Unknown)?;
-    let wanted = SceneDesc { camera: after.camera.clone(), sources: after.sources.clone(), ..before };
+    let mut wanted = SceneDesc { camera: after.camera.clone(), sources: after.sources.clone(), ..before };
+    let name = wanted.camera_name.clone();
+    for named in wanted.cameras.iter_mut().filter(|named| Some(&named.name.value) == name.as_ref()) {
+        named.camera = after.camera.clone();
+    }
     if Viewpoint::of(&after) == *viewpoint && after == wanted { Ok(edits) } else { Err(ViewpointError::Unknown) }
 }
 
@@ -107,11 +112,24 @@ impl Value {
 const ROUND: [char; 2] = ['(', ')'];
 const SQUARE: [char; 2] = ['[', ']'];
 
-fn edits(tree: &Tree<'_>, text: &str, syntax: Syntax, fields: &[(&str, Value)]) -> Option<Vec<Edit>> {
+/// `name`: that of the camera, where it is one of `cameras`.
+fn edits(
+    tree: &Tree<'_>,
+    text: &str,
+    syntax: Syntax,
+    fields: &[(&str, Value)],
+    name: Option<&str>,
+) -> Option<Vec<Edit>> {
     let root = tree.root()?;
-    let Some((_, camera)) = root.fields().find(|(key, _)| key.text() == "camera") else {
-        return whole(root, text, syntax, fields);
+    let field = |item: Item<'_, '_>, name: &str| {
+        item.fields().find(|(key, _)| key.text() == name).map(|(_, value)| value.index())
     };
+    let found = match name {
+        // In another file it stays as it is.
+        Some(name) => Some(field(tree.item(field(root, "cameras")?)?, name)?),
+        None => field(root, "camera"),
+    };
+    let Some(camera) = found.and_then(|at| tree.item(at)) else { return whole(root, text, syntax, fields) };
     if camera.span().source != 0 || !matches!(camera.kind(), Kind::Struct | Kind::Map | Kind::Tuple) {
         return None;
     }
@@ -250,6 +268,12 @@ mod tests {
                 Syntax::Ron,
                 format!("(camera: (fov: /* wide */ 90), {rest})"),
                 format!("(camera: (position: (1, 2.5, 55), look_at: (0, 0.5, 0), fov: /* wide */ 30), {rest})"),
+            ),
+            (
+                Syntax::Ron,
+                format!("Scene(cameras: {{ \"a\": Camera(), \"b\": Camera(fov: 50) }}, camera: \"b\", {rest})"),
+                format!("Scene(cameras: {{ \"a\": Camera(), \"b\": Camera(position: (1, 2.5, 55), look_at: (0, 0.5, \
+                 0), fov: 30) }}, camera: \"b\", {rest})"),
             ),
             (
                 Syntax::Ron,

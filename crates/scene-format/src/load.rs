@@ -1,13 +1,13 @@
 //! The first of the five hands: from a file to a [`SceneDesc`].
 
 use crate::codes;
-use crate::desc::{Scene, SceneDesc};
+use crate::desc::SceneDesc;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
 use crate::overrides::{self, Override};
-use crate::read;
+use crate::read::{self, Whole};
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
 use crate::tree::NO_SOURCE;
 use crate::write::{Defaults, to_json};
@@ -121,7 +121,7 @@ fn load_string(
         sink.files.add(FileKind::Scene, &file.path, file.from);
     }
     let mut sources = vec![Source { name: name.to_owned(), text }];
-    sources.extend(overrides.iter().map(|set| Source { name: "--set".to_owned(), text: set.argument.clone() }));
+    sources.extend(overrides.iter().map(|set| Source { name: set.option.to_owned(), text: set.argument.clone() }));
     let first_included = sources.len();
     sources.extend(library.files.iter().map(|file| file.source.clone()));
     sink.diagnostics.iter_mut().for_each(|fault| library.say_where(fault, first_included));
@@ -158,10 +158,13 @@ fn load_string(
 }
 
 /// The description that a scene's words give.
-fn described(scene: Scene) -> SceneDesc {
+fn described(Whole { scene, camera }: Whole) -> SceneDesc {
     SceneDesc {
         version: scene.version,
-        camera: scene.camera,
+        animation: scene.animation.0,
+        camera: camera.camera,
+        camera_name: camera.name,
+        cameras: scene.cameras,
         image: scene.image,
         render: scene.render,
         effects: scene.effects,
@@ -229,7 +232,7 @@ impl SceneDesc {
 }
 
 /// The scene of a text, or what could be read of it; what is wrong goes to `sink`.
-fn analyse(text: &str, syntax: Syntax, overrides: &[Override], library: &Library, sink: &mut Sink) -> Option<Scene> {
+fn analyse(text: &str, syntax: Syntax, overrides: &[Override], library: &Library, sink: &mut Sink) -> Option<Whole> {
     let mut tree = parse(text, syntax, sink);
     overrides::apply(&mut tree, overrides, sink);
     library.append_to(&mut tree, sink);

@@ -22,13 +22,28 @@ use std::path::Path;
 pub struct Override {
     /// The argument as it was given.
     pub argument: String,
+    /// The option that it belongs to, as messages name it.
+    pub option: &'static str,
+}
+
+impl Override {
+    /// `--camera NAME`
+    pub fn camera(name: &str) -> Self {
+        let name = name.replace('\\', "\\\\").replace('"', "\\\"");
+        Override { argument: format!("camera=\"{name}\""), option: "--camera" }
+    }
+
+    /// `--frame N`
+    pub fn frame(frame: u32) -> Self {
+        Override { argument: format!("animation.frame={frame}"), option: "--frame" }
+    }
 }
 
 impl<T: Into<String>> From<T> for Override {
     fn from(argument: T) -> Self {
         let argument = argument.into();
         let quoted = completed(&argument);
-        Override { argument: quoted.unwrap_or(argument) }
+        Override { argument: quoted.unwrap_or(argument), option: "--set" }
     }
 }
 
@@ -39,7 +54,7 @@ fn completed(argument: &str) -> Option<String> {
     let value = value.trim();
     let field = path.trim_end_matches('=').trim().rsplit('.').next()?;
     let hex = value.strip_prefix('#').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_hexdigit()));
-    let of_text = matches!(field, "material" | "file" | "placements");
+    let of_text = matches!(field, "material" | "file" | "placements" | "camera");
     let plain = value.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | ' ' | '~'));
     let word = plain
         && value
@@ -244,6 +259,11 @@ impl Setter {
         match (kind.resolved(), &step.what) {
             (Type::Struct(def), What::Name(name)) => self.find_field(item, def, name, step, rest),
             (Type::Enum(def), What::Name(name)) => self.find_variant(item, def, name, step, steps, rest),
+            (Type::OneOf([Type::Text, Type::Struct(_)]), What::Name(name)) if item.kind() == Kind::Text => {
+                let camera = item.text();
+                let fault = self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `cameras`, by its name"));
+                Err(fault.hint(format!("set the camera of that name: cameras.{}.{name}", shortened(&camera))))
+            }
             (Type::OneOf(kinds), _) => {
                 let fitting = kinds.iter().find(|kind| fits(item, kind));
                 match fitting {
@@ -265,7 +285,11 @@ impl Setter {
             }
             (Type::Optional(inner), _) => self.find(item.without_some(), *inner, steps, noun),
             (Type::Map(inner), What::Name(name)) => {
-                let (what, group) = if let Type::Value = inner { ("var", "vars") } else { ("material", "materials") };
+                let (what, group) = match inner {
+                    Type::Value => ("var", "vars"),
+                    Type::Struct(_) => ("camera", "cameras"),
+                    _ => ("material", "materials"),
+                };
                 let found = item.fields().find(|(key, _)| key.text() == *name);
                 if let Some((_, value)) = found {
                     return self.find(value, *inner, rest, &format!("the {what} \"{name}\""));
@@ -337,7 +361,7 @@ impl Setter {
             let group = Scene::DEF
                 .fields
                 .iter()
-                .find(|group| matches!(group.kind, Type::Struct(fields) if fields.field(name).is_some()));
+                .find(|group| group.kind.group().is_some_and(|fields| fields.field(name).is_some()));
             if let Some(group) = group.filter(|_| def.name == "Scene") {
                 fault.did_you_mean(Some(&format!("{}.{name}", group.name)), str::to_owned);
             }
@@ -384,7 +408,8 @@ impl Setter {
         names: &mut Vec<(usize, usize)>,
     ) -> Result<(), Diagnostic> {
         let Some((step, rest)) = steps.split_first() else { return Ok(()) };
-        match (kind.resolved(), &step.what) {
+        let kind = kind.resolved();
+        match (kind.group().map_or(kind, Type::Struct), &step.what) {
             (Type::Struct(def), What::Name(name)) => {
                 let Some(field) = def.field(name) else {
                     let words: Vec<&str> = def.fields.iter().map(|field| field.name).collect();

@@ -386,6 +386,8 @@ fn value(field: &FieldDef) -> String {
         Type::Struct(def) => link(def.name),
         Type::Enum(def) => link(title(def.name)),
         Type::Map(Type::Enum(def)) => format!("{{ \"name\": {} }}", link(def.name)),
+        Type::Map(Type::Struct(def)) => format!("{{ \"name\": {} }}", link(def.name)),
+        Type::OneOf([Type::Text, Type::Struct(def)]) => format!("a name from `cameras`, or a {}", link(def.name)),
         Type::OneOf([Type::Text, Type::Enum(def)]) => format!("a name from `materials`, or a {}", link(def.name)),
         Type::OneOf([Type::List(_), Type::File]) => {
             format!("list of lists of {}, or a file name", link("Transform"))

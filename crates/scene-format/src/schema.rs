@@ -49,6 +49,15 @@ impl Type {
         }
     }
 
+    /// The fields of a group of the scene, also where a name may stand for it.
+    pub fn group(self) -> Option<&'static StructDef> {
+        match self {
+            Type::Struct(def) => Some(def),
+            Type::OneOf([Type::Text, Type::Struct(def)]) => Some(*def),
+            _ => None,
+        }
+    }
+
     /// The type itself, where it is one that is told later.
     pub fn resolved(self) -> Type {
         match self {

@@ -26,6 +26,7 @@ macro_rules! of_words {
 }
 
 of_words![
+    Animation,
     Camera,
     Image,
     Render,

@@ -1,6 +1,6 @@
 //! From a [`SceneDesc`] back to text, and to a hash that says whether two scenes say the same.
 
-use crate::desc::{Objects, Scene, SceneDesc};
+use crate::desc::{CameraChoice, Film, Objects, Scene, SceneDesc};
 use crate::form::{Entry, Form};
 use crate::print;
 use crate::syntax::Syntax;
@@ -41,7 +41,9 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
         include: crate::read::Includes,
         vars: crate::read::Vars,
         version: scene.version,
-        camera: scene.camera.clone(),
+        animation: Film(scene.animation.clone()),
+        camera: CameraChoice::of(&scene.camera, scene.camera_name.as_ref(), &scene.cameras),
+        cameras: scene.cameras.clone(),
         image: scene.image.clone(),
         render: scene.render.clone(),
         effects: scene.effects.clone(),

@@ -7,6 +7,7 @@ mod fmt;
 mod golden;
 mod merge;
 mod preview;
+mod render;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use denoise::DenoiseArgs;
@@ -15,6 +16,7 @@ pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use merge::MergeArgs;
 pub use preview::{PreviewArgs, TerminalName};
+pub use render::{Frames, RenderArgs};
 
 use crate::commands::Template;
 use crate::write::Bits;
@@ -172,6 +174,12 @@ pub struct SceneArgs {
     /// Set a field of the scene: camera.fov=40 (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Use this one of the scene's `cameras`
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// Frame of the scene's `animation`, from 0
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
@@ -183,10 +191,27 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
+    /// The scene alone, as it is written.
+    pub fn plain(scene: PathBuf) -> Self {
+        let diagnostics = DiagnosticsForm::Text;
+        SceneArgs { scene, set: Vec::new(), camera: None, frame: None, syntax: None, diagnostics }
+    }
+
     /// The fields to set.
     pub fn overrides(&self) -> Vec<Override> {
-        self.set.iter().cloned().map(Override::from).collect()
+        overrides(&self.set, self.camera.as_deref(), self.frame)
     }
+
+    /// The same as arguments of `--set`.
+    pub fn sets(&self) -> Vec<String> {
+        self.overrides().into_iter().map(|set| set.argument).collect()
+    }
+}
+
+/// What is set in a scene. Camera and frame count more than `--set`.
+fn overrides(set: &[String], camera: Option<&str>, frame: Option<u32>) -> Vec<Override> {
+    let chosen = camera.map(Override::camera).into_iter().chain(frame.map(Override::frame));
+    set.iter().cloned().map(Override::from).chain(chosen).collect()
 }
 
 const LSP_EXAMPLES: &str = "\
@@ -200,88 +225,6 @@ const SCHEMA_EXAMPLES: &str = "\
 Examples:
   tracer schema > scene.schema.json
   tracer schema | jq .properties.camera";
-
-const RENDER_EXAMPLES: &str = "\
-Examples:
-  tracer render scenes/fig4.ron -o fig4.png
-  tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --crop, --layers, --seed, --exposure, --part and more.";
-
-/// `tracer render`
-#[derive(Clone, Debug, Args)]
-#[command(after_help = RENDER_EXAMPLES)]
-pub struct RenderArgs {
-    #[command(flatten)]
-    #[allow(missing_docs)]
-    pub scene: SceneArgs,
-    /// Picture: .png .exr .hdr .pfm, or - (repeatable)
-    #[arg(short, long = "output", value_name = "FILE", help = "Picture: .png .exr .hdr .pfm, - [default: SCENE.png]")]
-    pub output: Vec<PathBuf>,
-    /// Open the picture when it is done
-    #[arg(long, conflicts_with = "part")]
-    pub open: bool,
-    /// Kind of picture for `-o -`: png, exr, hdr or pfm
-    #[arg(long, value_name = "KIND")]
-    pub format: Option<String>,
-    /// Bits per channel of a PNG: 8 or 16
-    #[arg(long, value_name = "BITS", value_parser = bits)]
-    pub bits: Option<Bits>,
-    /// Samples per pixel; with --noise or --time the most
-    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
-    pub samples: Option<u32>,
-    /// End when the noise is no more than this: 0.01, 1%
-    #[arg(long, value_name = "SHARE", value_parser = noise)]
-    pub noise: Option<f64>,
-    /// End after this time, all written: 60s, 5m, 1h
-    #[arg(long, value_name = "TIME", value_parser = interval)]
-    pub time: Option<Duration>,
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub size: Option<Size>,
-    /// Render this part: the same bytes as in the whole
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
-    pub crop: Option<Crop>,
-    /// Render this part of N, for `tracer merge`: 3/16
-    #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["noise", "time", "format", "bits"])]
-    pub part: Option<[u32; 2]>,
-    /// Divide by samples or rows [default: samples]
-    #[arg(long, value_enum, value_name = "WHAT", requires = "part", hide_possible_values = true)]
-    #[arg(help = "Parts have samples or rows [default: samples if there are enough]")]
-    pub split: Option<SplitName>,
-    /// Seed of all random choices
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u32>,
-    /// Stops to brighten the picture by
-    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
-    pub exposure: Option<f64>,
-    /// Layers of the EXR beside the scene's: albedo,depth
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
-    pub layers: Vec<Layer>,
-    #[command(flatten)]
-    #[allow(missing_docs)]
-    pub denoise: DenoiseArgs,
-    /// Threads [default: one per core]
-    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Keep the state in this file while rendering
-    #[arg(long, value_name = "FILE")]
-    pub checkpoint: Option<PathBuf>,
-    /// Time between checkpoints: 60s, 5m, 1h [default: 60s]
-    #[arg(long, value_name = "TIME", value_parser = interval)]
-    pub every: Option<Duration>,
-    /// Go on from this checkpoint, and keep it up to date
-    #[arg(long, value_name = "FILE")]
-    pub resume: Option<PathBuf>,
-    /// Report of times, rays and memory to write as JSON
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-    /// Tell where the time goes, in the report too
-    #[arg(long)]
-    pub stats: bool,
-    /// Print errors only
-    #[arg(short, long, conflicts_with = "verbose")]
-    pub quiet: bool,
-}
 
 const CHECK_EXAMPLES: &str = "\
 Examples:
@@ -319,7 +262,12 @@ pub struct CheckArgs {
 impl CheckArgs {
     /// The same for one scene.
     pub fn of(&self, scene: PathBuf) -> SceneArgs {
-        SceneArgs { scene, set: self.set.clone(), syntax: self.syntax, diagnostics: self.diagnostics }
+        SceneArgs {
+            set: self.set.clone(),
+            syntax: self.syntax,
+            diagnostics: self.diagnostics,
+            ..SceneArgs::plain(scene)
+        }
     }
 }
 

@@ -31,10 +31,22 @@ pub fn command() -> Command {
             farm.help_template(TEMPLATE_OF_COMMANDS)
                 .mut_subcommands(|command| command.help_template(TEMPLATE))
                 .mut_subcommand("slurm", |command| {
-                    ["syntax", "diagnostics", "seed", "exposure", "bits", "split", "crop", "layers", "denoise"]
-                        .into_iter()
-                        .chain(["pause", "program"])
-                        .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
+                    [
+                        "camera",
+                        "frame",
+                        "syntax",
+                        "diagnostics",
+                        "seed",
+                        "exposure",
+                        "bits",
+                        "split",
+                        "crop",
+                        "layers",
+                        "denoise",
+                    ]
+                    .into_iter()
+                    .chain(["pause", "program"])
+                    .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
                 })
         })
         // A screen has no room for all: its last line says where these are.
@@ -52,6 +64,9 @@ pub fn command() -> Command {
                 "split",
                 "crop",
                 "layers",
+                "camera",
+                "frame",
+                "skip_existing",
             ]
             .into_iter()
             .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
@@ -88,10 +103,14 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
         "--out" | "--outfile" | "--outputfile" | "--output-file" | "--image" => "-o picture.png",
         "--nthreads" | "--jobs" | "--cores" | "--cpus" => "--threads 4",
         "--preview" | "--quick" | "--draft" | "--fast" => "--samples 4 --size 160x120",
-        "--fov" | "--define" | "-d" | "--camera" | "--depth" | "--max-depth" | "--bounces" => {
+        "--fov" | "--define" | "-d" | "--depth" | "--max-depth" | "--bounces" => {
             "--set camera.fov=40, for any field of the scene"
         }
         "--verbose-level" | "--log-level" | "--debug" => "--verbose",
+        "--view" | "--cam" => "--camera NAME",
+        "--animation" | "--anim" | "--frame-range" | "--frame-start" | "--frame-end" => {
+            "--frames 0-47 -o shot_####.png"
+        }
         "--region" | "--cropwindow" | "--window" | "--tile" => "--crop 100,50,64,64",
         "--continue" | "--restart" => "--resume FILE",
         _ => return None,

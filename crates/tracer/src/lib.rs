@@ -9,6 +9,7 @@ pub mod commands;
 pub mod compare;
 pub mod denoising;
 pub mod failure;
+pub mod frames;
 pub mod help;
 pub mod interrupt;
 pub mod lanes;

@@ -12,7 +12,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tracer_core::mesh::MeshFormat;
-use tracer_core::{CompileError, Scene};
+use tracer_core::{CompileError, Kept, Scene};
 
 /// The name that stands for standard input, and output.
 pub fn is_dash(path: &Path) -> bool {
@@ -177,14 +177,18 @@ fn unread(path: &Path, error: &std::io::Error) -> Failure {
     Failure::could_not(format!("cannot read the scene file {shown}: {error}"))
 }
 
-/// Compiles the scene: the second hand. Warnings are printed.
+/// Compiles the scene: the second hand. Warnings are printed. What is in `kept` is neither read nor built anew.
 ///
 /// # Errors
 /// When assets are wrong: then everything that is wrong has been printed.
-pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result<Scene, Failure> {
+pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, kept: Option<&Kept>, shell: &Shell) -> Result<Scene, Failure> {
     use_threads(None)?;
     let sources: &[Source] = &desc.sources;
-    let scene = tracer_core::compile(desc).map_err(|CompileError { diagnostics }| {
+    let compiled = match kept {
+        Some(kept) => tracer_core::compile_keeping(desc, kept),
+        None => tracer_core::compile(desc),
+    };
+    let scene = compiled.map_err(|CompileError { diagnostics }| {
         shell.diagnostics(&diagnostics, sources, form);
         Failure::WrongScene
     })?;

@@ -175,14 +175,15 @@ fn value(
             return value(text, syntax, *inner, field, way, out);
         }
         Type::OneOf(all) => {
-            let names = field.is_some_and(|field| field.name == "material") && matches!(all, [Type::Text, ..]);
-            if names {
-                let (materials, _) = names::defined(text, syntax);
+            let of = field.map(|field| field.name).filter(|_| matches!(all, [Type::Text, ..]));
+            if let Some(of @ ("material" | "camera")) = of {
+                let defined = names::defined(text, syntax);
+                let names = if of == "camera" { defined.cameras } else { defined.materials };
                 let written = |name: &str| if quoted { name.to_owned() } else { format!("\"{name}\"") };
-                out.items.extend(materials.iter().map(|name| Completion {
+                out.items.extend(names.iter().map(|name| Completion {
                     label: name.clone(),
                     kind: CompletionKind::Name,
-                    detail: "a material of this scene".to_owned(),
+                    detail: format!("a {of} of this scene"),
                     documentation: String::new(),
                     snippet: escaped(&written(name)),
                 }));
@@ -258,7 +259,7 @@ fn with_fields(name: &str, def: &StructDef, syntax: Syntax) -> String {
 /// Within a text that begins with `=`: values and functions.
 fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Completions {
     let letters = begun.bytes().rev().take_while(|byte| *byte == b'_' || byte.is_ascii_alphanumeric()).count();
-    let (_, vars) = names::defined(text, syntax);
+    let vars = names::defined(text, syntax).vars;
     let mut items: Vec<Completion> = vars
         .into_iter()
         .map(|name| Completion {
@@ -267,6 +268,12 @@ fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Comple
             ..plain(&name, "")
         })
         .collect();
+    let told = [("frame", "the number of the frame"), ("time", "seconds from the first frame"), ("pi", "a number")];
+    items.extend(told.map(|(name, detail)| Completion {
+        kind: CompletionKind::Name,
+        detail: detail.to_owned(),
+        ..plain(name, "")
+    }));
     items.extend(functions().map(|(name, call)| Completion {
         kind: CompletionKind::Function,
         detail: call.to_owned(),

@@ -1,4 +1,4 @@
-//! Names that a person gives: of materials, and of values in `vars`.
+//! Names that a person gives: of materials, of cameras, and of values in `vars`.
 
 use super::hover::range;
 use super::visit::{tree, visit};
@@ -15,6 +15,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Of {
     Material,
+    Camera,
     Var,
 }
 
@@ -79,16 +80,29 @@ pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec
     Ok(found.into_iter().map(edit).collect())
 }
 
-/// The names of materials, and of values at the top of the scene, in order of writing.
-pub(super) fn defined(text: &str, syntax: Syntax) -> (Vec<String>, Vec<String>) {
-    let (mut materials, mut vars) = (Vec::new(), Vec::new());
+/// Names that are given in a scene, in order of writing.
+#[derive(Default)]
+pub(super) struct Defined {
+    pub materials: Vec<String>,
+    pub cameras: Vec<String>,
+    /// Of values at the top of the scene.
+    pub vars: Vec<String>,
+}
+
+/// The names that a scene gives.
+pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
+    let mut defined = Defined::default();
     for place in places(text, syntax).into_iter().filter(|place| place.defines) {
-        let list = if place.of == Of::Material { &mut materials } else { &mut vars };
+        let list = match place.of {
+            Of::Material => &mut defined.materials,
+            Of::Camera => &mut defined.cameras,
+            Of::Var => &mut defined.vars,
+        };
         if !list.contains(&place.name) {
             list.push(place.name);
         }
     }
-    (materials, vars)
+    defined
 }
 
 fn holds_byte(range: &Range<usize>, byte: usize) -> bool {
@@ -110,6 +124,7 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
         if let Some(key) = visit.name {
             let of = match (visit.section, visit.kind) {
                 ("materials", _) => Some(Of::Material),
+                ("cameras", _) => Some(Of::Camera),
                 (_, Type::Value) => Some(Of::Var),
                 _ => None,
             };
@@ -125,6 +140,9 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
         } else if field == Some("material") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Material, item.lexeme(), item.span(), false, item.text().into_owned()));
+        } else if field == Some("camera") && matches!(visit.kind, Type::Text) {
+            let item = visit.item;
+            found.push(of_text(Of::Camera, item.lexeme(), item.span(), false, item.text().into_owned()));
         } else if field == Some("index") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Var, item.lexeme(), item.span(), true, item.text().into_owned()));

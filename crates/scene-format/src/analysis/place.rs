@@ -89,9 +89,9 @@ pub(super) fn expected(way: &Way, syntax: Syntax) -> Option<Expected> {
             None => Expected::Field(def),
         },
         (Inside::Value(kind, field), true) => Expected::Value(kind, field),
-        (Inside::Items(kind) | Inside::Value(kind, _), false) if syntax != Syntax::Ron => match kind {
-            Type::Struct(def) => Expected::Field(def),
-            kind => Expected::KindAsKey(kind),
+        (Inside::Items(kind) | Inside::Value(kind, _), false) if syntax != Syntax::Ron => match kind.group() {
+            Some(def) => Expected::Field(def),
+            None => Expected::KindAsKey(kind),
         },
         _ => return None,
     })

@@ -58,3 +58,24 @@ impl PartialEq<&str> for Code {
         self.0 == *other
     }
 }
+
+/// A code with its documentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// `E0301`
+    pub code: Code,
+    /// What is wrong, in general.
+    pub title: &'static str,
+    /// Why it is wrong and how to mend it; Markdown, with an example of the fault where one helps.
+    pub text: &'static str,
+}
+
+/// The explanation of a code, for `tracer explain`; letters may be small. `None`: there is no such code.
+pub fn explain(code: &str) -> Option<&'static str> {
+    find(code).map(|found| found.text)
+}
+
+/// The entry of a code.
+pub fn find(code: &str) -> Option<&'static Entry> {
+    super::CODES.iter().find(|known| known.code.as_str().eq_ignore_ascii_case(code.trim()))
+}

@@ -1,20 +1,28 @@
 //! The camera: where it stands, and how it maps what it sees to the picture.
 
 use super::Vec3;
+use super::matrix::Rows;
 use crate::diagnostic::{Span, Spanned};
+use crate::form::Form;
 use crate::plane::cross;
-use crate::schema::Rule;
-use crate::words::{scene_enum, scene_struct, scene_words};
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::Item;
+use crate::words::{Words, scene_enum, scene_struct, scene_words};
 
 scene_struct! {
     /// A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
-    pub struct Camera as "Camera", "the camera" {
+    pub(crate) struct CameraWords as "Camera", "the camera" {
         /// Eye point.
         position: Spanned<Vec3> = [0.0, 0.0, 5.0] => Rule::point();
         /// A point in the middle of the picture.
         look_at: Spanned<Vec3> = [0.0, 0.0, 0.0] => Rule::point();
         /// The direction that is up in the picture.
         up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// Instead of `position`, `look_at` and `up`, as other programs say it: three rows of four numbers, whose
+        /// columns are the directions to the right, upwards and backwards in the picture, and the eye point, as in glTF
+        /// and Blender. It turns and moves, nothing else.
+        matrix: Option<Spanned<Rows>> = None => Rule::within("three rows", -1e12, 1e12);
         /// Field of view in degrees: the picture's height, unless `fov_axis` says otherwise.
         fov: Spanned<f64> = 40.0 => Rule::between("an angle", 0.0, 180.0).unit("in degrees");
         /// Side of the picture that `fov` is measured along.
@@ -92,12 +100,99 @@ scene_words! {
     }
 }
 
+/// A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Eye point.
+    pub position: Spanned<Vec3>,
+    /// A point in the middle of the picture.
+    pub look_at: Spanned<Vec3>,
+    /// The direction that is up in the picture.
+    pub up: Spanned<Vec3>,
+    /// Rows of the matrix that says the three above, if one was written. Who changes them need not change it: it counts
+    /// only as long as it says the same.
+    pub matrix: Option<Box<[[f64; 4]; 3]>>,
+    /// Field of view in degrees: the picture's height, unless `fov_axis` says otherwise.
+    pub fov: Spanned<f64>,
+    /// Side of the picture that `fov` is measured along.
+    pub fov_axis: FovAxis,
+    /// Instead of `fov`: the focal length of a lens before film that is `sensor_width` wide, in millimetres.
+    pub focal_length: Option<Spanned<f64>>,
+    /// Width of the film for `focal_length`, in millimetres.
+    pub sensor_width: Spanned<f64>,
+    /// What is seen moves by so many picture heights to the right and up.
+    pub shift: Spanned<[f64; 2]>,
+    /// What is nearer than this along the view is not seen by the camera.
+    pub near: Option<Spanned<f64>>,
+    /// How directions become places in the picture.
+    pub projection: Projection,
+}
+
+impl Words for Camera {
+    const TYPE: Type = CameraWords::TYPE;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let words = CameraWords::read(reader, item, at)?;
+        let mut camera = Camera {
+            position: words.position,
+            look_at: words.look_at,
+            up: words.up,
+            matrix: None,
+            fov: words.fov,
+            fov_axis: words.fov_axis,
+            focal_length: words.focal_length,
+            sensor_width: words.sensor_width,
+            shift: words.shift,
+            near: words.near,
+            projection: words.projection,
+        };
+        if let Some(matrix) = words.matrix {
+            reader.camera_matrix(&camera, &matrix, item.syntax())?;
+            let span = matrix.span;
+            camera.stand_by(*matrix.value.0);
+            for place in [&mut camera.position, &mut camera.look_at, &mut camera.up] {
+                place.span = span;
+            }
+        }
+        Some(camera)
+    }
+
+    fn form(&self, all: bool) -> Form {
+        let camera = self.clone();
+        let matrix = self.matrix.as_ref().filter(|rows| {
+            let mut other = Camera::default();
+            other.stand_by(***rows);
+            (other.position, other.look_at, other.up) == (self.position.clone(), self.look_at.clone(), self.up.clone())
+        });
+        let mut form = CameraWords {
+            position: camera.position,
+            look_at: camera.look_at,
+            up: camera.up,
+            matrix: matrix.map(|rows| Rows(rows.clone()).into()),
+            fov: camera.fov,
+            fov_axis: camera.fov_axis,
+            focal_length: camera.focal_length,
+            sensor_width: camera.sensor_width,
+            shift: camera.shift,
+            near: camera.near,
+            projection: camera.projection,
+        }
+        .form(all);
+        if let (Form::Struct { fields, .. }, Some(_)) = (&mut form, &self.matrix) {
+            let by_matrix = fields.iter().any(|field| field.name == "matrix" && field.value != Form::word("None"));
+            fields.retain(|field| !by_matrix || !matches!(&*field.name, "position" | "look_at" | "up"));
+        }
+        form
+    }
+}
+
 impl Default for Camera {
     fn default() -> Self {
         Camera {
             position: [0.0, 0.0, 5.0].into(),
             look_at: [0.0, 0.0, 0.0].into(),
             up: [0.0, 1.0, 0.0].into(),
+            matrix: None,
             fov: 40.0.into(),
             fov_axis: FovAxis::Vertical,
             focal_length: None,
@@ -110,6 +205,24 @@ impl Default for Camera {
 }
 
 impl Camera {
+    /// Stands as these rows say, whose columns are right, up, back and the eye.
+    pub fn stand_by(&mut self, rows: [[f64; 4]; 3]) {
+        let column = |k: usize| rows.map(|row| row[k]);
+        let (up, back, eye) = (column(1), unit(column(2)), column(3));
+        // As far as the eye is from the origin: no digit of the direction is lost there.
+        let distance = eye.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        self.position = eye.into();
+        self.look_at = std::array::from_fn(|axis| eye[axis] - distance * back[axis]).into();
+        self.up = up.into();
+        self.matrix = Some(Box::new(rows));
+    }
+
+    /// The rows of [`Camera::stand_by`] that say where it stands.
+    pub fn rows(&self) -> [[f64; 4]; 3] {
+        let ([right, up, forward], eye) = (self.axes(), self.position.value);
+        std::array::from_fn(|axis| [right[axis], up[axis], 0.0 - forward[axis], eye[axis]])
+    }
+
     /// Unit vectors to the picture's right, up, and into it.
     pub fn axes(&self) -> [Vec3; 3] {
         let (position, look_at) = (self.position.value, self.look_at.value);

@@ -7,8 +7,10 @@
 //! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones
 //! that the reader goes by and that the reference and the JSON Schema show.
 
+mod animation;
 mod background;
 mod camera;
+mod cameras;
 mod effects;
 mod fit_to;
 pub(crate) mod group;
@@ -26,9 +28,13 @@ mod textures;
 mod transform;
 mod view;
 
+pub use animation::Animation;
+pub(crate) use animation::Film;
 pub(crate) use background::BackgroundWords;
 pub use background::{Background, Environment};
 pub use camera::{Camera, FisheyeMapping, FovAxis, Projection};
+pub use cameras::NamedCamera;
+pub(crate) use cameras::{CameraChoice, Chosen};
 pub use effects::{Effects, PixelFilter, ToneMap};
 pub use group::group_fault;
 pub(crate) use group::{ITEMS, Objects};
@@ -81,8 +87,14 @@ pub const VERSION: u32 = 1;
 pub struct SceneDesc {
     /// Version of the language.
     pub version: u32,
-    /// The camera.
+    /// Frames and time: the scene is as it is seen in its `frame`.
+    pub animation: Animation,
+    /// The camera that is meant.
     pub camera: Camera,
+    /// Its name, where it is one of `cameras`.
+    pub camera_name: Option<Arc<str>>,
+    /// All cameras that have names.
+    pub cameras: Vec<NamedCamera>,
     /// The picture's size.
     pub image: Image,
     /// How to render.
@@ -112,14 +124,19 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
-        /// Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of
-        /// two files those of the later. Paths in a file start from its folder.
+        /// Files whose `vars`, `materials` and `cameras` are taken as if they stood here, but that names of this file
+        /// win, and of two files those of the later. Paths in a file start from its folder.
         include: Includes = Includes => Rule::file(FileKind::Scene);
         /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour
         /// or truth value.
         vars: Vars = Vars;
-        /// The camera.
-        camera: Camera = Camera::default();
+        /// Frames and time, for expressions.
+        animation: Film = Film::default();
+        /// Cameras by name.
+        cameras: Vec<NamedCamera> = Vec::new();
+        /// The camera, or the name of one of `cameras`, as `--camera` chooses it. Without it, it is the first of the
+        /// file's own `cameras`, if there are any.
+        camera: CameraChoice = CameraChoice::First;
         /// The picture's size.
         image: Image = Image::default();
         /// How to render.
@@ -143,7 +160,10 @@ impl Default for SceneDesc {
     fn default() -> Self {
         SceneDesc {
             version: VERSION,
+            animation: Animation::default(),
             camera: Camera::default(),
+            camera_name: None,
+            cameras: Vec::new(),
             image: Image::default(),
             render: Render::default(),
             effects: Effects::default(),

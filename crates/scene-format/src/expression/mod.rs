@@ -18,6 +18,9 @@ pub(crate) const MAX_BYTES: usize = 4096;
 /// Deeper ones are refused.
 const MAX_DEPTH: usize = 64;
 
+/// Names that stand for numbers of the frame that is seen.
+pub(crate) const MOMENT: [&str; 2] = ["frame", "time"];
+
 /// What is wrong with an expression.
 #[derive(Debug)]
 pub(crate) struct Fault {
@@ -45,7 +48,10 @@ pub(crate) fn is_known(name: &str) -> bool {
         return false;
     }
     let constant = functions::CONSTANTS.iter().any(|(constant, _)| *constant == name);
-    constant || matches!(name, "true" | "false") || functions::FUNCTIONS.iter().any(|function| function.name == name)
+    constant
+        || MOMENT.contains(&name)
+        || matches!(name, "true" | "false")
+        || functions::FUNCTIONS.iter().any(|function| function.name == name)
 }
 
 /// The functions, and how each is called.

@@ -9,7 +9,7 @@
 //! ```
 
 use super::functions::{CONSTANTS, FUNCTIONS, Function};
-use super::{Failure, Fault, MAX_BYTES, MAX_DEPTH, Named, Value};
+use super::{Failure, Fault, MAX_BYTES, MAX_DEPTH, MOMENT, Named, Value};
 use crate::codes;
 use crate::codes::Code;
 use crate::suggest;
@@ -36,6 +36,25 @@ pub(crate) fn evaluate(text: &str, name: &mut dyn FnMut(&str) -> Named) -> Resul
         ));
     }
     Ok(value)
+}
+
+/// What other programs call frames and time.
+fn moment_of_others(name: &str) -> Option<&'static str> {
+    Some(match name.to_ascii_lowercase().as_str() {
+        "frame_current" | "current_frame" | "frame_number" | "frame_no" | "framenumber" | "f" => {
+            "the number of the frame is `frame`, from 0"
+        }
+        "clock" | "initial_clock" | "final_clock" => {
+            "`time` counts seconds, `frame` frames: with 48 of them POV-Ray's clock, 0 to 1, is \"=frame/47\""
+        }
+        "t" | "seconds" | "now" | "current_time" | "timestep" | "shutter_time" => {
+            "the seconds from the start are `time`"
+        }
+        "fps" | "frames" | "frame_rate" => {
+            "numbers of the animation have no names here: `time` is in seconds, `frame` is the number of the frame"
+        }
+        _ => return None,
+    })
 }
 
 struct Parser<'t, 'n> {
@@ -361,7 +380,9 @@ impl Parser<'_, '_> {
                 if let Some(function) = function {
                     fault.message = format!("`{name}` is a function");
                     fault.hint = format!("write {}", function.call);
-                } else if let Some(near) = suggest::nearest(name, known.iter().copied()) {
+                } else if let Some(ours) = moment_of_others(name) {
+                    fault.hint = ours.to_owned();
+                } else if let Some(near) = suggest::nearest(name, known.iter().copied().chain(MOMENT)) {
                     fault.hint = format!("did you mean `{near}`?");
                 }
                 Err(Some(fault))

@@ -2,9 +2,8 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{Camera, Effects, FisheyeMapping, MaterialRef, Object, Output, Projection, Scene, VERSION, Vec3};
+use crate::desc::{CameraChoice, Chosen, MaterialRef, Object, Output, Scene, VERSION};
 use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
-use crate::plane::{cross, dot};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -14,9 +13,15 @@ use crate::words::Words;
 pub(super) static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
 
+/// The words of a scene, and which of its cameras is meant.
+pub(crate) struct Whole {
+    pub scene: Scene,
+    pub camera: Chosen,
+}
+
 /// Reads a whole scene. What is wrong goes to `sink`; the result counts only when that holds no error.
 // Long: one step after the other.
-pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
+pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     let syntax_errors = sink.errors;
     let Some(root) = tree.root() else {
         if syntax_errors > 0 {
@@ -30,15 +35,18 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         return None;
     }
     let mut reader = Reader::new(sink);
+    reader.clock = super::clock::Clock::of(root);
     reader.first_included = (tree.texts.len() - tree.included.len()) as u32;
     // Names of materials may be missing where `materials` itself is mistyped or could not be read.
-    let unread = |key: Item<'_, '_>, value: Item<'_, '_>| {
+    let unread = |key: Item<'_, '_>, value: Item<'_, '_>, field: &str| {
         let name = key.text();
-        name == "materials" && value.kind() == Kind::Broken
-            || Scene::DEF.field(&name).is_none() && super::meant(&name, root, &Scene::DEF) == Some("materials")
+        name == field && value.kind() == Kind::Broken
+            || Scene::DEF.field(&name).is_none() && super::meant(&name, root, &Scene::DEF) == Some(field)
     };
-    reader.materials.damaged =
-        root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value)) || root.is_damaged();
+    let damaged = |field: &str| {
+        root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value, field)) || root.is_damaged()
+    };
+    (reader.materials.damaged, reader.cameras.damaged) = (damaged("materials"), damaged("cameras"));
     let scene = Scene::read(&mut reader, root, &ROOT);
     reader.pending_vars(root);
     let objects = root.fields().find(|(key, _)| key.text() == "objects").map(|(_, value)| value);
@@ -60,17 +68,18 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
         reader.path.pop();
     }
     let mut scene = scene?;
+    let chosen = reader.chosen(std::mem::replace(&mut scene.camera, CameraChoice::First));
     reader.output(&scene.output);
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
     if camera.is_none_or(|camera| !camera.holds_damage()) {
-        reader.camera(&scene.camera, root.syntax());
-        reader.projection(&scene.camera, &scene.effects);
+        reader.check_cameras(&chosen, &scene.effects, root.syntax());
     }
     // Warnings about what is absent mean something only when the structure could be read.
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.is_value();
     if !reader.sink.diagnostics.iter().any(structure) {
         reader.unused_materials();
         reader.unused_vars();
+        reader.nothing_moves();
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
         let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
@@ -100,8 +109,9 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Scene> {
     }
     reader.all_copies(&scene.objects.0);
     scene.materials = reader.materials.take();
+    scene.cameras = reader.cameras.take();
     reader.shapes(&scene);
-    Some(scene)
+    Some(Whole { scene, camera: chosen })
 }
 
 fn no_objects(span: Span, message: &str, syntax: Syntax) -> Diagnostic {
@@ -165,92 +175,5 @@ impl Reader<'_> {
             );
             self.path.clear();
         }
-    }
-
-    /// The view must have a direction, and `up` must not lie along it.
-    fn camera(&mut self, camera: &Camera, syntax: Syntax) {
-        if self.sink.diagnostics.iter().any(|fault| fault.path.starts_with("camera")) {
-            return;
-        }
-        let (position, look_at, up) = (&camera.position, &camera.look_at, &camera.up);
-        let written = |choices: &[Span]| choices.iter().copied().find(|&span| span != Span::NONE).unwrap_or_default();
-        let view: Vec3 = std::array::from_fn(|axis| look_at.value[axis] - position.value[axis]);
-        let length2 = dot(view, view);
-        self.path = vec![Step::Field("camera")];
-        if length2 == 0.0 {
-            let span = written(&[look_at.span, position.span]);
-            let mut fault =
-                Diagnostic::error(codes::CAMERA_IN_TARGET, span, "the camera stands at the very point it looks at")
-                    .expected("`position` and `look_at` at different points");
-            if look_at.span == Span::NONE {
-                fault.hint = "`look_at` is (0, 0, 0) unless written: write the point to look at".to_owned();
-            }
-            self.report(fault);
-        } else {
-            let across = cross(view, up.value);
-            if dot(across, across) <= 1e-20 * length2 * dot(up.value, up.value) {
-                let span = written(&[up.span, look_at.span, position.span]);
-                let fault =
-                    Diagnostic::error(codes::UP_ALONG_VIEW, span, "the camera looks along its own `up` direction")
-                        .expected("`up` in another direction than from `position` to `look_at`");
-                let other = if view[0] == 0.0 && view[1] == 0.0 { "0, 1, 0" } else { "0, 0, -1" };
-                let other = match syntax {
-                    Syntax::Ron => format!("up: ({other})"),
-                    Syntax::Toml => format!("up = [{other}]"),
-                    Syntax::Json => format!("\"up\": [{other}]"),
-                };
-                self.report(fault.hint(format!("write `{other}`")));
-            }
-        }
-        self.path.clear();
-    }
-
-    /// What the camera's fields say must go together, and with the lens.
-    fn projection(&mut self, camera: &Camera, effects: &Effects) {
-        if self
-            .sink
-            .diagnostics
-            .iter()
-            .any(|fault| fault.severity == Severity::Error && fault.path.starts_with("camera"))
-        {
-            return;
-        }
-        for (field, span, why) in camera.of_no_use() {
-            self.path = vec![Step::Field("camera"), Step::Field(field)];
-            let message = format!("`{field}` has no use here: {why}");
-            self.report(Diagnostic::error(codes::NO_USE, span, message).hint(format!("leave `{field}` out")));
-        }
-        let other_fov = camera.fov.value != Camera::default().fov.value;
-        if let (Some(length), Projection::Perspective, true) = (&camera.focal_length, &camera.projection, other_fov) {
-            self.path = vec![Step::Field("camera"), Step::Field("focal_length")];
-            let fault =
-                Diagnostic::error(codes::EXACTLY_ONE, length.span, "the camera has both `fov` and `focal_length`");
-            self.report(fault.expected("one of them").hint("remove one of the two"));
-        }
-        if let Projection::Fisheye { fov, mapping } = &camera.projection {
-            let most = match mapping {
-                FisheyeMapping::Orthographic => Some(("Orthographic", "180 at most", 180.0)),
-                FisheyeMapping::Stereographic => Some(("Stereographic", "less than 360", 359.999)),
-                FisheyeMapping::Equidistant | FisheyeMapping::Equisolid => None,
-            };
-            if let Some((name, expected, _)) = most.filter(|(.., most)| fov.value > *most) {
-                self.path = vec![Step::Field("camera"), Step::Field("projection"), Step::Field("fov")];
-                let message = format!("the fov of a fisheye is too wide for the mapping `{name}`");
-                let fault = Diagnostic::error(codes::OUT_OF_RANGE, fov.span, message);
-                self.report(fault.expected(expected).hint("`Equidistant` goes to 360"));
-            }
-        }
-        let Some(lens) = &effects.depth_of_field else { return };
-        self.path = vec![Step::Field("effects"), Step::Field("depth_of_field")];
-        if camera.projection != Projection::Perspective {
-            let message = "`depth_of_field` has no use here: the camera's `projection` has no lens";
-            let fault = Diagnostic::error(codes::NO_USE, lens.aperture.span, message);
-            self.report(fault.hint("leave `depth_of_field` or `projection` out"));
-        } else if lens.plane_of_focus(camera).0 <= 0.0 {
-            let message = "the point in focus does not lie before the camera";
-            let fault = Diagnostic::error(codes::OUT_OF_RANGE, lens.focus.span, message);
-            self.report(fault.expected("a point that the camera looks at"));
-        }
-        self.path.clear();
     }
 }

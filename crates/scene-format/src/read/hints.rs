@@ -3,7 +3,7 @@
 use super::pattern_fields::of_pattern;
 use super::shape_fields::of_shape;
 use crate::desc::{Material, Object, Scene};
-use crate::schema::{EnumDef, FieldDef, StructDef, Type};
+use crate::schema::{EnumDef, FieldDef, StructDef};
 use crate::syntax::Syntax;
 use crate::tree::Item;
 use std::borrow::Cow;
@@ -62,9 +62,10 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
     {
         return None;
     }
-    let group = Scene::DEF.fields.iter().find(
-        |field| matches!(field.kind, Type::Struct(group) if group.name != def.name && group.field(name).is_some()),
-    )?;
+    let group = Scene::DEF
+        .fields
+        .iter()
+        .find(|field| field.kind.group().is_some_and(|group| group.name != def.name && group.field(name).is_some()))?;
     let group = group.name;
     Some(match toml {
         true => format!("`{name}` is a field of [{group}]"),
@@ -74,7 +75,7 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
 
 /// Whether this field of the scene has these fields.
 fn is_group(field: &FieldDef, def: &'static StructDef) -> bool {
-    matches!(field.kind, Type::Struct(group) if group.name == def.name)
+    field.kind.group().is_some_and(|group| group.name == def.name)
 }
 
 /// What other programs call a field of ours.
@@ -83,6 +84,12 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("objects", &["children", "items", "members", "contents", "shapes"]),
         ("position", &["eye", "origin", "from", "pos", "location"]),
         ("look_at", &["target", "lookat", "to"]),
+        ("matrix", &["to_world", "matrix_world", "transform", "world_matrix", "camera_to_world", "c2w", "pose"]),
+        ("cameras", &["views", "viewpoints", "camera_list"]),
+        ("animation", &["anim", "animate", "timeline", "film", "motion"]),
+        ("frames", &["frame_count", "num_frames", "frame_end", "final_frame", "count", "length", "end"]),
+        ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
+        ("frame", &["frame_current", "current_frame", "frame_number"]),
         ("center", &["centre", "position", "pos", "origin"]),
         ("radius", &["r", "size"]),
         ("fov", &["field_of_view", "angle", "vfov"]),
@@ -455,10 +462,18 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         }
         "fisheye" | "dome" if camera => "a round picture: `projection: Fisheye(fov: 180)`",
         "far" | "far_clip" | "zfar" | "clip_end" if camera => "nothing is too far away to be seen: leave it out",
-        "shutter" | "motion_blur" if camera => "nothing moves in a scene: leave it out",
-        "rotation" | "direction" | "forward" | "matrix" | "to_world" | "transform" if camera => {
-            "the camera's direction is said by `look_at`, the point that it looks at"
+        "shutter" | "motion_blur" if camera => "nothing moves while a picture is taken: leave it out",
+        "rotation" | "direction" | "forward" if camera => {
+            "the camera's direction is said by `look_at`, the point that it looks at, or by `matrix`"
         }
+        "clock" | "initial_clock" | "final_clock" | "initial_frame" | "frame_step" | "frame_start" | "start_frame"
+            if has("frames") || def.name == "Scene" =>
+        {
+            "`animation: Animation(frames: 48)` counts frames from 0; which are rendered is said on the command line: \
+             --frames 0-47"
+        }
+        "duration" | "seconds" if has("frames") => "the duration is `frames` over `fps`",
+        "motion_keys" if has("frames") => "nothing moves while a frame is taken: leave it out",
         "bump" | "bump_map" | "normal_map" | "normal" | "displacement" | "normals" if surface => {
             "surfaces have no bumps: they need to be in the mesh; `shading: Smooth` rounds a mesh"
         }

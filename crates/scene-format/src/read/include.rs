@@ -1,4 +1,4 @@
-//! Other files in a scene: libraries of values and materials (`include`), and scenes among its objects (`Include`).
+//! Other files in a scene: libraries of values, materials and cameras (`include`), and scenes among its objects (`Include`).
 
 use super::check::ROOT;
 use super::materials::Materials;
@@ -59,6 +59,7 @@ impl Words for Includes {
         });
         // Names may be missing that they would have brought.
         reader.materials.damaged |= read.is_none();
+        reader.cameras.damaged |= read.is_none();
         reader.vars.damaged |= read.is_none();
         read.map(|()| Includes)
     }
@@ -131,6 +132,7 @@ impl Reader<'_> {
         // Names may be missing that it would have brought.
         let opened = self.opened(name, text);
         self.materials.damaged |= opened.is_none();
+        self.cameras.damaged |= opened.is_none();
         self.vars.damaged |= opened.is_none();
         opened
     }
@@ -194,7 +196,7 @@ impl Reader<'_> {
         value
     }
 
-    /// Takes values and materials of a file.
+    /// Takes values, materials and cameras of a file.
     fn library(&mut self, name: Item<'_, '_>, file: &Root, root: Item<'_, '_>) {
         let objects = root
             .fields()
@@ -202,7 +204,7 @@ impl Reader<'_> {
         if let Some((key, _)) = objects {
             let message = format!("an included file has `{}`, which are not taken", key.text());
             let fault = Diagnostic::error(codes::INCLUDE, name.span(), message)
-                .expected("a file with `vars` and `materials`")
+                .expected("a file with `vars`, `materials` and `cameras`")
                 .hint(format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme())))
                 .label(key.span(), "they are here");
             return self.report(fault);
@@ -221,6 +223,7 @@ impl Reader<'_> {
         let (file, root) = self.open(name, &name.text())?;
         // Its own names.
         let materials = std::mem::take(&mut self.materials);
+        let cameras = std::mem::take(&mut self.cameras);
         let given = words.vars.0.iter().map(|(name, value)| (Arc::clone(&name.value), value.clone())).collect();
         let vars = std::mem::replace(&mut self.vars, vars::Table::with(given));
         let scene = self.within(name, file, |reader| {
@@ -232,6 +235,7 @@ impl Reader<'_> {
             scene
         });
         let inner = std::mem::replace(&mut self.materials, materials);
+        self.cameras = cameras;
         let table = std::mem::replace(&mut self.vars, vars);
         let mut objects = scene.map(|scene| of_scene(scene.objects.0, scene.lights))?;
         for (name, _) in words.vars.0.iter().filter(|(name, _)| table.is_left(&name.value)) {

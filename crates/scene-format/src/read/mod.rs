@@ -4,7 +4,9 @@
 //! what is wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said
 //! twice.
 
+mod camera;
 mod check;
+mod clock;
 mod elsewhere;
 mod hints;
 mod include;
@@ -21,7 +23,7 @@ mod variant;
 mod vars;
 mod vector;
 
-pub(crate) use check::scene;
+pub(crate) use check::{Whole, scene};
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
 pub(crate) use part::part;
@@ -64,7 +66,9 @@ pub(crate) struct Reader<'r> {
     sink: &'r mut Sink,
     path: Vec<Step>,
     materials: Materials,
+    cameras: camera::Cameras,
     vars: vars::Table,
+    clock: clock::Clock,
     /// The item whose kind was told to be another.
     renamed: u32,
     /// Items that repetitions have made.
@@ -139,7 +143,9 @@ impl<'r> Reader<'r> {
             sink,
             path: Vec::new(),
             materials: Materials::default(),
+            cameras: camera::Cameras::default(),
             vars: vars::Table::default(),
+            clock: clock::Clock::default(),
             renamed: NOWHERE,
             repeated: 0,
             open: Vec::new(),
@@ -371,14 +377,12 @@ impl<'r> Reader<'r> {
         def: &'static StructDef,
     ) -> Option<&'static str> {
         if RESERVED.contains(&name) {
-            self.report(
-                Diagnostic::error(
-                    codes::RESERVED_WORD,
-                    key.span(),
-                    format!("`{name}` is kept for later versions of the language"),
-                )
-                .expected(field_list(def)),
-            );
+            let message = format!("`{name}` is kept for later versions of the language");
+            let mut fault = Diagnostic::error(codes::RESERVED_WORD, key.span(), message).expected(field_list(def));
+            if name == "keyframes" {
+                fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
+            }
+            self.report(fault);
             return None;
         }
         let mut fault =

@@ -90,9 +90,15 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             return with_unit(format!("{what} {words}, or a list of such numbers: [a, b, ..]"), at);
         }
         (Type::OneOf([Type::Number, ..]), what) => format!("{what}, or one per axis: (x, y, z)"),
+        (Type::OneOf([Type::Text, Type::Struct(_)]), _) => {
+            "a name from `cameras`, or a camera written here: Camera(..)".to_owned()
+        }
         (Type::OneOf([Type::Text, ..]), _) => "the name of a material, or a material written here".to_owned(),
         (Type::OneOf(_), _) => "a value".to_owned(),
         (Type::Optional(Type::Text), _) => "a name between quotes".to_owned(),
+        (Type::Optional(Type::Rows), what) => {
+            return format!("{what}: ((a, b, c, x), (d, e, f, y), (g, h, i, z)), or None");
+        }
         (Type::Optional(_), what) => format!("{what}: (x, y, z), or None"),
         (Type::Later(_), _) => "a value".to_owned(),
     };
@@ -383,7 +389,15 @@ macro_rules! optional {
     )+};
 }
 
-optional!(f64, crate::desc::Vec3, Spanned<crate::desc::Color>, Spanned<f64>, crate::desc::Metal, crate::desc::Albedo);
+optional!(
+    f64,
+    crate::desc::Vec3,
+    Spanned<crate::desc::matrix::Rows>,
+    Spanned<crate::desc::Color>,
+    Spanned<f64>,
+    crate::desc::Metal,
+    crate::desc::Albedo
+);
 
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {

@@ -304,6 +304,9 @@ impl Reader<'_> {
         let body = text.strip_prefix('=')?;
         let result = expression::evaluate(body, &mut |name| {
             let Some(k) = self.vars.find(name) else {
+                if let Some(moment) = self.moment(name, item) {
+                    return moment;
+                }
                 if self.vars.damaged {
                     return Named::Failed;
                 }

@@ -514,12 +514,18 @@ pub fn scene(random: &mut Random) -> SceneDesc {
     };
     let defaults = SceneDesc::default();
     let (seen, lens) = view(random);
+    let mut camera =
+        Camera { position: [1e7, number(random, -1.0, 1.0), 0.0].into(), look_at: vector(random).into(), ..seen };
+    if random.below(3) == 0 {
+        camera.stand_by(camera.rows());
+    }
+    let named = NamedCamera { name: "front".to_owned().into(), camera: camera.clone() };
+    let cameras = if random.below(3) == 0 { vec![named] } else { Vec::new() };
+    let camera_name = cameras.first().map(|named| std::sync::Arc::clone(&named.name.value));
     SceneDesc {
-        camera: Camera {
-            position: [1e7, number(random, -1.0, 1.0), 0.0].into(),
-            look_at: vector(random).into(),
-            ..seen
-        },
+        camera,
+        camera_name,
+        cameras,
         image: Image { width: (1 + random.below(65536) as u32).into(), ..Image::default() },
         render: Render {
             seed: (random.next() as u32).into(),
@@ -569,5 +575,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
 pub fn plain(scene: SceneDesc) -> SceneDesc {
     let mut materials = scene.materials;
     materials.sort_by(|a, b| a.name.value.cmp(&b.name.value));
-    SceneDesc { sources: Vec::new(), base_dir: PathBuf::new(), materials, ..scene }
+    let mut cameras = scene.cameras;
+    cameras.sort_by(|a, b| a.name.value.cmp(&b.name.value));
+    SceneDesc { cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, ..scene }
 }

@@ -137,6 +137,8 @@ impl FarmSlurmArgs {
             every: self.every,
             resume: None,
             report: None,
+            frames: None,
+            skip_existing: false,
             open: false,
             stats: false,
             quiet: false,

@@ -1,6 +1,6 @@
 //! `tracer merge`.
 
-use super::{DenoiseArgs, DiagnosticsForm, RenderArgs, SceneArgs, bits};
+use super::{DenoiseArgs, RenderArgs, SceneArgs, bits};
 use crate::command_line::quoted;
 use crate::write::Bits;
 use clap::Args;
@@ -50,10 +50,12 @@ impl MergeArgs {
     /// What a rendering that writes the same pictures is told.
     pub fn as_render(&self) -> RenderArgs {
         let scene = self.parts.first().cloned().unwrap_or_default();
-        let scene = SceneArgs { scene, set: Vec::new(), syntax: None, diagnostics: DiagnosticsForm::Text };
+        let scene = SceneArgs::plain(scene);
         RenderArgs {
             scene,
             output: self.output.clone(),
+            frames: None,
+            skip_existing: false,
             open: false,
             format: self.format.clone(),
             bits: self.bits,

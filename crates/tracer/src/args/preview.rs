@@ -1,7 +1,8 @@
 //! The words of `tracer preview`.
 
-use super::{Size, SyntaxName, count, size};
+use super::{Size, SyntaxName, count, overrides, size};
 use clap::{Args, ValueEnum};
+use scene_format::Override;
 use std::net::IpAddr;
 use std::path::PathBuf;
 
@@ -56,6 +57,12 @@ pub struct PreviewArgs {
     /// Set a field of the scene: camera.fov=40 (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Use this one of the scene's `cameras`
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// Frame of the scene's `animation`, from 0
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
     /// Syntax of the scene [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     #[arg(help = "Syntax: ron, toml, json [default: by its name]")]
@@ -69,4 +76,11 @@ pub struct PreviewArgs {
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+}
+
+impl PreviewArgs {
+    /// The fields to set.
+    pub fn overrides(&self) -> Vec<Override> {
+        overrides(&self.set, self.camera.as_deref(), self.frame)
+    }
 }

@@ -69,12 +69,15 @@ fn hash_of_film(desc: &mut SceneDesc) -> String {
     let render = desc.render.clone();
     let effects = desc.effects.clone();
     let output = take(&mut desc.output);
+    // The scene is what it is in this frame and for this camera, whatever others there are.
+    let (animation, cameras) = (take(&mut desc.animation), take(&mut desc.cameras));
     desc.render.samples = 1.into();
     (desc.render.noise, desc.render.time) = (None, None);
     desc.render.acceleration = Acceleration::Bvh;
     (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
     let hash = hash_hex(desc);
     (desc.render, desc.effects, desc.output) = (render, effects, output);
+    (desc.animation, desc.cameras) = (animation, cameras);
     hash
 }
 

@@ -50,7 +50,7 @@ pub(super) fn run(args: &BenchAccelerationArgs, shell: &Shell) -> Result<ExitCod
     let is_figure = Path::new(&args.scene.scene).file_stem().is_some_and(|stem| stem == "fig3")
         && args.size.is_none()
         && args.samples.is_none()
-        && args.scene.set.is_empty();
+        && args.scene.sets().is_empty();
     if is_figure {
         desc.render.samples = desc.render.samples.value.min(REPORT_SAMPLES).into();
     }
@@ -60,7 +60,7 @@ pub(super) fn run(args: &BenchAccelerationArgs, shell: &Shell) -> Result<ExitCod
     let mut hashes = Vec::new();
     for way in &WAYS {
         desc.render.acceleration = way.acceleration;
-        let scene = compile(&desc, args.scene.diagnostics, shell)?;
+        let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let watch = Watch::new(shell, pixels * u64::from(scene.samples));
         let options = RenderOptions {

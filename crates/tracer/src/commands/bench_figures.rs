@@ -1,7 +1,7 @@
 //! `tracer bench-figures`: the nine figures of the report at its own settings, by the plain path tracer as there; its
 //! times beside ours. The scenes themselves ask for the engine at its best.
 
-use crate::args::{BenchFiguresArgs, DiagnosticsForm, SceneArgs};
+use crate::args::{BenchFiguresArgs, SceneArgs};
 use crate::failure::{Failure, exit};
 use crate::interrupt;
 use crate::lanes;
@@ -61,12 +61,7 @@ pub(super) fn run(args: &BenchFiguresArgs, shell: &Shell) -> Result<ExitCode, Fa
 /// Seconds from the scene file to the developed picture; `None`: it was interrupted.
 fn timed(figure: &Figure, samples: u32, args: &BenchFiguresArgs, shell: &Shell) -> Result<Option<f64>, Failure> {
     let start = Instant::now();
-    let scene = SceneArgs {
-        scene: args.scenes.join(format!("fig{}.ron", figure.number)),
-        syntax: None,
-        set: Vec::new(),
-        diagnostics: DiagnosticsForm::Text,
-    };
+    let scene = SceneArgs::plain(args.scenes.join(format!("fig{}.ron", figure.number)));
     let mut desc = load(&scene, shell)?;
     desc.image.width = figure.size.into();
     desc.image.height = figure.size.into();
@@ -74,7 +69,7 @@ fn timed(figure: &Figure, samples: u32, args: &BenchFiguresArgs, shell: &Shell) 
     desc.render.max_bounces = figure.bounces.into();
     desc.render.integrator = Integrator::Path;
     // What the formula of the report's Blinn-Phong brings is known here.
-    let scene = compile(&desc, scene.diagnostics, &shell.without_warnings())?;
+    let scene = compile(&desc, scene.diagnostics, None, &shell.without_warnings())?;
     let watch = Watch::new(shell, u64::from(figure.size * figure.size) * u64::from(samples));
     let options = RenderOptions {
         threads: args.threads.map_or(0, usize::from),

@@ -3,6 +3,7 @@
 use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
+use crate::frames;
 use crate::loading::{compile, load_counting};
 use crate::shell::{Shell, counted};
 use scene_format::Syntax;
@@ -38,7 +39,8 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
     let args_of_scene = args.of(scene);
     let (desc, warnings) = load_counting(&args_of_scene, shell)?;
-    let scene = compile(&desc, args.diagnostics, shell)?;
+    let frames = frames::told(&args_of_scene, &desc, None, shell)?;
+    let scene = compile(&desc, args.diagnostics, None, shell)?;
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let warnings = warnings + scene.warnings.len();
     if args.deny_warnings && warnings > 0 {
@@ -49,7 +51,8 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
     }
     if args.diagnostics == DiagnosticsForm::Text {
         let (objects, lights) = (counted(desc.objects.len(), "object"), counted(scene.lights.len(), "light"));
-        writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}")?;
+        let frames = frames.map_or(String::new(), |frames| format!(", {frames}"));
+        writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}{frames}")?;
     }
     Ok(())
 }

@@ -24,7 +24,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         let syntax = args.scene.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene.scene));
         to_text(&desc, syntax.unwrap_or(Syntax::Ron), Defaults::Shown)
     } else {
-        let scene = compile(&desc, args.scene.diagnostics, shell)?;
+        let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
         let facts = Facts {
             name: name(&desc),
             film: of_film(Crop::whole(scene.size), &desc.render, scene.layers, false),
@@ -43,8 +43,11 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
 /// Of a checkpoint, which is read to its end: whoever asks wants to know whether it is whole.
 fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
     let path = &args.scene.scene;
-    if args.resolved || !args.scene.set.is_empty() {
-        return Err(Failure::wrong(format!("{} is a checkpoint; --resolved and --set are for scenes", path.display())));
+    if args.resolved || !args.scene.sets().is_empty() {
+        return Err(Failure::wrong(format!(
+            "{} is a checkpoint; --resolved, --set, --camera and --frame are for scenes",
+            path.display()
+        )));
     }
     let file = File::open(path).map_err(FilmError::Io);
     let checked = file.and_then(|file| Ok((file.metadata()?.len(), SavedFilm::open(file)?.check()?)));

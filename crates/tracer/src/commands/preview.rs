@@ -9,7 +9,7 @@ use crate::memory;
 use crate::opening::open;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, encode, save};
-use scene_format::{Override, SceneDesc};
+use scene_format::SceneDesc;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -25,13 +25,13 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
     let options = Options {
         scene: args.scene.clone(),
         syntax: args.syntax.map(Into::into),
-        overrides: args.set.iter().cloned().map(Override::from).collect(),
+        overrides: args.overrides(),
         samples: args.samples,
         size: args.size.map(|size| [size.width, size.height]),
         threads: args.threads.map_or(0, usize::from),
         editor,
     };
-    let program = Box::new(Program { set: args.set.clone() });
+    let program = Box::new(Program { set: args.overrides().into_iter().map(|set| set.argument).collect() });
     if let Some(how) = args.terminal {
         return in_terminal(args, options, program, how);
     }

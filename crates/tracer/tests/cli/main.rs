@@ -10,6 +10,7 @@ mod examples;
 mod farm;
 mod faults;
 mod fmt;
+mod frames;
 mod goals;
 mod golden;
 mod habits;

@@ -27,6 +27,9 @@ pub fn view(world: &mut World, random: &mut Random) {
         2 => Projection::Fisheye { fov: random.between(90.0, 180.0).into(), mapping },
         _ => Projection::Perspective,
     };
+    if once_in(random, 6) {
+        camera.stand_by(camera.rows());
+    }
     let planar = matches!(camera.projection, Projection::Perspective | Projection::Orthographic { .. });
     if planar && once_in(random, 6) {
         camera.shift = [random.between(-0.3, 0.3), random.between(-0.3, 0.3)].into();

@@ -26,12 +26,12 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// The scene is wrong.
 pub fn record(args: &FarmSlurmArgs, desc: &mut SceneDesc, shell: &Shell) -> Result<Record, Failure> {
-    let scene = compile(desc, args.scene.diagnostics, shell)?;
+    let scene = compile(desc, args.scene.diagnostics, None, shell)?;
     let directory = std::env::current_dir()
         .map_err(|error| Failure::could_not(format!("cannot tell the current folder: {error}")))?;
     let pictures = args.output.iter().map(|path| text(path)).collect::<Result<Vec<_>, _>>()?;
     let places = args.output.iter().map(|path| text(&whole(path)?)).collect::<Result<Vec<_>, Failure>>()?;
-    let notes = notes(desc, &scene.files, &args.scene.set)?;
+    let notes = notes(desc, &scene.files, &args.scene.sets())?;
     let settings = settings(args, desc, &places, scene.clamp, &notes);
     Ok(Record {
         farm_version: VERSION,

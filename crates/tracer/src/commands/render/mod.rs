@@ -1,6 +1,7 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
 mod empty;
+mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
@@ -20,27 +21,35 @@ use crate::report::{
 use crate::shell::Shell;
 use crate::write::{Place, save};
 use crate::{denoising, interrupt, lanes, memory};
+use frames::{AtEnd, Frames};
 use kept::{Kept, Places};
 use rescue::{Pictures, Rescued, pictures, rescue};
 use scene_format::SceneDesc;
 use std::io::Write;
-use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+    use_threads(args.threads)?;
+    match args.frames {
+        Some(frames) => frames::run(args, frames, shell, started),
+        None => one(&frames::numbered(args)?, shell, started, None),
+    }
+}
+
+/// Renders one picture, or one of several frames.
+fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frames>) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
     let args = &outputs::named(args)?;
     let part_file = args.part.map(|_| parts::place(args)).transpose()?;
     let outputs = if part_file.is_some() { Vec::new() } else { outputs::outputs(args)? };
     let level = lanes::from_environment()?;
-    use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
     let places = Places::new(args, shell)?;
-    // Neither is taken apart at the end: the process ends, and a large scene would take its time for nothing.
-    let mut desc = ManuallyDrop::new(described(args, shell)?);
+    let mut desc = AtEnd::new(described(args, shell)?, frames);
+    frames.map_or(Ok(()), |frames| frames.is_as_before(&desc))?;
     let crop = crop(args, &desc)?;
     let part = parts::part(args, &desc, crop)?;
     let crop = part.map_or(crop, |part| part.crop);
@@ -52,7 +61,8 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     outputs::spare_inputs(&outputs, args, &named)?;
     let read = clock.lap();
 
-    let mut scene = ManuallyDrop::new(compile(&desc, args.scene.diagnostics, shell)?);
+    let kept = frames.map(|frames| &frames.kept);
+    let mut scene = AtEnd::new(compile(&desc, args.scene.diagnostics, kept, shell)?, frames);
     // Not the one that a backdrop needs, unless it is asked for.
     let written_layers = tracer_core::layer_set(&desc.output.layers);
     denoising::prepare(&mut scene, args.denoise.is_on())?;
@@ -64,7 +74,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
     let compiled = clock.lap();
 
-    interrupt::listen(*shell)?;
+    if frames.is_none() {
+        interrupt::listen(*shell)?;
+    }
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let before = Before::of(begun.as_ref());
     let done = pixels * u64::from(before.samples);
@@ -98,6 +110,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     if most == 0 {
         shell.say("interrupted before the first sample: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
+    }
+    if interrupted && frames.is_some() {
+        return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
     }
     let made = (!outputs.is_empty())
         .then(|| denoising::picture(&film, &scene.look, written_layers, args.denoise.is_on(), shell))

@@ -40,6 +40,12 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
     for set in &args.scene.set {
         option("--set", set.clone());
     }
+    if let Some(camera) = &args.scene.camera {
+        option("--camera", camera.clone());
+    }
+    if let Some(frame) = args.scene.frame {
+        option("--frame", frame.to_string());
+    }
     option("--size", format!("{}x{}", desc.image.width.value, desc.image.height.value));
     option("--samples", desc.render.samples.value.to_string());
     option("--seed", desc.render.seed.value.to_string());

@@ -1,0 +1,126 @@
+//! What `frame` and `time` stand for. The animation that says so may itself be said by expressions, so it is read when
+//! it is first asked for.
+
+use super::{Reader, Step};
+use crate::codes;
+use crate::desc::{Animation, Scene};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expression::{Named, Value};
+use crate::schema::FieldDef;
+use crate::tree::{Item, NOWHERE};
+use crate::words::Words;
+
+#[derive(Debug)]
+pub(super) struct Clock {
+    /// Where the animation stands on the tape.
+    slot: u32,
+    state: State,
+    /// An expression of the scene itself that asks for it.
+    asked: Option<(Span, &'static str)>,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    NotYet,
+    /// It is being read: whoever asks for it now goes round in a circle.
+    Open,
+    Done(Animation),
+    Failed,
+}
+
+impl Default for Clock {
+    fn default() -> Self {
+        Clock { slot: NOWHERE, state: State::NotYet, asked: None }
+    }
+}
+
+impl Clock {
+    /// That of a scene.
+    pub fn of(root: Item<'_, '_>) -> Self {
+        let animation = root.fields().find(|(key, _)| key.text() == "animation");
+        Clock { slot: animation.map_or(NOWHERE, |(_, value)| value.index() as u32), ..Clock::default() }
+    }
+}
+
+impl Reader<'_> {
+    /// The animation. That of an included file is looked at and left alone.
+    pub(crate) fn animation(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Animation> {
+        if !self.open.is_empty() {
+            return Animation::read(self, item, at);
+        }
+        if let State::NotYet = self.clock.state {
+            self.read_animation(item, at);
+        }
+        match &self.clock.state {
+            State::Done(animation) => Some(animation.clone()),
+            _ => None,
+        }
+    }
+
+    fn read_animation(&mut self, item: Item<'_, '_>, at: &'static FieldDef) {
+        self.clock.state = State::Open;
+        let read = Animation::read(self, item, at);
+        if let State::Open = self.clock.state {
+            let inside = read.filter(|animation| self.has_frame(animation));
+            self.clock.state = inside.map_or(State::Failed, State::Done);
+        }
+    }
+
+    /// Whether the frame is one of those that there are; else it is reported.
+    fn has_frame(&mut self, animation: &Animation) -> bool {
+        let (frame, frames) = (animation.frame.value, animation.frames.value);
+        if frame < frames {
+            return true;
+        }
+        let message = format!("there is no frame {frame}: the animation has {frames}, counted from 0");
+        let (message, expected) = match frames {
+            1 => (format!("there is no frame {frame}: the animation has one, frame 0"), "0".to_owned()),
+            _ => (message, format!("0 to {}", frames - 1)),
+        };
+        self.path.push(Step::Field("frame"));
+        let fault = Diagnostic::error(codes::OUT_OF_RANGE, animation.frame.span, message).expected(expected);
+        self.report(fault.hint("`frames` of the `animation` says how many there are"));
+        self.path.pop();
+        false
+    }
+
+    /// What `frame` and `time` stand for; `None` for other names.
+    pub(super) fn moment(&mut self, name: &str, item: Item<'_, '_>) -> Option<Named> {
+        let name = if name == "frame" { "frame" } else { (name == "time").then_some("time")? };
+        if self.clock.asked.is_none() && !self.is_included(item.span()) {
+            self.clock.asked = Some((item.span(), name));
+        }
+        if let (State::NotYet, Some(found)) = (&self.clock.state, item.other(self.clock.slot))
+            && let Some(at) = Scene::DEF.field("animation")
+        {
+            let path = std::mem::replace(&mut self.path, vec![Step::Field(at.name)]);
+            let open = std::mem::take(&mut self.open);
+            if let Some(found) = self.picked(found) {
+                self.read_animation(found, at);
+            }
+            (self.path, self.open) = (path, open);
+        }
+        let animation = match &self.clock.state {
+            State::NotYet => Animation::default(),
+            State::Done(animation) => animation.clone(),
+            State::Failed => return Some(Named::Failed),
+            State::Open => {
+                self.clock.state = State::Failed;
+                let message = format!("`{name}` is asked for by the animation, which says what it is");
+                let fault = Diagnostic::error(codes::CIRCLE, item.span(), message);
+                self.report(fault.expected("values that do not need themselves"));
+                return Some(Named::Failed);
+            }
+        };
+        let value = if name == "frame" { f64::from(animation.frame.value) } else { animation.time() };
+        Some(Named::Value(Value::Number(value)))
+    }
+
+    /// Warns where time is asked for that does not go by.
+    pub(super) fn nothing_moves(&mut self) {
+        let Some((span, name)) = self.clock.asked.filter(|_| self.clock.slot == NOWHERE) else { return };
+        let message = format!("`{name}` is always 0: the scene has no `animation`");
+        let fault = Diagnostic::warning(codes::NOTHING_MOVES, span, message);
+        self.report(fault.hint("`animation: Animation(frames: 48)` says how many frames there are"));
+    }
+}

@@ -1,0 +1,138 @@
+//! The words of `tracer render`.
+
+use super::{DenoiseArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, noise, part, size};
+use crate::write::Bits;
+use clap::Args;
+use std::path::PathBuf;
+use std::time::Duration;
+use tracer_core::{Crop, Layer};
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
+`tracer man render` has --camera, --frame, --crop, --layers, --part and more.";
+
+/// `tracer render`
+#[derive(Clone, Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub scene: SceneArgs,
+    /// Picture: .png .exr .hdr .pfm, or - (repeatable)
+    #[arg(short, long = "output", value_name = "FILE", help = "Picture: .png .exr .hdr .pfm, - [default: SCENE.png]")]
+    pub output: Vec<PathBuf>,
+    /// Render these frames: 0-47 or all; #### in file names is the number
+    #[arg(long, value_name = "A-B", value_parser = frames, conflicts_with_all = ["frame", "open"])]
+    #[arg(help = "Frames of an animation: 0-47, all; names have ####")]
+    pub frames: Option<Frames>,
+    /// Leave frames out whose files are there
+    #[arg(long, requires = "frames")]
+    pub skip_existing: bool,
+    /// Open the picture when it is done
+    #[arg(long, conflicts_with = "part")]
+    pub open: bool,
+    /// Kind of picture for `-o -`: png, exr, hdr or pfm
+    #[arg(long, value_name = "KIND")]
+    pub format: Option<String>,
+    /// Bits per channel of a PNG: 8 or 16
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub bits: Option<Bits>,
+    /// Samples per pixel; with --noise or --time the most
+    #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    pub samples: Option<u32>,
+    /// End when the noise is no more than this: 0.01, 1%
+    #[arg(long, value_name = "SHARE", value_parser = noise)]
+    pub noise: Option<f64>,
+    /// End after this time, all written: 60s, 5m, 1h
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub time: Option<Duration>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
+    /// Render this part: the same bytes as in the whole
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    pub crop: Option<Crop>,
+    /// Render this part of N, for `tracer merge`: 3/16
+    #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["noise", "time", "format", "bits"])]
+    pub part: Option<[u32; 2]>,
+    /// Divide by samples or rows [default: samples]
+    #[arg(long, value_enum, value_name = "WHAT", requires = "part", hide_possible_values = true)]
+    #[arg(help = "Parts have samples or rows [default: samples if there are enough]")]
+    pub split: Option<SplitName>,
+    /// Seed of all random choices
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// Stops to brighten the picture by
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    pub exposure: Option<f64>,
+    /// Layers of the EXR beside the scene's: albedo,depth
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
+    pub layers: Vec<Layer>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub denoise: DenoiseArgs,
+    /// Threads [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Keep the state in this file while rendering
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Time between checkpoints: 60s, 5m, 1h [default: 60s]
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub every: Option<Duration>,
+    /// Go on from this checkpoint, and keep it up to date
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+    /// Report of times, rays and memory to write as JSON
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Tell where the time goes, in the report too
+    #[arg(long)]
+    pub stats: bool,
+    /// Print errors only
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+}
+
+/// Frames of an animation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frames {
+    /// All that there are.
+    All,
+    /// From the first to the last of these.
+    Range(u32, u32),
+}
+
+fn frames(text: &str) -> Result<Frames, String> {
+    if text == "all" {
+        return Ok(Frames::All);
+    }
+    let expected = || "expected the first and the last frame, counted from 0, as in 0-47, or all".to_owned();
+    let (first, last) = text.split_once("..").or_else(|| text.split_once('-')).unwrap_or((text, text));
+    let number = |text: &str| text.trim().parse::<u32>().ok().filter(|&frame| frame < 1_000_000);
+    match (number(first), number(last)) {
+        (Some(first), Some(last)) if first <= last => Ok(Frames::Range(first, last)),
+        _ => Err(expected()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_read() {
+        for (text, read) in [
+            ("0-47", Frames::Range(0, 47)),
+            ("3..5", Frames::Range(3, 5)),
+            ("12", Frames::Range(12, 12)),
+            ("all", Frames::All),
+        ] {
+            assert_eq!(frames(text), Ok(read));
+        }
+        for bad in ["", "-", "5-3", "-3", "0-", "a-b", "0-1000000", "1.5", "0-4-8", "every"] {
+            assert!(frames(bad).is_err(), "{bad}");
+        }
+    }
+}

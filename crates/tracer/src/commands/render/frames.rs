@@ -1,0 +1,236 @@
+//! `--frames`: one picture after the other. Assets and trees are kept from frame to frame.
+
+use super::one;
+use crate::args::{self, RenderArgs};
+use crate::failure::{Failure, exit};
+use crate::loading::{is_dash, load};
+use crate::shell::{Shell, counted};
+use crate::{frames, interrupt};
+use scene_format::SceneDesc;
+use scene_format::diagnostic::Source;
+use std::cell::OnceCell;
+use std::ops::{Deref, DerefMut};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use tracer_core::Kept;
+
+/// What frames have in common.
+#[derive(Default)]
+pub(super) struct Frames {
+    pub kept: Kept,
+    /// The texts of the scene as the first frame was made of them.
+    sources: OnceCell<Vec<Source>>,
+}
+
+impl Frames {
+    /// Sees that a frame is of the scene that the first one was of.
+    ///
+    /// # Errors
+    /// The files were changed since.
+    pub fn is_as_before(&self, desc: &SceneDesc) -> Result<(), Failure> {
+        let texts = || desc.sources.iter().filter(|source| !source.name.starts_with("--")).cloned().collect();
+        let now: Vec<Source> = texts();
+        if *self.sources.get_or_init(texts) == now {
+            return Ok(());
+        }
+        let why = "the scene was changed while its frames were rendered: the rest would not fit; render them anew";
+        Err(Failure::wrong(why))
+    }
+}
+
+/// A value that is not taken apart at the end where the process ends with it: a large scene would take its time for
+/// nothing. Of frames it is.
+pub(super) struct AtEnd<T> {
+    value: Option<T>,
+    is_dropped: bool,
+}
+
+impl<T> AtEnd<T> {
+    pub fn new(value: T, frames: Option<&Frames>) -> Self {
+        AtEnd { value: Some(value), is_dropped: frames.is_some() }
+    }
+}
+
+impl<T> Deref for AtEnd<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        self.value.as_ref().expect("it is taken when this is dropped")
+    }
+}
+
+impl<T> DerefMut for AtEnd<T> {
+    fn deref_mut(&mut self) -> &mut T {
+        self.value.as_mut().expect("it is taken when this is dropped")
+    }
+}
+
+impl<T> Drop for AtEnd<T> {
+    fn drop(&mut self) {
+        if let Some(value) = self.value.take().filter(|_| !self.is_dropped) {
+            std::mem::forget(value);
+        }
+    }
+}
+
+/// The options of one frame: its number is in the names of files.
+///
+/// # Errors
+/// A name that is no text.
+pub(super) fn numbered(args: &RenderArgs) -> Result<RenderArgs, Failure> {
+    let mut args = args.clone();
+    let Some(frame) = args.scene.frame else { return Ok(args) };
+    if args.output.is_empty() && args.part.is_none() && !is_dash(&args.scene.scene) {
+        args.output.push(beside(&args));
+    }
+    for path in files(&mut args) {
+        if let Some(name) = path.to_str().and_then(|name| with_number(name, frame)) {
+            *path = PathBuf::from(name);
+        }
+    }
+    Ok(args)
+}
+
+/// The name of pictures that were given none.
+fn beside(args: &RenderArgs) -> PathBuf {
+    let stem = args.scene.scene.file_stem().unwrap_or_default().to_string_lossy();
+    let kind = args.format.as_deref().unwrap_or("png");
+    args.scene.scene.with_file_name(format!("{stem}_####.{kind}"))
+}
+
+/// All files that are written, with their options.
+fn files(args: &mut RenderArgs) -> impl Iterator<Item = &mut PathBuf> {
+    let RenderArgs { output, report, checkpoint, resume, .. } = args;
+    output.iter_mut().chain(report).chain(checkpoint).chain(resume)
+}
+
+/// A name with the number of a frame in place of the last `####`; `None` where it has none.
+fn with_number(name: &str, frame: u32) -> Option<String> {
+    let end = name.rfind('#')? + 1;
+    let start = name[..end].trim_end_matches('#').len();
+    let digits = end - start;
+    Some(format!("{}{frame:0digits$}{}", &name[..start], &name[end..]))
+}
+
+/// Renders frames.
+///
+/// # Errors
+/// What is wrong with a frame; the ones before it are written.
+pub(super) fn run(
+    args: &RenderArgs,
+    frames: args::Frames,
+    shell: &Shell,
+    started: Instant,
+) -> Result<ExitCode, Failure> {
+    let mut args = args.clone();
+    if is_dash(&args.scene.scene) {
+        return Err(Failure::wrong("a scene from standard input is read once: --frames needs one in a file"));
+    }
+    if args.output.is_empty() {
+        let named = if args.part.is_some() { super::parts::named(&args)?.output.remove(0) } else { beside(&args) };
+        args.output.push(match named.to_string_lossy().contains('#') {
+            true => named,
+            false => named.with_file_name(format!("####.{}", named.file_name().unwrap_or_default().to_string_lossy())),
+        });
+        args.format = None;
+    }
+    for path in files(&mut args) {
+        if is_dash(path) || path.to_str().and_then(|name| with_number(name, 0)).is_none() {
+            return Err(Failure::wrong(format!(
+                "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
+                path.display(),
+                example(path).display()
+            )));
+        }
+    }
+    interrupt::listen(*shell)?;
+    let (first, last) = range(&args, frames, shell)?;
+    let session = Frames::default();
+    let all = last - first + 1;
+    let (mut made, mut skipped) = (0, 0);
+    for frame in first..=last {
+        let mut of_frame = args.clone();
+        (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
+        let of_frame = numbered(&of_frame)?;
+        let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
+        if args.skip_existing && of_frame.output.iter().all(is_there) {
+            skipped += 1;
+            continue;
+        }
+        let code = match interrupt::requested() {
+            None => one(&of_frame, shell, if made == 0 { started } else { Instant::now() }, Some(&session))?,
+            Some(code) => ExitCode::from(code),
+        };
+        if let Some(signal) = interrupt::requested() {
+            let done = if code == ExitCode::from(exit::DONE) { made + 1 } else { made };
+            let rest = "the same line with --skip-existing does the rest";
+            shell.say(&format!("interrupted: {done} of {} done; {rest}", counted(all as usize, "frame")));
+            return Ok(ExitCode::from(signal));
+        }
+        if code != ExitCode::from(exit::DONE) {
+            return Ok(code);
+        }
+        made += 1;
+    }
+    if shell.is_told() {
+        let there = if skipped > 0 { format!(", {skipped} were there") } else { String::new() };
+        let seconds = started.elapsed().as_secs_f64();
+        shell.say(&format!("{} in {seconds:.2} s{there}", counted(made, "frame")));
+    }
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// A name with room for a number.
+fn example(path: &Path) -> PathBuf {
+    if is_dash(path) {
+        return PathBuf::from("shot_####.png");
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match path.extension() {
+        Some(extension) => path.with_file_name(format!("{stem}_####.{}", extension.to_string_lossy())),
+        None => path.with_file_name(format!("{stem}_####")),
+    }
+}
+
+/// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
+fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
+    let mut scene = args.scene.clone();
+    if let args::Frames::Range(_, last) = frames {
+        scene.frame = Some(last);
+    }
+    let desc = load(&scene, &shell.without_warnings())?;
+    let (first, last) = match frames {
+        args::Frames::Range(first, last) => (first, last),
+        args::Frames::All => (0, desc.animation.frames.value - 1),
+    };
+    frames::told(&args.scene, &desc, Some((first, last)), shell)?;
+    Ok((first, last))
+}
+
+/// What is left of a frame that was interrupted: its checkpoint. A picture would be taken for a whole one.
+///
+/// # Errors
+/// The checkpoint could not be written.
+pub(super) fn unfinished(kept: Option<Result<String, anyhow::Error>>, shell: &Shell) -> Result<ExitCode, Failure> {
+    match kept {
+        Some(Err(error)) => shell.error(&error),
+        Some(Ok(name)) => shell.say(&format!("the unfinished frame is kept in {name}; --resume goes on with it")),
+        None => {}
+    }
+    Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_stand_in_names() {
+        assert_eq!(with_number("shot_####.png", 7).as_deref(), Some("shot_0007.png"));
+        assert_eq!(with_number("a#/b##.exr", 123).as_deref(), Some("a#/b123.exr"));
+        assert_eq!(with_number("##/film.png", 3).as_deref(), Some("03/film.png"));
+        assert_eq!(with_number("film.png", 3), None);
+        assert_eq!(example(Path::new("out/film.png")), Path::new("out/film_####.png"));
+    }
+}

@@ -1,0 +1,162 @@
+//! `--frames`, `--frame`, `--camera`: one scene, many pictures.
+
+use crate::support::Sandbox;
+use std::process::Stdio;
+use std::time::Duration;
+
+const FILM: &str = r#"Scene(
+    animation: Animation(frames: 4, fps: 2),
+    cameras: { "front": Camera(position: (0, 0, 6)), "top": Camera(position: (0, 6, 0.1)) },
+    image: Image(width: 24, height: 16), render: Render(samples: 2),
+    background: 1,
+    objects: [
+        Sphere(center: "=(time - 1, 0, 0)", radius: "=keyframes(frame, 0, 0.5, 3, 0.8)", material: Diffuse(albedo: 0.4)),
+        Box(center: (0, -1.5, 0), size: (4, 1, 4), material: Diffuse(albedo: (0.2, 0.4, 0.3))),
+    ],
+)"#;
+
+fn film() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("film.ron", FILM);
+    sandbox
+}
+
+#[test]
+fn a_frame_has_the_same_bytes_alone_and_in_a_row() {
+    let sandbox = film();
+    sandbox.run(&["render", "film.ron", "--frames", "0-3", "-o", "row_##.png", "-o", "row_##.exr"]).ends(0);
+    for frame in 0..4 {
+        let name = format!("alone_{frame}");
+        let (png, exr) = (format!("{name}.png"), format!("{name}.exr"));
+        sandbox.run(&["render", "film.ron", "--frame", &frame.to_string(), "-o", &png, "-o", &exr]).ends(0);
+        assert_eq!(sandbox.read(&png), sandbox.read(&format!("row_{frame:02}.png")), "{frame}");
+        assert_eq!(sandbox.read(&exr), sandbox.read(&format!("row_{frame:02}.exr")), "{frame}");
+    }
+    assert_ne!(sandbox.read("row_00.png"), sandbox.read("row_01.png"));
+    // What is written at the frame is that frame; names without -o have the number.
+    sandbox.run(&["render", "film.ron", "--set", "animation.frame=2", "-o", "set.pfm"]).ends(0);
+    sandbox.run(&["render", "film.ron", "--frame", "2", "-o", "two.pfm"]).ends(0);
+    assert_eq!(sandbox.read("set.pfm"), sandbox.read("two.pfm"));
+    sandbox.run(&["render", "film.ron", "--frames", "all"]).ends(0);
+    assert!(sandbox.files().contains(&"film_0003.png".to_owned()), "{:?}", sandbox.files());
+}
+
+#[test]
+fn existing_frames_are_skipped_only_when_asked() {
+    let sandbox = film();
+    sandbox.write("a_1.png", "mine");
+    let line = ["render", "film.ron", "--frames", "0-2", "-o", "a_#.png"];
+    let ran = sandbox.run(&[&line[..], &["--skip-existing"]].concat()).ends(0);
+    assert!(ran.err.contains("2 frames") && ran.err.contains("1 were there"), "{}", ran.err);
+    assert_eq!(sandbox.text("a_1.png"), "mine");
+    sandbox.run(&line).ends(0);
+    assert_ne!(sandbox.read("a_1.png"), b"mine");
+}
+
+#[test]
+fn files_of_frames_have_numbers() {
+    let sandbox = film();
+    let line = ["render", "film.ron", "--frames", "0-1"];
+    let with = |more: &[&str]| sandbox.run(&[&line[..], more].concat());
+    with(&["-o", "a.png"]).ends(2).says(&["put #### for its number into a.png, as in a_####.png"]);
+    with(&["-o", "-"]).ends(2).says(&["shot_####.png"]);
+    with(&["-o", "a_#.png", "--report", "r.json"]).ends(2).says(&["r_####.json"]);
+    with(&["-o", "a_#.png", "--open"]).ends(2);
+    with(&["--frame", "1"]).ends(2);
+    sandbox.run(&["render", "film.ron", "--skip-existing"]).ends(2).says(&["--frames"]);
+    sandbox.run(&["render", "film.ron", "--frames", "3-1"]).ends(2).says(&["0-47"]);
+    sandbox.run(&["render", "film.ron", "--frames", "0-4"]).ends(2).says(&["there is no frame 4", "0 to 3"]);
+    sandbox.run(&["render", "scene.ron", "--frame", "1"]).ends(2).says(&["there is no frame 1", "frames"]);
+    with(&["-o", "a_#.png", "--report", "r_#.json", "--checkpoint", "c_#.film"]).ends(0);
+    let (first, second) = (sandbox.text("r_0.json"), sandbox.text("r_1.json"));
+    assert!(first.contains("--frame 0") && second.contains("--frame 1"), "{first}");
+    with(&["-o", "b_#.png", "--resume", "c_#.film"]).ends(0);
+    assert_eq!(sandbox.read("a_1.png"), sandbox.read("b_1.png"));
+}
+
+#[test]
+fn what_is_wrong_with_a_frame_is_told_before_the_first() {
+    let sandbox = film();
+    sandbox.write("bad.ron", FILM.replace("radius: \"=", "radius: \"=1.25 - frame/2 + 0*"));
+    let ran = sandbox.run(&["check", "bad.ron"]).ends(2);
+    assert!(
+        ran.err.contains("must be positive (frame 3)") && ran.err.contains("1 of 4 frames is wrong"),
+        "{}",
+        ran.err
+    );
+    sandbox.run(&["render", "bad.ron", "--frames", "0-3", "-o", "b_#.png"]).ends(2).says(&["(frame 3)"]);
+    assert!(!sandbox.files().contains(&"b_0.png".to_owned()));
+    sandbox.run(&["render", "bad.ron", "--frames", "0-2", "-o", "b_#.png"]).ends(0);
+    let ran = sandbox.run(&["check", "film.ron"]).ends(0);
+    assert!(ran.out_text().contains("4 frames"), "{}", ran.out_text());
+}
+
+#[test]
+fn parts_of_frames_are_merged() {
+    let sandbox = film();
+    sandbox.run(&["render", "film.ron", "--frames", "1-2", "-o", "whole_#.pfm"]).ends(0);
+    for part in ["1/2", "2/2"] {
+        let name = format!("p{}_#.tracer", &part[..1]);
+        sandbox.run(&["render", "film.ron", "--frames", "1-2", "--part", part, "-o", &name]).ends(0);
+    }
+    sandbox.run(&["merge", "p1_2.tracer", "p2_2.tracer", "-o", "merged.pfm"]).ends(0);
+    assert_eq!(sandbox.read("merged.pfm"), sandbox.read("whole_2.pfm"));
+    let ran = sandbox.run(&["merge", "p1_1.tracer", "p2_2.tracer", "-o", "mixed.pfm"]);
+    assert_ne!(ran.code, Some(0), "frames are not mixed");
+}
+
+#[test]
+fn a_signal_ends_it_and_leaves_whole_frames() {
+    let sandbox = film();
+    let line = ["render", "film.ron", "--frames", "0-3", "--samples", "200000", "-o", "s_#.png", "--skip-existing"];
+    let mut child = sandbox.command(&line).stderr(Stdio::piped()).spawn().expect("it starts");
+    std::thread::sleep(Duration::from_millis(800));
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    let status = child.wait().expect("it ends");
+    assert_eq!(status.code(), Some(143));
+    let files = sandbox.files();
+    assert!(!files.contains(&"s_3.png".to_owned()), "{files:?}");
+}
+
+#[test]
+fn cameras_are_chosen_by_name() {
+    let sandbox = film();
+    sandbox.run(&["render", "film.ron", "-o", "first.pfm"]).ends(0);
+    sandbox.run(&["render", "film.ron", "--camera", "front", "-o", "front.pfm"]).ends(0);
+    sandbox.run(&["render", "film.ron", "--camera", "top", "-o", "top.pfm"]).ends(0);
+    assert_eq!(sandbox.read("first.pfm"), sandbox.read("front.pfm"));
+    assert_ne!(sandbox.read("first.pfm"), sandbox.read("top.pfm"));
+    let ran = sandbox.run(&["render", "film.ron", "--camera", "tap", "-o", "x.png"]).ends(2);
+    ran.says(&["there is no camera \"tap\"", "`front` or `top`", "--camera"]);
+    sandbox.run(&["info", "film.ron", "--camera", "top"]).ends(0);
+    sandbox.run(&["render", "scene.ron", "--camera", "a", "-o", "x.png"]).ends(2).says(&["no `cameras`"]);
+    // What is set of the named one is seen.
+    let set = ["--camera", "top", "--set", "cameras.top.fov=20", "-o", "near.pfm"];
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(0);
+    assert_ne!(sandbox.read("near.pfm"), sandbox.read("top.pfm"));
+    let set = ["--set", "camera=top", "--set", "camera.fov=20", "-o", "x.png"];
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"top\".fov"]);
+}
+
+/// A camera by its matrix sees what the same one sees by its place.
+#[test]
+fn a_matrix_is_a_camera() {
+    let sandbox = film();
+    let placed = FILM
+        .replace("cameras: {", "camera: Camera(position: (3, 4, 5), look_at: (3, -1, 5), up: (0, 0, -1)), cameras: {");
+    let matrix =
+        FILM.replace("cameras: {", "camera: Camera(matrix: ((1, 0, 0, 3), (0, 0, 1, 4), (0, -1, 0, 5))), cameras: {");
+    sandbox.write("placed.ron", placed);
+    sandbox.write("matrix.ron", matrix);
+    for name in ["placed", "matrix"] {
+        sandbox.run(&["render", &format!("{name}.ron"), "-o", &format!("{name}.pfm")]).ends(0);
+    }
+    assert_eq!(sandbox.read("placed.pfm"), sandbox.read("matrix.pfm"));
+    let ran = sandbox.run(&["info", "matrix.ron", "--resolved"]).ends(0);
+    assert!(
+        ran.out_text().contains("matrix: ((1, 0, 0, 3)") && !ran.out_text().contains("look_at: (3"),
+        "{}",
+        ran.out_text()
+    );
+}
