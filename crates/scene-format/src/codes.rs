@@ -410,8 +410,8 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// Scene(background: 1, objects: [Extrude(outline: [[(0, 0), (1, 1), (1, 0), (0, 1)]], depth: 1)])
     /// ```
     BAD_OUTLINE "E0545" "an outline that bounds no face";
-    /// The `matrix` of a camera turns and moves it, nothing else. Its columns are the directions to the right, upwards and
-    /// backwards in the picture, and the eye. A scale, a shear or a mirroring in it has no meaning for a camera.
+    /// The `matrix` of a camera turns and moves it, nothing else. Its columns are the directions to the right, upwards
+    /// and backwards in the picture, and the eye. A scale, a shear or a mirroring in it has no meaning for a camera.
     ///
     /// ```text
     /// Scene(camera: Camera(matrix: ((2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5))), objects: [..])

@@ -260,9 +260,9 @@ impl Setter {
             (Type::Struct(def), What::Name(name)) => self.find_field(item, def, name, step, rest),
             (Type::Enum(def), What::Name(name)) => self.find_variant(item, def, name, step, steps, rest),
             (Type::OneOf([Type::Text, Type::Struct(_)]), What::Name(name)) if item.kind() == Kind::Text => {
-                let camera = item.text();
+                let camera = item.lexeme();
                 let fault = self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `cameras`, by its name"));
-                Err(fault.hint(format!("set the camera of that name: cameras.{}.{name}", shortened(&camera))))
+                Err(fault.hint(format!("set the camera of that name: cameras.{}.{name}", shortened(camera))))
             }
             (Type::OneOf(kinds), _) => {
                 let fitting = kinds.iter().find(|kind| fits(item, kind));
@@ -393,10 +393,32 @@ impl Setter {
                     .hint(format!("set `{}`", key.text())));
             }
         }
+        if let Some(fault) = self.camera_of_names(item, def, step, rest) {
+            return Err(fault);
+        }
         // Not written yet: the field comes with all the names that lead to it.
         let mut names = vec![(step.start, step.end)];
         self.check_path(field.kind, rest, field.noun, &mut names)?;
         Ok(Some(Edited::Add(item.index(), names)))
+    }
+
+    /// A field of the camera, where none is written and the scene's camera is the first of those with names: what would
+    /// be added would be another camera.
+    fn camera_of_names(
+        &self,
+        item: Item<'_, '_>,
+        def: &'static StructDef,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+    ) -> Option<Diagnostic> {
+        let What::Name(field) = rest.first()?.what else { return None };
+        if def.name != Scene::DEF.name || !matches!(step.what, What::Name("camera")) {
+            return None;
+        }
+        let (_, cameras) = item.fields().find(|(key, _)| key.text() == "cameras")?;
+        let (first, _) = cameras.fields().next()?;
+        let fault = self.fault(codes::BAD_SET_PATH, step, "the camera of this scene is one of its `cameras`");
+        Some(fault.hint(format!("set the camera of that name: cameras.{}.{field}", shortened(first.lexeme()))))
     }
 
     /// Follows names that the tree does not have yet.

@@ -88,7 +88,8 @@ clamp(x, low, high)
   mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `keyframes(t, t0, value0, t1, value1, ..)`
   (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, \
 value)`,
-  `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`.
+  `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`; \
+`frame` and `time` of the [animation](#animation).
 
 `Repeat`, an item of any list, puts its items into the list so many times; `i`, or what `index` says, counts from 0:
 
@@ -141,8 +142,8 @@ do elsewhere.
 - Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group \
 has no `DropTo` and no `FitTo`.
 
-`include: [\"house.ron\"]` at the scene's top takes `vars` and `materials` of other files. Among the objects, \
-`Include(file: \"chair.ron\", vars: {
+`include: [\"house.ron\"]` at the scene's top takes `vars`, `materials` and `cameras` of other files. Among the \
+objects, `Include(file: \"chair.ron\", vars: {
 \"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's \
 objects and lights.
 

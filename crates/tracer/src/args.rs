@@ -178,7 +178,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
     /// Frame of the scene's `animation`, from 0
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub frame: Option<u32>,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]

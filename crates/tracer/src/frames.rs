@@ -29,7 +29,7 @@ pub fn told(
     let (first, last) = range.unwrap_or((0, frames - 1));
     let moves = desc.sources.iter().any(|source| source.text.contains("frame") || source.text.contains("time"));
     // Standard input is there once.
-    if frames == 1 && last == 0 || !moves || is_dash(&args.scene) {
+    if last < frames && (frames == 1 || !moves) || is_dash(&args.scene) {
         return Ok(None);
     }
     let bytes: usize = desc.sources.iter().map(|source| source.text.len()).sum();

@@ -67,6 +67,7 @@ pub fn command() -> Command {
                 "camera",
                 "frame",
                 "skip_existing",
+                "report",
             ]
             .into_iter()
             .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))

@@ -8,8 +8,8 @@ use crate::tree::Item;
 use crate::words::{Words, scene_struct};
 
 scene_struct! {
-    /// A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its seconds
-    /// from the start. Each frame is a picture of its own: nothing moves while one is taken.
+    /// A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its
+    /// seconds from the start. Each frame is a picture of its own: nothing moves while one is taken.
     pub struct Animation as "Animation", "the animation" {
         /// How many frames there are.
         frames: Spanned<u32> = 1 => Rule::within("a whole number", 1.0, 1e6);

@@ -3,7 +3,7 @@
 use super::Camera;
 use crate::diagnostic::{Span, Spanned};
 use crate::form::{Entry, Form};
-use crate::read::{Reader, is_expression};
+use crate::read::{Reader, expected_for, is_expression};
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
@@ -47,11 +47,19 @@ impl Words for CameraChoice {
     const TYPE: Type = Type::OneOf(&[Type::Text, Camera::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        if item.kind() != Kind::Text || is_expression(item) {
-            return Camera::read(reader, item, at).map(|camera| CameraChoice::Written(Box::new(camera)));
+        match item.kind() {
+            Kind::Text if !is_expression(item) => {
+                let name = reader.text(item, at)?;
+                Some(CameraChoice::Named(Spanned { value: (*name).into(), span: item.span() }))
+            }
+            Kind::Word | Kind::List => {
+                // A name without its quotes.
+                let quoted = (item.kind() == Kind::Word && reader.knows_camera(&item.text()))
+                    .then(|| format!("\"{}\"", item.text()));
+                reader.wrong_kind(item, at.noun, &expected_for(at, item), quoted)
+            }
+            _ => Camera::read(reader, item, at).map(|camera| CameraChoice::Written(Box::new(camera))),
         }
-        let name = reader.text(item, at)?;
-        Some(CameraChoice::Named(Spanned { value: (*name).into(), span: item.span() }))
     }
 
     fn form(&self, all: bool) -> Form {

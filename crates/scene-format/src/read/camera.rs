@@ -89,6 +89,11 @@ impl Reader<'_> {
         Some(())
     }
 
+    /// Whether there is one of this name.
+    pub(crate) fn knows_camera(&self, name: &str) -> bool {
+        self.cameras.first(name).is_some()
+    }
+
     /// The camera that is meant.
     pub(super) fn chosen(&mut self, choice: CameraChoice) -> Chosen {
         let name = match choice {

@@ -1,4 +1,5 @@
-//! Other files in a scene: libraries of values, materials and cameras (`include`), and scenes among its objects (`Include`).
+//! Other files in a scene: libraries of values, materials and cameras (`include`), and scenes among its objects
+//! (`Include`).
 
 use super::check::ROOT;
 use super::materials::Materials;

@@ -9,8 +9,9 @@ use tracer_core::{Crop, Layer};
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
+  tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --camera, --frame, --crop, --layers, --part and more.";
+`tracer man render` has --camera, --frame, --crop, --layers, --report and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Args)]

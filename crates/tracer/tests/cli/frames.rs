@@ -10,7 +10,8 @@ const FILM: &str = r#"Scene(
     image: Image(width: 24, height: 16), render: Render(samples: 2),
     background: 1,
     objects: [
-        Sphere(center: "=(time - 1, 0, 0)", radius: "=keyframes(frame, 0, 0.5, 3, 0.8)", material: Diffuse(albedo: 0.4)),
+        Sphere(center: "=(time - 1, 0, 0)", radius: "=keyframes(frame, 0, 0.5, 3, 0.8)",
+            material: Diffuse(albedo: 0.4)),
         Box(center: (0, -1.5, 0), size: (4, 1, 4), material: Diffuse(albedo: (0.2, 0.4, 0.3))),
     ],
 )"#;
@@ -137,6 +138,9 @@ fn cameras_are_chosen_by_name() {
     assert_ne!(sandbox.read("near.pfm"), sandbox.read("top.pfm"));
     let set = ["--set", "camera=top", "--set", "camera.fov=20", "-o", "x.png"];
     sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"top\".fov"]);
+    let set = ["--set", "camera.fov=20", "-o", "x.png"];
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"front\".fov"]);
+    sandbox.run(&["render", "film.ron", "--frame", "-1"]).ends(2).says(&["--frame"]);
 }
 
 /// A camera by its matrix sees what the same one sees by its place.

@@ -196,8 +196,8 @@ fn example(path: &Path) -> PathBuf {
 /// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
 fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
     let mut scene = args.scene.clone();
-    if let args::Frames::Range(_, last) = frames {
-        scene.frame = Some(last);
+    if let args::Frames::Range(first, _) = frames {
+        scene.frame = Some(first);
     }
     let desc = load(&scene, &shell.without_warnings())?;
     let (first, last) = match frames {
