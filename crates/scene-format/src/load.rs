@@ -192,9 +192,9 @@ fn unseen_with_warnings(text: &str) -> (Option<SceneDesc>, Diagnostics) {
 }
 
 impl SceneDesc {
-    /// What is wrong with a scene that was built in code, or doubtful: all that reading it would tell, in its order. The
-    /// diagnostics name fields (`objects[0].radius`) and no places. A scene that was read is right already. The files
-    /// that it names are not looked at: compiling does that.
+    /// What is wrong with a scene that was built in code, or doubtful: all that reading it would tell, in its order.
+    /// The diagnostics name fields (`objects[0].radius`) and no places. A scene that was read is right already. The
+    /// files that it names are not looked at: compiling does that.
     ///
     /// ```
     /// use scene_format::desc::{Background, Object, Sphere};
