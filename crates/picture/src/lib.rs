@@ -7,7 +7,8 @@
 //! use tracer_picture::{Bits, Encoding, Place, Provenance, encode, write};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let text = "Scene(image: Image(width: 16, height: 12), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+//! let text = "Scene(image: Image(width: 16, height: 12), background: 1, \
+//!             objects: [Sphere(center: (0, 0, 0), radius: 1)])";
 //! let scene = compile(&load_str("ball.ron", text, Syntax::Ron, Path::new(""), &[])?.scene)?;
 //! let film = render(&scene, &RenderOptions { samples: Some(2), ..RenderOptions::default() }, &Unobserved);
 //! let image = develop(&film, &scene.look);

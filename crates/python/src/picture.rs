@@ -10,8 +10,8 @@ use std::sync::Arc;
 use tracer_core::Image;
 use tracer_picture::{Bits, Encoding, Provenance, Setting, encode, is_one_file, save};
 
-/// Puts a picture into a dictionary: `width`, `height`, `linear` and `display` (with alpha where there is one), `layers`
-/// (name, channels, numbers), `samples`, `noise`, `stopped`, `note`, and the functions `encode` and `save`.
+/// Puts a picture into a dictionary: `width`, `height`, `linear` and `display` (with alpha where there is one),
+/// `layers` (name, channels, numbers), `samples`, `noise`, `stopped`, `note`, and the functions `encode` and `save`.
 ///
 /// # Errors
 /// When there is no memory.

@@ -195,16 +195,16 @@ fn unseen_with_warnings(text: &str) -> (Option<SceneDesc>, Diagnostics) {
 }
 
 impl SceneDesc {
-    /// What is wrong with a scene that was built in code, or doubtful: all that reading it would tell, in its order. The
-    /// diagnostics name fields (`objects[0].radius`) and no places. A scene that was read is right already. The files
-    /// that it names are not looked at: compiling does that.
+    /// What is wrong with a scene that was built in code, or doubtful: all that reading it would tell, in its order.
+    /// The diagnostics name fields (`objects[0].radius`) and no places. A scene that was read is right already. The
+    /// files that it names are not looked at: compiling does that.
     ///
     /// ```
     /// use scene_format::desc::{Background, Object, Sphere};
     /// use scene_format::{SceneDesc, Severity};
     ///
     /// let mut scene = SceneDesc { background: Background::Color([1.0; 3]), ..SceneDesc::default() };
-    /// assert_eq!(scene.validate()[0].code.as_str(), "E0301");
+    /// assert_eq!(scene.validate()[0].code.as_str(), "E0207");
     ///
     /// let ball = |radius: f64| {
     ///     let (center, radius) = ([0.0; 3].into(), radius.into());
@@ -216,7 +216,7 @@ impl SceneDesc {
     /// scene.render.samples = 0.into();
     /// let faults = scene.validate();
     /// let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();
-    /// assert_eq!(paths, ["render.samples", "objects[1].radius", "objects[2].radius"]);
+    /// assert_eq!(paths, ["render.samples", "objects[1].radius", "objects[2].radius"], "{faults:?}");
     /// assert!(faults.iter().all(|fault| fault.severity == Severity::Error));
     ///
     /// scene.objects.truncate(1);
@@ -224,11 +224,34 @@ impl SceneDesc {
     /// assert!(scene.validate().is_empty());
     /// ```
     pub fn validate(&self) -> Diagnostics {
-        let mut found = unseen_with_warnings(&to_json(self, Defaults::Hidden)).1;
+        let mut found = unseen_with_warnings(&with_texts(to_json(self, Defaults::Hidden))).1;
         // What reading offers to mend is in a text that nobody sees.
         found.iter_mut().for_each(|fault| fault.edit = None);
         found
     }
+}
+
+/// JSON with a text wherever a number is none or infinite, which JSON cannot say: so the fault is told of the field.
+fn with_texts(json: String) -> String {
+    if !json.contains("NaN") && !json.contains("inf") {
+        return json;
+    }
+    let mut out = String::with_capacity(json.len() + 16);
+    // Within quotes nothing is changed; a quote there stands behind a backslash.
+    let (mut is_text, mut is_escaped, mut rest) = (false, false, json.as_str());
+    while let Some(c) = rest.chars().next() {
+        let none = ["NaN", "-inf", "inf"].into_iter().find(|none| !is_text && rest.starts_with(none));
+        if let Some(none) = none {
+            out += &format!("\"{none}\"");
+            rest = &rest[none.len()..];
+            continue;
+        }
+        is_text ^= c == '"' && !is_escaped;
+        is_escaped = c == '\\' && !is_escaped;
+        out.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    out
 }
 
 /// The scene of a text, or what could be read of it; what is wrong goes to `sink`.

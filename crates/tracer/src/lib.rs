@@ -1,5 +1,5 @@
-//! The command line of tracer. The fifth hand, [`write()`], which puts a developed picture into a file, is a crate of its
-//! own, `tracer_picture`; here it is known as `write`.
+//! The command line of tracer. The fifth hand, [`write()`], which puts a developed picture into a file, is a crate of
+//! its own, `tracer_picture`.
 #![forbid(unsafe_code)]
 
 pub mod args;
@@ -20,9 +20,9 @@ pub mod opening;
 pub mod progress;
 pub mod report;
 pub mod shell;
+pub mod write;
 
-pub use tracer_picture as write;
-pub use tracer_picture::write;
+pub use write::write;
 
 use args::{Cli, Command, When};
 use clap::{ColorChoice, FromArgMatches};

@@ -31,7 +31,10 @@ fn kinds_lists_and_choices_become_types() {
                 { "enum": ["Nothing"] },
             ] },
             "Ball": { "type": "object", "description": "A ball.", "required": ["radius"], "properties": {
-                "radius": { "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^=" }], "description": "How large." },
+                "radius": {
+                    "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^=" }],
+                    "description": "How large.",
+                },
                 "center": { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
             } },
         },
@@ -41,7 +44,8 @@ fn kinds_lists_and_choices_become_types() {
         "Object = Union[\"BallItem\", Literal[\"Nothing\"]]\n",
         "BallItem = TypedDict(\"BallItem\", {\"Ball\": \"Ball\"})\n",
         "class _BallRequired(TypedDict):\n    radius: Union[float, str]\n",
-        "class Ball(_BallRequired, total=False):\n    \"\"\"A ball.\n\n    radius: How large.\n    \"\"\"\n\n    center: Union[Sequence[float], Array]\n",
+        "class Ball(_BallRequired, total=False):\n    \"\"\"A ball.\n\n    radius: How large.\n    \"\"\"\n\n    \
+         center: Union[Sequence[float], Array]\n",
         "class _SceneDictRequired(TypedDict):\n    objects: Sequence[Object]\n",
     ] {
         assert!(made.contains(expected), "{expected}\nis not in\n{made}");

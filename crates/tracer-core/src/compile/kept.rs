@@ -67,7 +67,8 @@ fn file<T, E>(
 
 /// A mesh file, read or kept.
 pub(super) fn load_mesh(kept: &Kept, path: &Path) -> Result<Arc<MeshData>, MeshError> {
-    // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read again.
+    // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read
+    // again.
     let others = |mesh: &MeshData| {
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()

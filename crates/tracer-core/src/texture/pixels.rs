@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use scene_format::Diagnostics;
 use std::path::Path;
 
-/// A picture in memory, which stands in a scene as a file would ([`crate::Assets`]). Row 0 is the top row, each row from
-/// left to right.
+/// A picture in memory, which stands in a scene as a file would ([`crate::Assets`]). Row 0 is the top row, each row
+/// from left to right.
 ///
 /// ```
 /// use tracer_core::texture::Pixels;

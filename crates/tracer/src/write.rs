@@ -1,0 +1,3 @@
+//! The fifth hand, by its name here: pictures become files (`tracer_picture`).
+
+pub use tracer_picture::*;
