@@ -40,6 +40,7 @@ of_words![
     ToneMap,
     Output,
     Layer,
+    Matte,
     Background,
     Environment,
     Light,

@@ -115,9 +115,10 @@ pub enum When {
 }
 
 /// How diagnostics are printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum DiagnosticsForm {
     /// For people.
+    #[default]
     Text,
     /// One JSON object a line, for editors.
     Json,
@@ -165,7 +166,7 @@ impl From<SplitName> for Split {
 }
 
 /// The scene, and how faults of it are told.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct SceneArgs {
     /// Scene file (.ron, .toml, .json), or - for standard input
     pub scene: PathBuf,
@@ -208,7 +209,7 @@ Examples:
 `tracer man render` has --crop, --layers, --seed, --exposure, --part and more.";
 
 /// `tracer render`
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub struct RenderArgs {
     #[command(flatten)]

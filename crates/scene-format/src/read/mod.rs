@@ -8,6 +8,7 @@ mod check;
 mod elsewhere;
 mod hints;
 mod include;
+mod marks;
 mod materials;
 mod outlines;
 mod part;

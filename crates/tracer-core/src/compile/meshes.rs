@@ -46,13 +46,16 @@ pub fn assign_materials(
         let whole = match (object.material, own) {
             (MaterialRef::Default, Some(f)) => {
                 if assigned.of_file[f].is_empty() {
-                    assigned.of_file[f] =
-                        loaded.files[f].materials.iter().map(|m| builder.add(&m.material, None)).collect();
+                    assigned.of_file[f] = loaded.files[f]
+                        .materials
+                        .iter()
+                        .map(|m| builder.add(&m.material, None, || m.name.value.to_string()))
+                        .collect();
                     assigned.of_file[f].push(builder.default_material());
                 }
                 NONE
             }
-            (reference, _) => builder.resolve(reference, diagnostics),
+            (reference, _) => builder.resolve(reference, object.number, diagnostics),
         };
         assigned.of_object.push(whole);
         assigned.emissive.push(builder.emissive(whole).cloned());

@@ -1,6 +1,6 @@
 //! `tracer merge`.
 
-use super::{DenoiseArgs, DiagnosticsForm, RenderArgs, SceneArgs, bits};
+use super::{DenoiseArgs, RenderArgs, SceneArgs, bits};
 use crate::command_line::quoted;
 use crate::write::Bits;
 use clap::Args;
@@ -50,31 +50,17 @@ impl MergeArgs {
     /// What a rendering that writes the same pictures is told.
     pub fn as_render(&self) -> RenderArgs {
         let scene = self.parts.first().cloned().unwrap_or_default();
-        let scene = SceneArgs { scene, set: Vec::new(), syntax: None, diagnostics: DiagnosticsForm::Text };
+        let scene = SceneArgs { scene, ..SceneArgs::default() };
         RenderArgs {
             scene,
             output: self.output.clone(),
-            open: false,
             format: self.format.clone(),
             bits: self.bits,
-            samples: None,
-            noise: None,
-            time: None,
-            size: None,
-            crop: None,
-            part: None,
-            split: None,
-            seed: None,
-            exposure: None,
-            layers: Vec::new(),
             denoise: self.denoise,
             threads: self.threads,
-            checkpoint: None,
-            every: None,
-            resume: None,
             report: self.report.clone(),
-            stats: false,
             quiet: self.quiet,
+            ..RenderArgs::default()
         }
     }
 

@@ -4,7 +4,7 @@ use super::render::outputs::{self, Output};
 use super::render::rescue::{Rescued, rescue};
 use super::render::write_report;
 use crate::args::MergeArgs;
-use crate::checkpoint::{Asked, differences, look, part_told, picture_layers, provenance};
+use crate::checkpoint::{Asked, differences, look, mattes, part_told, picture_layers, provenance};
 use crate::denoising;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
@@ -48,7 +48,10 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         outputs::tell_of_alpha(&outputs, shell);
     }
     let layers = picture_layers(notes).unwrap_or(film.layers());
-    let (image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    let (mut image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    if outputs::has_exr(&outputs) {
+        image.mattes = mattes(notes).unwrap_or_default().develop(&film);
+    }
     let developed = started.elapsed().as_secs_f64();
     let provenance = provenance(notes, &film, denoised.is_some());
     let (mut files, mut elsewhere) = (Vec::new(), false);

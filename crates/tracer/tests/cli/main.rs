@@ -19,6 +19,7 @@ mod interrupt;
 #[cfg(unix)]
 mod kubernetes;
 mod layers;
+mod mattes;
 mod parts;
 mod render;
 mod report;

@@ -33,7 +33,7 @@ fn fields_are_the_documented_ones() {
     let sandbox = Sandbox::new();
     let mut found = BTreeSet::new();
     // One scene without a tree, one with it.
-    fields(&report(&sandbox, &[]), "", &mut found);
+    fields(&report(&sandbox, &["--set", "output.marks={\"A\": (0, 0, 0)}"]), "", &mut found);
     assert!(found.contains("tree") && found.contains("stats"), "they are null");
     let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));

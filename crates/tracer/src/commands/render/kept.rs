@@ -84,12 +84,12 @@ impl Places {
         let Some((place, lock)) = self.write else {
             // Pictures need to tell less of what they are made of than films.
             let notes = match args.part {
-                Some(_) => notes(desc, &scene.files, &args.scene.set)?,
-                None => picture_notes(desc, &args.scene.set),
+                Some(_) => notes(desc, &scene.mattes, &scene.files, &args.scene.set)?,
+                None => picture_notes(desc, &scene.mattes, &args.scene.set),
             };
             return Ok(Kept { film: None, checkpoints: None, notes, _lock: None });
         };
-        let notes = notes(desc, &scene.files, &args.scene.set)?;
+        let notes = notes(desc, &scene.mattes, &scene.files, &args.scene.set)?;
         let (found, _lock) = match self.resume {
             Some((resume, lock)) => {
                 let mut found = look_for(&resume, scene, args.denoise.is_on(), extent, &notes, shell)?;
