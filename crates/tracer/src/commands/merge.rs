@@ -49,8 +49,9 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     }
     let layers = picture_layers(notes).unwrap_or(film.layers());
     let (mut image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    let mattes = mattes(notes).unwrap_or_default();
     if outputs::has_exr(&outputs) {
-        image.mattes = mattes(notes).unwrap_or_default().develop(&film);
+        image.mattes = mattes.develop(&film);
     }
     let developed = started.elapsed().as_secs_f64();
     let provenance = provenance(notes, &film, denoised.is_some());
@@ -75,6 +76,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     if let Some(path) = &args.report {
         let of_parts = parts.iter().map(|(path, head)| PartReport::new(path, &head.part())).collect();
         let seconds = [merged, developed - merged, total - developed, total];
+        let layers = layers.names().map(str::to_owned).chain(mattes.names()).collect();
         let report =
             MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, (layers, denoised), seconds, files);
         write_report(path, report.to_json())?;
