@@ -370,11 +370,15 @@ codes! {
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BAD_VAR_NAME "E0408" "a name that no expression can use";
-    /// `output.masks` names what no object and no light is called. Names are given in the scene: `name: "lamp"`. That of
-    /// a `Group` or an `Include` is not that of the objects in it.
+    /// `output.masks` names what no object and no light is called. Names are given in the scene: `name: "lamp"`. That
+    /// of a `Group` or an `Include` is not that of the objects in it.
     ///
-    /// ```text
-    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1, name: "ball")], output: Output(masks: ["bal"]))
+    /// ```ron
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1, name: "ball")],
+    ///     output: Output(masks: ["bal"]),
+    /// )
     /// ```
     UNKNOWN_MASK "E0409" "a mask of nothing";
 

@@ -26,8 +26,8 @@ scene_struct! {
         /// Masks that EXR files get beside the picture: for each of these names the share of every pixel that the
         /// objects and lights of that name cover, as `mask.NAME.Y`.
         masks: Vec<Spanned<MaskName>> = Vec::new();
-        /// Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how far
-        /// away it is, and whether something hides it: for labels that are laid over the picture.
+        /// Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how
+        /// far away it is, and whether something hides it: for labels that are laid over the picture.
         marks: Vec<Mark> = Vec::new();
     }
 }

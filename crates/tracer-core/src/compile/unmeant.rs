@@ -101,6 +101,13 @@ fn turned_away(
     const MOST_MARKED: usize = 1024;
     let is_few = polygonal(desc).enumerate().all(|(k, _)| placed.maps_of(k).len() <= MOST_MARKED)
         && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
+    const CORNERS: [DVec3; 4] = [
+        DVec3::new(-0.5, -0.5, 0.0),
+        DVec3::new(0.5, -0.5, 0.0),
+        DVec3::new(0.5, 0.5, 0.0),
+        DVec3::new(-0.5, 0.5, 0.0),
+    ];
+    let polygonal_count = polygonal(desc).count();
     let mut left = MOST_PAIRS / 10;
     let eye = DVec3::from(desc.camera.position.value);
     for (k, object) in polygonal(desc).enumerate() {
@@ -117,7 +124,10 @@ fn turned_away(
             let least = 1e-6 * (right.length() + up.length() + center.length());
             let in_front = |p: DVec3| normal.dot(p - center) > least;
             let far = center + normal * 1e12;
-            let mut all = placed.marks(far).chain(curved.iter().flat_map(|object| object.marks(far)));
+            let others = (0..polygonal_count).filter(|&other| other != k).flat_map(|other| placed.marks_of(other, far));
+            // A box about what is tilted sticks out in front of it: of its own copies the corners count.
+            let own = placed.maps_of(k).iter().flat_map(|map| CORNERS.map(|corner| map.transform_point3(corner)));
+            let mut all = others.chain(own).chain(curved.iter().flat_map(|object| object.marks(far)));
             // Which side is the front of what is mirrored is not asked.
             map.matrix3.determinant() > 0.0 && !in_front(eye) && !all.any(in_front)
         };

@@ -1,6 +1,6 @@
-//! Cryptomatte (Friedman and Jones, 2015), after its published specification 1.2.0: pairs of a name's number and of what
-//! it covers of the pixel, most first, two pairs in each of the layers `CryptoObject00`, `CryptoObject01`, `..02`; and
-//! what the numbers mean, in the file's attributes.
+//! Cryptomatte (Friedman and Jones, 2015), after its published specification 1.2.0: pairs of a name's number and of
+//! what it covers of the pixel, most first, two pairs in each of the layers `CryptoObject00`, `CryptoObject01`, `..02`;
+//! and what the numbers mean, in the file's attributes.
 
 use super::hash::{id, murmur3};
 use super::{MatteImage, of_pixels};

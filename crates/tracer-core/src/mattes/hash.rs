@@ -1,5 +1,5 @@
-//! Numbers of names, as Cryptomatte has them: MurmurHash3_x86_32 (Austin Appleby, public domain) with seed 0, whose bits
-//! are taken for those of a float.
+//! Numbers of names, as Cryptomatte has them: MurmurHash3_x86_32 (Austin Appleby, public domain) with seed 0, whose
+//! bits are taken for those of a float.
 
 /// The hash of a text's bytes.
 pub fn murmur3(bytes: &[u8], seed: u32) -> u32 {
