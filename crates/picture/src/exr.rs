@@ -19,6 +19,9 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
     let mut channels = vec![channel("R", 0), channel("G", 1), channel("B", 2)];
     channels.extend(image.alpha.iter().map(|alpha| AnyChannel::new("A", FlatSamples::F32(alpha.clone()))));
     channels.extend(image.layers.iter().flat_map(channels_of));
+    let of_matte =
+        |(name, values): &(String, Vec<f32>)| AnyChannel::new(name.as_str(), FlatSamples::F32(values.clone()));
+    channels.extend(image.mattes.channels.iter().map(of_matte));
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(channels));
     let comments = [provenance.scene_name.as_str(), &provenance.settings_line()].join(": ");
@@ -47,7 +50,47 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
         .non_parallel()
         .to_unbuffered(&mut bytes)
         .map_err(|error| WriteError::Encode { encoding: Encoding::Exr.name(), message: error.to_string() })?;
-    Ok(bytes.into_inner())
+    let bytes = bytes.into_inner();
+    if image.mattes.attributes.is_empty() {
+        return Ok(bytes);
+    }
+    with_attributes(&bytes, &image.mattes.attributes).ok_or_else(|| WriteError::Encode {
+        encoding: Encoding::Exr.name(),
+        message: "the names of the objects and materials are too long".to_owned(),
+    })
+}
+
+/// A file of one part with more attributes, texts, in this order: the crate's own map of them has none, and the bytes
+/// would change from run to run. `None` where a text is too long for the format.
+fn with_attributes(file: &[u8], attributes: &[(String, String)]) -> Option<Vec<u8>> {
+    let number = |bytes: &[u8]| Some(u32::from_le_bytes(*bytes.first_chunk()?) as usize);
+    let text_end = |from: usize| Some(from + file.get(from..)?.iter().position(|&byte| byte == 0)? + 1);
+    // Magic number and version; then name, type, length, value, until a name is empty.
+    let mut end = 8;
+    while *file.get(end)? != 0 {
+        let size = text_end(text_end(end)?)?;
+        end = size + 4 + number(file.get(size..)?)?;
+    }
+    let mut out = file[..end].to_vec();
+    for (name, value) in attributes {
+        // Longer names need a mark in the file's version.
+        const LONGEST_NAME: usize = 31;
+        let length = i32::try_from(value.len()).ok().filter(|_| name.len() <= LONGEST_NAME)?;
+        out.extend([name.as_bytes(), b"\0string\0", &length.to_le_bytes(), value.as_bytes()].concat());
+    }
+    let added = (out.len() - end) as u64;
+    out.push(0);
+    // Where the blocks begin: eight bytes each, the first of which is behind them all.
+    let table = end + 1;
+    let mut next = table;
+    let offset = |at: usize| Some(u64::from_le_bytes(*file.get(at..)?.first_chunk()?));
+    let first = usize::try_from(offset(table)?).ok()?;
+    while next < first {
+        out.extend((offset(next)? + added).to_le_bytes());
+        next += 8;
+    }
+    out.extend(file.get(next..)?);
+    Some(out)
 }
 
 /// The channels of a layer: `normal.X`, `normal.Y`, `normal.Z`.

@@ -83,7 +83,7 @@ pub fn attended<T: Send + 'static>(
         }
         let fraction = shared.fraction();
         let asked = py.check_signals().and_then(|()| match progress.filter(|_| fraction > told) {
-            Some(progress) => progress.call1((fraction,))?.extract::<Option<bool>>().map_err(PyErr::from),
+            Some(progress) => progress.call1((fraction,))?.extract::<Option<bool>>(),
             None => Ok(None),
         });
         told = fraction;

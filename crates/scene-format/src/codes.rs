@@ -348,13 +348,24 @@ codes! {
     /// ```ron
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-BAD_VAR_NAME "E0408" "a name that no expression can use";
+    BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
     ///
     /// ```ron
     /// Scene(cameras: { "a": Camera() }, camera: "b", background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNKNOWN_CAMERA "E0409" "an unknown camera";
+    /// `output.masks` names what no object and no light is called. Names are given in the scene: `name: "lamp"`. That
+    /// of a `Group` or an `Include` is not that of the objects in it.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1, name: "ball")],
+    ///     output: Output(masks: ["bal"]),
+    /// )
+    /// ```
+    UNKNOWN_MASK "E0410" "a mask of nothing";
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
@@ -552,6 +563,31 @@ BAD_VAR_NAME "E0408" "a name that no expression can use";
     /// )
     /// ```
     CROSSED_GLASS "W0313" "glass whose profile crosses itself";
+    /// The camera is so far away, and sees so little, that a pixel is smaller than the steps of single precision there:
+    /// edges become stairs. Bring the camera nearer (a wider `fov` shows the same from there), or bring it nearer to
+    /// the middle of the objects.
+    ///
+    /// ```text
+    /// Scene(
+    ///     camera: Camera(position: (0, 0, 10000000), look_at: (0, 0, 0), fov: 0.00001),
+    ///     background: 1,
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    FAR_VIEW "W0314" "a view so far that single precision shows";
+    /// A `Rectangle` shines to one side, to which there is nothing: no object, and not the camera. All of its light is
+    /// lost. Turn it round, or let it shine to both sides.
+    ///
+    /// ```text
+    /// Scene(
+    ///     background: 1,
+    ///     objects: [
+    ///         Sphere(center: (0, 0, 0), radius: 1),
+    ///         Rectangle(center: (0, 9, 0), normal: (0, 1, 0), size: 1, material: Emissive(radiance: 5)),
+    ///     ],
+    /// )
+    /// ```
+    UNSEEN_LIGHT "W0315" "light that nobody sees";
     /// Spheres, cylinders, cones or capsules lie in one place, as a `Repeat` makes them whose items do not go by its
     /// index. One of them is seen: what shines, else what lets no light through, else the first; the others are left
     /// out.

@@ -3,7 +3,7 @@
 
 use crate::desc::{
     Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
-    Metal, NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
+    Matte, Metal, NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
     VoronoiFeature,
 };
 use crate::desc::{
@@ -48,7 +48,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 31] = [
+pub(crate) const CHOICES: [&EnumDef; 32] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
@@ -56,6 +56,7 @@ pub(crate) const CHOICES: [&EnumDef; 31] = [
     &DepthOfField::DEF,
     &ToneMap::DEF,
     &Layer::DEF,
+    &Matte::DEF,
     &Acceleration::DEF,
     &Integrator::DEF,
     &Reuse::DEF,
@@ -84,7 +85,7 @@ pub(crate) const CHOICES: [&EnumDef; 31] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 108] = [
+const SNIPPETS: [(&str, &str, &str); 110] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -117,6 +118,8 @@ const SNIPPETS: [(&str, &str, &str); 108] = [
     ("Layer", "MaterialId", "layers: [MaterialId]"),
     ("Layer", "Variance", "layers: [Variance]"),
     ("Layer", "Alpha", "layers: [Alpha]"),
+    ("Matte", "Objects", "cryptomatte: [Objects]"),
+    ("Matte", "Materials", "cryptomatte: [Materials]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
@@ -264,7 +267,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     match choice {
         "Projection" | "FovAxis" | "FisheyeMapping" => camera = format!("{camera}, {words}"),
         "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
-        "Layer" => more = format!("    output: Output({words}),\n"),
+        "Layer" | "Matte" => more = format!("    output: Output({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "BackgroundWords" => {

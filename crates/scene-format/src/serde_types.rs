@@ -41,6 +41,7 @@ of_words![
     ToneMap,
     Output,
     Layer,
+    Matte,
     Background,
     Environment,
     Light,

@@ -357,3 +357,36 @@ fn what_hints_tell_to_write_loads() {
      focus_distance: 5)),";
     assert!(errors(&scene(top, "", "")).is_empty());
 }
+
+#[test]
+fn what_is_written_beside_the_picture() {
+    let cases = [
+        ("layers: [CryptoObject]", "`cryptomatte: [Objects, Materials]`"),
+        ("layers: [Mask]", "masks: [..]"),
+        ("crypto: [Objects]", "did you mean `cryptomatte`?"),
+        ("cryptomatte: [CryptoObject]", "did you mean `Objects`?"),
+        ("cryptomatte: [Material]", "did you mean `Materials`?"),
+        ("mask: [\"a\"]", "did you mean `masks`?"),
+        ("aovs: [Depth]", "did you mean `layers`?"),
+        ("labels: { \"A\": (0, 0, 0) }", "did you mean `marks`?"),
+    ];
+    check(&cases, |words| scene(&format!("output: Output({words}),"), "", ""));
+}
+
+#[test]
+fn marks_are_points_with_names() {
+    let faults = |words: &str| -> Vec<String> {
+        let faults = errors(&scene(&format!("output: Output({words}),"), "", ""));
+        faults.into_iter().map(|fault| format!("{} {}: {}", fault.code, fault.path, fault.message)).collect()
+    };
+    assert!(faults(r#"marks: { "A": (0, 1, 0), "B": ["=1+1", 0, 0] }"#).is_empty());
+    assert!(faults("marks: {}").is_empty());
+    assert_eq!(faults(r#"marks: { "A": 1 }"#).len(), 1);
+    let twice = faults(r#"marks: { "A": (0, 1, 0), "A": (0, 2, 0) }"#);
+    assert_eq!(twice, ["E0402 output.marks.A: the mark \"A\" is there twice"]);
+    assert_eq!(faults(r#"marks: { " ": (0, 1, 0) }"#).len(), 1);
+    assert_eq!(faults(r#"marks: [(0, 1, 0)]"#).len(), 1);
+    // Masks are of what has the name; the nearest is offered.
+    let masks = faults(r#"masks: ["nothing"]"#);
+    assert_eq!(masks, ["E0410 output.masks[0]: no object has the name \"nothing\""]);
+}

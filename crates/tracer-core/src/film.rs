@@ -9,6 +9,7 @@ mod exact;
 mod file;
 mod halves;
 mod layers;
+mod mattes;
 mod merge;
 mod missed;
 mod pack;
@@ -22,6 +23,8 @@ use halves::TileHalf;
 pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
 use layers::{FilmLayer, TileLayers};
+use mattes::TileMattes;
+pub use mattes::{MatteOf, MattesKept};
 pub use merge::{Gap, Gaps, MergeError, faults};
 pub use part::{Part, Split};
 pub use state::FilmState;
@@ -101,6 +104,8 @@ pub(crate) struct Tile {
     half: Option<Box<TileHalf>>,
     /// Where the layer `alpha` is kept and something is seen behind everything: its radiance.
     missed: Option<Box<Sums>>,
+    /// Where samples with mattes have been added.
+    mattes: Option<Box<TileMattes>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -251,6 +256,8 @@ pub struct Film {
     halves: bool,
     /// Whether what is seen behind everything is summed by itself, too.
     backdrop: bool,
+    /// What is counted for mattes.
+    mattes: MattesKept,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -302,6 +309,7 @@ impl Film {
             layers: Vec::new(),
             halves: false,
             backdrop: false,
+            mattes: MattesKept::default(),
             first_tile,
             tile_columns,
             tiles,
@@ -395,7 +403,8 @@ impl Film {
         let of_tile = |tile: &Tile| {
             let half = tile.half.as_ref().map_or(0, |half| half.bytes());
             let [taken, splats, missed] = [tile.taken.is_some(), tile.splats.is_some(), tile.missed.is_some()];
-            Tile::bytes(taken, splats, of_layers(tile), half, missed)
+            let mattes = tile.mattes.as_ref().map_or(0, |mattes| mattes.bytes());
+            Tile::bytes(taken, splats, of_layers(tile), half, missed) + mattes
         };
         self.tiles.iter().map(of_tile).sum()
     }

@@ -40,6 +40,8 @@ mod denoise;
 mod develop;
 mod engine;
 mod film;
+mod marks;
+mod mattes;
 pub mod scene;
 pub mod texture;
 
@@ -50,6 +52,9 @@ pub use develop::{Backdrop, Image, Look, develop, develop_denoised, srgb_decode,
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
+pub use film::{MatteOf, MattesKept};
+pub use marks::{MarkSeen, marks};
+pub use mattes::{MatteImage, Mattes, mattes_kept};
 pub use scene::{CompileTimes, Scene, film_layers, layer_set, layer_word};
 pub use tracer_denoise::Told as DenoiseTold;
 pub use tracer_kernels::layers::{Layer, LayerSet};

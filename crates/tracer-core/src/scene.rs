@@ -1,6 +1,7 @@
 //! A compiled scene: what is rendered, and what programs want to know of it beside.
 
 use crate::develop::{Backdrop, Look};
+use crate::mattes::{Mattes, mattes_kept};
 use scene_format::{Diagnostic, desc};
 use std::ops::{Deref, DerefMut};
 use std::path::PathBuf;
@@ -20,6 +21,8 @@ pub struct Scene {
     /// All files that were read for it, as they were opened: meshes, their MTL files, placements, textures. The
     /// scene's own is not among them.
     pub files: Vec<PathBuf>,
+    /// What mattes its picture has; the film counts for them if it is asked to ([`crate::RenderOptions::mattes`]).
+    pub mattes: Mattes,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,
     /// How long compiling took.
@@ -66,10 +69,11 @@ pub fn layer_set(words: &[desc::Layer]) -> LayerSet {
     words.iter().map(|word| of_word(*word)).collect()
 }
 
-/// The layers of the film: those that the scene asks for, and the one that tells what a backdrop is seen through.
+/// The layers of the film: those that the scene asks for, the one that tells what a backdrop is seen through, and those
+/// whose samples are counted for mattes.
 pub fn film_layers(output: &desc::Output) -> LayerSet {
     let alpha = (backdrop(output) != Backdrop::Background).then_some(Layer::Alpha);
-    layer_set(&output.layers).iter().chain(alpha).collect()
+    layer_set(&output.layers).iter().chain(alpha).chain(mattes_kept(output).layers().iter()).collect()
 }
 
 /// What the picture has behind everything.

@@ -117,9 +117,10 @@ pub enum When {
 }
 
 /// How diagnostics are printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum DiagnosticsForm {
     /// For people.
+    #[default]
     Text,
     /// One JSON object a line, for editors.
     Json,
@@ -167,7 +168,7 @@ impl From<SplitName> for Split {
 }
 
 /// The scene, and how faults of it are told.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct SceneArgs {
     /// Scene file (.ron, .toml, .json), or - for standard input
     pub scene: PathBuf,

@@ -6,7 +6,7 @@ use crate::memory;
 use crate::report::{ClampedReport, FileReport, Noise, SceneReport};
 use serde::Serialize;
 use std::path::Path;
-use tracer_core::{Crop, Film, FilmHead, Gap, LayerSet, Part};
+use tracer_core::{Crop, Film, FilmHead, Gap, Part};
 
 /// What one `tracer merge` did.
 #[derive(Debug, Serialize)]
@@ -38,7 +38,7 @@ struct MergedPicture {
     samples_asked: u32,
     samples_min: u32,
     samples_max: u32,
-    layers: Vec<&'static str>,
+    layers: Vec<String>,
 }
 
 /// A part: its file, and rows and sample indices from the first to the one that it ends before.
@@ -107,7 +107,7 @@ impl MergeReport {
         head: &FilmHead,
         parts: Vec<PartReport>,
         gaps: &[Gap],
-        (layers, denoise): (LayerSet, Option<DenoiseReport>),
+        (layers, denoise): (Vec<String>, Option<DenoiseReport>),
         [merge, develop, write, total]: [f64; 4],
         files: Vec<FileReport>,
     ) -> Self {
@@ -143,7 +143,7 @@ impl MergeReport {
                 samples_asked: head.part().of_samples,
                 samples_min,
                 samples_max,
-                layers: layers.names().collect(),
+                layers,
             },
             parts,
             missing: gaps.iter().map(missing).collect(),

@@ -3,7 +3,7 @@
 use crate::denoising::DenoiseReport;
 use scene_format::desc::Render;
 use serde::Serialize;
-use tracer_core::{Clamped, Film, Stage, Statistics, TreeWork};
+use tracer_core::{Clamped, Film, MarkSeen, Stage, Statistics, TreeWork};
 
 /// Changes whenever a field changes its meaning or goes; new fields may come at any time.
 pub const VERSION: u32 = 1;
@@ -82,7 +82,28 @@ pub struct PictureReport {
     /// First sample index and the one after the last, where it is a part (`--part`); else null.
     pub part: Option<[u32; 2]>,
     /// Layers that EXR files hold beside it.
-    pub layers: Vec<&'static str>,
+    pub layers: Vec<String>,
+    /// The scene's marks.
+    pub marks: Vec<MarkReport>,
+}
+
+/// Where a mark is in the picture.
+#[derive(Debug, Serialize)]
+pub struct MarkReport {
+    /// Its name.
+    pub name: String,
+    /// From the upper left corner; none where no place shows it.
+    pub pixel: Option<[f64; 2]>,
+    /// As `focus_distance` is measured.
+    pub depth: f64,
+    /// In the picture, and nothing before it.
+    pub seen: bool,
+}
+
+impl From<MarkSeen> for MarkReport {
+    fn from(MarkSeen { name, pixel, depth, seen }: MarkSeen) -> Self {
+        MarkReport { name, pixel, depth, seen }
+    }
 }
 
 /// Wall-clock seconds of the phases, one after the other: they sum to `total`.

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use xtask::truth::kinds;
 
 /// Words that are not drawn, and why.
-const NOT_DRAWN: [(&str, &str); 37] = [
+const NOT_DRAWN: [(&str, &str); 38] = [
     ("Render.samples", "the command says how many"),
     ("Render.seed", "the command says which"),
     ("Render.clamp", "takes light on purpose"),
@@ -40,6 +40,7 @@ const NOT_DRAWN: [(&str, &str); 37] = [
     ("Scene.output", "the picture is the same with layers: proofs::layers"),
     ("Output.", "the picture is the same with layers: proofs::layers"),
     ("Layer.", "the picture is the same with layers: proofs::layers"),
+    ("Matte.", "the picture is the same with mattes: proofs::mattes"),
     ("Emissive.None", "as `SphereLight.None`"),
     ("ThinLens.None", "as `SphereLight.None`"),
     ("Conductor.None", "as `SphereLight.None`"),

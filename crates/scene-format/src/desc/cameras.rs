@@ -1,9 +1,10 @@
 //! Cameras by name, and which of them is meant.
 
 use super::Camera;
-use crate::diagnostic::{Span, Spanned};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::form::{Entry, Form};
-use crate::read::{Reader, expected_for, is_expression};
+use crate::read::{Reader, are_cameras, expected_for, is_expression};
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
@@ -57,6 +58,12 @@ impl Words for CameraChoice {
                 let quoted = (item.kind() == Kind::Word && reader.knows_camera(&item.text()))
                     .then(|| format!("\"{}\"", item.text()));
                 reader.wrong_kind(item, at.noun, &expected_for(at, item), quoted)
+            }
+            _ if are_cameras(item) => {
+                let message = "the camera is one, and these are several by their names";
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
+                reader.report(fault.expected(expected_for(at, item)).hint("write `cameras`"));
+                None
             }
             _ => Camera::read(reader, item, at).map(|camera| CameraChoice::Written(Box::new(camera))),
         }

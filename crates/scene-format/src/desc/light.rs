@@ -16,6 +16,22 @@ scene_enum! {
     }
 }
 
+impl Light {
+    /// What it is called.
+    pub fn name(&self) -> &Name {
+        match self {
+            Light::SphereLight(light) => &light.name,
+        }
+    }
+
+    /// Its kind, as it is written.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Light::SphereLight(_) => "SphereLight",
+        }
+    }
+}
+
 /// A luminous sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereLight {

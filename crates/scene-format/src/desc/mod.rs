@@ -49,7 +49,7 @@ pub use materials::{
 pub use name::Name;
 pub use object::{Faulty, Object, cannot_shine};
 pub(crate) use object::{ShapeWords, no_length};
-pub use output::{Layer, Output};
+pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, HeightField, InlineMesh, Instances,

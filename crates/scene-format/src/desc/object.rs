@@ -4,7 +4,7 @@ use super::shapes::{
     Arrow, Capsule, Cone, Cylinder, Disk, Extrude, HeightField, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle,
     Sphere, Torus, Tube,
 };
-use super::{MaterialRef, Transform, Vec3};
+use super::{MaterialRef, Name, Transform, Vec3};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::path::{dot, sub};
@@ -88,6 +88,11 @@ macro_rules! shapes {
             /// Its kind, as it is written.
             pub fn kind(&self) -> &'static str {
                 match self { $( Object::$Kind(_) => stringify!($Kind), )+ }
+            }
+
+            /// What it is called.
+            pub fn name(&self) -> &Name {
+                match self { $( Object::$Kind(shape) => &shape.name, )+ }
             }
 
             /// Its material.

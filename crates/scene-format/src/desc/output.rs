@@ -1,9 +1,12 @@
 //! What is written beside the picture.
 
-use super::Color;
+use super::{Color, Vec3};
 use crate::diagnostic::Spanned;
-use crate::schema::Rule;
-use crate::words::{scene_struct, scene_words};
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::Item;
+use crate::words::{Words, scene_struct, scene_words};
 
 scene_struct! {
     /// What is written beside the picture.
@@ -17,6 +20,51 @@ scene_struct! {
         /// A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white
         /// paper. The background still lights the scene, and shows in mirrors and through glass.
         backdrop: Option<Spanned<Color>> = None => Rule::share();
+        /// Mattes that EXR files get beside the picture, in the form of Cryptomatte: compositing programs cut out any
+        /// object or material by its name, with soft edges.
+        cryptomatte: Vec<Matte> = Vec::new();
+        /// Masks that EXR files get beside the picture: for each of these names the share of every pixel that the
+        /// objects and lights of that name cover, as `mask.NAME.Y`.
+        masks: Vec<Spanned<MaskName>> = Vec::new();
+        /// Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how
+        /// far away it is, and whether something hides it: for labels that are laid over the picture.
+        marks: Vec<Mark> = Vec::new();
+    }
+}
+
+scene_words! {
+    /// What Cryptomatte tells apart. Pixels hold the six things of it that cover most of them, each with its share of
+    /// the samples; what has no name is called by its place in the scene.
+    pub enum Matte, "matte" {
+        /// Objects and lights by their `name`; those of one name are one.
+        Objects,
+        /// Materials by their names. Lamps of `lights` have none.
+        Materials,
+    }
+}
+
+/// A point with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// The name.
+    pub name: Spanned<String>,
+    /// The point.
+    pub point: Spanned<Vec3>,
+}
+
+/// The name of objects or lights that a mask is made of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaskName(pub String);
+
+impl Words for MaskName {
+    const TYPE: Type = Type::Text;
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        reader.text(item, at).map(|text| MaskName(text.into_owned()))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        Form::Text(self.0.clone())
     }
 }
 
@@ -61,6 +109,13 @@ scene_words! {
 #[allow(clippy::derivable_impls)]
 impl Default for Output {
     fn default() -> Self {
-        Output { layers: Vec::new(), alpha: false, backdrop: None }
+        Output {
+            layers: Vec::new(),
+            alpha: false,
+            backdrop: None,
+            cryptomatte: Vec::new(),
+            masks: Vec::new(),
+            marks: Vec::new(),
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::desc::matrix::Rows;
 use crate::desc::{Camera, CameraChoice, Chosen, Effects, FisheyeMapping, NamedCamera, Projection, Vec3};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span, Spanned};
 use crate::plane::{cross, dot};
-use crate::schema::FieldDef;
+use crate::schema::{FieldDef, Type};
 use crate::suggest;
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
@@ -38,6 +38,32 @@ impl Cameras {
     }
 }
 
+/// Whether a camera has a field of this name.
+fn is_field(name: &str) -> bool {
+    matches!(Camera::TYPE, Type::Struct(def) if def.field(name).is_some())
+}
+
+/// Whether what stands at `cameras` is a camera itself.
+fn is_one_camera(item: Item<'_, '_>) -> bool {
+    let holds_cameras = |value: Item<'_, '_>| matches!(value.kind(), Kind::Map | Kind::Struct | Kind::Tuple);
+    item.fields().any(|(key, value)| {
+        is_field(&key.text()) && (!holds_cameras(value) || value.kind() == Kind::Tuple && value.name().is_none())
+    })
+}
+
+/// Whether what stands at `camera` is cameras by their names.
+pub(crate) fn are_cameras(item: Item<'_, '_>) -> bool {
+    let is_camera = |value: Item<'_, '_>| match value.kind() {
+        Kind::Map => value.fields().all(|(key, _)| is_field(&key.text())),
+        Kind::Struct | Kind::Tuple => value.name().is_some_and(|name| name == "Camera"),
+        _ => false,
+    };
+    let mut fields = item.fields().peekable();
+    item.kind() == Kind::Map
+        && fields.peek().is_some()
+        && fields.all(|(key, value)| !is_field(&key.text()) && is_camera(value))
+}
+
 impl Reader<'_> {
     /// `{ "name": camera }`
     pub(crate) fn cameras(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<()> {
@@ -55,6 +81,13 @@ impl Reader<'_> {
             }
         }
         self.cameras.damaged |= item.is_damaged();
+        if is_one_camera(item) {
+            self.cameras.damaged = true;
+            let message = "`cameras` holds cameras by their names, and this is one camera";
+            let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
+            self.report(fault.expected("names with their cameras").hint("write `camera`"));
+            return None;
+        }
         for (key, value) in item.fields() {
             if self.sink.is_full() {
                 break;
@@ -332,7 +365,7 @@ fn wrong(rows: &[[f64; 4]; 3]) -> Option<Result<(), (String, Mend)>> {
 
 /// Rows as they are written.
 fn written(rows: &[[f64; 4]; 3], syntax: Syntax) -> String {
-    let rows = rows.map(|row| row.map(|x| crate::print::number(x)).join(", "));
+    let rows = rows.map(|row| row.map(crate::print::number).join(", "));
     match syntax {
         Syntax::Ron => format!("(({}), ({}), ({}))", rows[0], rows[1], rows[2]),
         Syntax::Toml | Syntax::Json => format!("[[{}], [{}], [{}]]", rows[0], rows[1], rows[2]),

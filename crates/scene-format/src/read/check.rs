@@ -9,6 +9,7 @@ use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, Tree};
 use crate::words::Words;
+use std::collections::BTreeSet;
 
 pub(super) static ROOT: FieldDef =
     FieldDef { name: "", noun: "the scene", doc: &[], kind: Type::Bool, rule: Rule::ANY, default: None };
@@ -70,6 +71,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     let mut scene = scene?;
     let chosen = reader.chosen(std::mem::replace(&mut scene.camera, CameraChoice::First));
     reader.output(&scene.output);
+    reader.masks(&scene);
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);
     if camera.is_none_or(|camera| !camera.holds_damage()) {
         reader.check_cameras(&chosen, &scene.effects, root.syntax());
@@ -173,6 +175,30 @@ impl Reader<'_> {
             self.report(
                 fault.expected("one of them: nothing behind everything, or a colour").hint("remove one of the two"),
             );
+            self.path.clear();
+        }
+    }
+
+    /// Masks are of what is there.
+    fn masks(&mut self, scene: &Scene) {
+        if scene.output.masks.is_empty() || self.sink.diagnostics.iter().any(|d| d.severity == Severity::Error) {
+            return;
+        }
+        let objects = scene.objects.0.iter().filter_map(|object| object.value.name().as_str());
+        let lights = scene.lights.iter().filter_map(|light| light.value.name().as_str());
+        let names: BTreeSet<&str> = objects.chain(lights).collect();
+        for (k, mask) in scene.output.masks.iter().enumerate() {
+            let name = mask.value.0.as_str();
+            if names.contains(name) {
+                continue;
+            }
+            self.path = vec![Step::Field("output"), Step::Field("masks"), Step::Index(k)];
+            let message = format!("no object has the name \"{}\"", super::shortened(name));
+            let mut fault = Diagnostic::error(codes::UNKNOWN_MASK, mask.span, message)
+                .expected("a name that an object or a light has")
+                .hint("give it one: `name: \"lamp\"`; of a group or an include the objects in it need it");
+            fault.did_you_mean(suggest::nearest(name, names.iter().copied()), |name| format!("{name:?}"));
+            self.report(fault);
             self.path.clear();
         }
     }

@@ -61,7 +61,8 @@ impl Reader<'_> {
         self.clock.state = State::Open;
         let read = Animation::read(self, item, at);
         if let State::Open = self.clock.state {
-            let inside = read.filter(|animation| self.has_frame(animation));
+            // What is broken off says nothing of how many there are.
+            let inside = read.filter(|animation| item.holds_damage() || self.has_frame(animation));
             self.clock.state = inside.map_or(State::Failed, State::Done);
         }
     }

@@ -134,6 +134,10 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("b", &["color2", "colour2", "color_2", "color_b", "colour_b", "colorb", "col2", "c2", "light", "high", "odd"]),
         ("axis", &["direction", "dir"]),
         ("along", &["direction", "axis", "orientation"]),
+        ("cryptomatte", &["crypto", "crypto_object", "crypto_material", "mattes", "matte", "cryptomattes"]),
+        ("layers", &["aovs", "aov", "passes", "render_passes", "channels"]),
+        ("masks", &["mask", "object_masks", "holdouts"]),
+        ("marks", &["labels", "points", "anchors", "annotations"]),
     ];
     let lower = name.to_ascii_lowercase();
     let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
@@ -161,6 +165,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Wood", &["woodgrain", "planks", "rings"]),
         ("Marble", &["agate", "veins"]),
         ("Voronoi", &["worley", "cellular", "cellnoise", "crackle", "cells", "voronoitexture"]),
+        ("Objects", &["object", "cryptoobject", "crypto_object", "asset", "assets", "cryptoasset"]),
+        ("Materials", &["material", "cryptomaterial", "crypto_material"]),
         ("World", &["global", "worldspace", "world_space"]),
         ("Object", &["local", "generated", "objectspace", "object_space"]),
         ("Uv", &["texcoord", "texturecoordinates", "uvmapping", "mapping"]),
@@ -185,6 +191,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "mapping" | "mapping of a solid texture" => MAPPINGS,
         "light" => LIGHTS,
         "transform" => TRANSFORMS,
+        "layer" => LAYERS,
         _ => return None,
     };
     table.iter().find(|(names, _)| names.contains(&lower.as_str())).map(|(_, hint)| *hint)
@@ -276,6 +283,14 @@ const TEXTURES: Hints = &[
     (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),
     (&["multiply", "scale", "mix", "math"], "textures cannot be reckoned with: change the picture"),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
+];
+
+const LAYERS: Hints = &[
+    (
+        &["cryptomatte", "crypto", "cryptoobject", "crypto_object", "cryptomaterial", "crypto_material", "cryptoasset"],
+        "Cryptomatte has a field of its own beside `layers`: `cryptomatte: [Objects, Materials]`",
+    ),
+    (&["mask", "matte", "object_mask", "objectmask"], "masks have a field of their own beside `layers`: masks: [..]"),
 ];
 
 const CURVES: Hints = &[(

@@ -10,6 +10,7 @@ mod clock;
 mod elsewhere;
 mod hints;
 mod include;
+mod marks;
 mod materials;
 mod outlines;
 mod part;
@@ -23,6 +24,7 @@ mod variant;
 mod vars;
 mod vector;
 
+pub(crate) use camera::are_cameras;
 pub(crate) use check::{Whole, scene};
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};

@@ -367,7 +367,10 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             })),
             9 => Object::Lathe(Box::new(Lathe {
                 profile: Profile(
-                    (0..2 + random.below(4)).map(|_| [length(random), number(random, -1e6, 1e6)]).collect(),
+                    // Not so near to the axis that it is one with it.
+                    (0..2 + random.below(4))
+                        .map(|_| [number(random, 1e2, 1e6).max(1e2), number(random, -1e6, 1e6)])
+                        .collect(),
                 )
                 .into(),
                 curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
@@ -550,6 +553,9 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             layers: (0..random.below(3)).map(|_| *random.pick(&[Layer::Albedo, Layer::Depth])).collect(),
             alpha: false,
             backdrop: if random.below(2) == 0 { None } else { Some([random.unit(), 0.25, 1.0].into()) },
+            cryptomatte: (0..random.below(3)).map(|_| *random.pick(&[Matte::Objects, Matte::Materials])).collect(),
+            masks: objects.iter().filter_map(|object| object.value.name().as_str()).take(2).map(mask).collect(),
+            marks: (0..random.below(3)).map(|k| mark(k, random)).collect(),
         },
         background: match random.below(3) {
             0 => Background::Environment(Box::new(Environment {
@@ -569,6 +575,14 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         objects,
         ..defaults
     }
+}
+
+fn mask(name: &str) -> Spanned<MaskName> {
+    MaskName(name.to_owned()).into()
+}
+
+fn mark(k: usize, random: &mut Random) -> Mark {
+    Mark { name: format!("{k}{}", text(random)).into(), point: vector(random).into() }
 }
 
 /// A scene without the texts it came from.

@@ -122,7 +122,7 @@ pub fn load(
     for (number, object) in (0..).zip(&desc.objects) {
         let Some(Written { unit, local, noun }) = written(&object.value) else { continue };
         let (transform, placements) = (object.value.transform(), object.value.placements());
-        let material = builder.resolve(object.value.material(), diagnostics);
+        let material = builder.resolve(object.value.material(), number, diagnostics);
         let emissive = builder.emissive(material).cloned();
         let faults = object.value.faults(object.span);
         if !faults.is_empty() {

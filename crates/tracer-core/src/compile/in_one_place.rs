@@ -6,7 +6,7 @@ use super::curved::{Curved, is_similar};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use tracer_kernels::scene::Material;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::shapes::UnitShape;
@@ -36,7 +36,7 @@ pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material]
     let mut order: Vec<usize> =
         (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
     order.sort_by_key(|&k| rank(&curved[k], materials));
-    let mut taken: HashMap<[u32; 12], Vec<UnitShape>> = HashMap::new();
+    let mut taken: BTreeMap<[u32; 12], Vec<UnitShape>> = BTreeMap::new();
     let mut left_out: BTreeMap<Span, usize> = BTreeMap::new();
     for k in order {
         let unit = curved[k].unit;

@@ -2,6 +2,7 @@
 
 use super::assets::Sources;
 use super::textures::pattern;
+use crate::mattes::mattes_kept;
 use crate::texture::{Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
@@ -104,6 +105,8 @@ pub struct MaterialBuilder<'a> {
     /// Index of each named material in `materials`.
     named: BTreeMap<&'a str, u32>,
     default: Option<u32>,
+    /// What each is called, where anybody asks.
+    names: Option<Vec<String>>,
     images: Vec<Image>,
     index_of_file: BTreeMap<PathBuf, usize>,
     /// By the bits of both colours.
@@ -124,6 +127,7 @@ impl<'a> MaterialBuilder<'a> {
             emissive: BTreeMap::new(),
             named: BTreeMap::new(),
             default: None,
+            names: mattes_kept(&desc.output).materials.then(Vec::new),
             images: Vec::new(),
             index_of_file: BTreeMap::new(),
             index_of_squares: BTreeMap::new(),
@@ -133,19 +137,19 @@ impl<'a> MaterialBuilder<'a> {
             uses_of_image: Vec::new(),
         };
         for named in &desc.materials {
-            let index = builder.add(&named.material, Some(&desc.base_dir));
+            let index = builder.add(&named.material, Some(&desc.base_dir), || named.name.value.to_string());
             builder.named.insert(&named.name.value, index);
         }
         builder
     }
 
-    /// The index of what an object names.
-    pub fn resolve(&mut self, reference: &MaterialRef, diagnostics: &mut Diagnostics) -> u32 {
+    /// The index of what an object of this number names.
+    pub fn resolve(&mut self, reference: &MaterialRef, number: u32, diagnostics: &mut Diagnostics) -> u32 {
         match reference {
             MaterialRef::Default => self.default_material(),
             MaterialRef::Inline(material) => {
                 let base = self.desc.base_dir.clone();
-                self.add(&material.value, Some(&base))
+                self.add(&material.value, Some(&base), || format!("objects[{number}].material"))
             }
             MaterialRef::Named { name, span } => self.named.get(&**name).copied().unwrap_or_else(|| {
                 diagnostics.push(
@@ -167,13 +171,16 @@ impl<'a> MaterialBuilder<'a> {
         if let Some(index) = self.default {
             return index;
         }
-        let index = self.add(&desc::Material::default(), None);
+        let index = self.add(&desc::Material::default(), None, || "default".to_owned());
         self.default = Some(index);
         index
     }
 
-    /// Adds a material. Texture paths start from `base`; `None`: they are complete.
-    pub fn add(&mut self, material: &desc::Material, base: Option<&Path>) -> u32 {
+    /// Adds a material of this name. Texture paths start from `base`; `None`: they are complete.
+    pub fn add(&mut self, material: &desc::Material, base: Option<&Path>, name: impl FnOnce() -> String) -> u32 {
+        if let Some(names) = &mut self.names {
+            names.push(name());
+        }
         if let Some(emissive) = material.shines() {
             self.emissive.insert(self.materials.len() as u32, emissive.clone());
         }
@@ -252,6 +259,11 @@ impl<'a> MaterialBuilder<'a> {
             Image::File(path, _) => Some(path),
             Image::Squares(_) => None,
         })
+    }
+
+    /// What each material is called; nothing where nobody asks.
+    pub fn names(&mut self) -> Vec<String> {
+        self.names.take().unwrap_or_default()
     }
 
     /// Loads the textures.

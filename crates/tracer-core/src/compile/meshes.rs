@@ -47,13 +47,16 @@ pub fn assign_materials(
         let whole = match (object.material, own) {
             (MaterialRef::Default, Some(f)) => {
                 if assigned.of_file[f].is_empty() {
-                    assigned.of_file[f] =
-                        loaded.files[f].materials.iter().map(|m| builder.add(&m.material, None)).collect();
+                    assigned.of_file[f] = loaded.files[f]
+                        .materials
+                        .iter()
+                        .map(|m| builder.add(&m.material, None, || m.name.value.to_string()))
+                        .collect();
                     assigned.of_file[f].push(builder.default_material());
                 }
                 NONE
             }
-            (reference, _) => builder.resolve(reference, diagnostics),
+            (reference, _) => builder.resolve(reference, object.number, diagnostics),
         };
         assigned.of_object.push(whole);
         assigned.emissive.push(builder.emissive(whole).cloned());
@@ -121,7 +124,13 @@ impl Placed {
     /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per
     /// object.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
-        self.maps.iter().zip(&self.boxes).flat_map(move |(maps, corners)| {
+        (0..self.maps.len()).flat_map(move |object| self.marks_of(object, look_at))
+    }
+
+    /// Those of one object.
+    pub fn marks_of(&self, object: usize, look_at: DVec3) -> impl Iterator<Item = DVec3> {
+        let all = self.maps.get(object).zip(self.boxes.get(object));
+        all.into_iter().flat_map(move |(maps, corners)| {
             maps.iter().step_by(maps.len().div_ceil(1024).max(1)).map(move |map| {
                 let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
                 for k in 0..8usize {

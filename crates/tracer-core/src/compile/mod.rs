@@ -21,6 +21,7 @@ mod textures;
 mod unmeant;
 
 use crate::develop::{Backdrop, Look};
+use crate::mattes::Mattes;
 use crate::scene::{CompileTimes, Scene, backdrop, film_layers};
 pub use assets::{Asset, Assets};
 use assets::{DISK, Sources};
@@ -100,6 +101,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let mut curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
+    let mattes = Mattes::of(desc, builder.names());
     let Finished { materials, images, uses, patterns } = builder.finish(sources, &mut diagnostics);
     let background = environment::load(desc, sources, &mut diagnostics);
     let placed = meshes::place(desc, sources, &loaded, &mut diagnostics);
@@ -118,6 +120,8 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
     let frame = Frame::choose(eye, &marks(&curved, &placed, look_at));
+    let camera = camera::camera(desc, &frame);
+    unmeant::far_view(desc, &camera, &frame, &mut diagnostics);
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
     let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
     let behind = background.brightest();
@@ -176,7 +180,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
     let rendered = tracer_kernels::scene::Scene {
         frame,
-        camera: camera::camera(desc, &frame),
+        camera,
         size: [desc.image.width.value, desc.image.height.value],
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
@@ -223,6 +227,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
             backdrop: backdrop(&desc.output),
         },
         files: files.into_iter().collect(),
+        mattes,
         warnings: diagnostics,
         times: CompileTimes { assets, tables: tables_seconds, tree },
     })

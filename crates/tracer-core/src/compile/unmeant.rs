@@ -9,6 +9,7 @@ use scene_format::desc::{Albedo, Light, Material, MaterialRef};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
+use tracer_kernels::scene::{Camera, Frame, Projection};
 use tracer_mesh::MeshData;
 
 /// More copies of an object than this are not looked at: millions of them must not take their time twice.
@@ -59,6 +60,96 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         }
     }
     shut_in(desc, placed, curved, &materials, diagnostics);
+    turned_away(desc, placed, curved, &materials, diagnostics);
+}
+
+/// A view of which a pixel is smaller than the steps of single precision, where the camera stands or looks.
+pub fn far_view(desc: &SceneDesc, camera: &Camera, frame: &Frame, diagnostics: &mut Diagnostics) {
+    let target = frame.point(DVec3::from(desc.camera.look_at.value));
+    let distance = (target - camera.eye).length();
+    // Height of a pixel at what is looked at, in render units.
+    let height = match camera.projection {
+        Projection::Perspective { .. } => distance * 2.0 * camera.up.length(),
+        Projection::Orthographic => 2.0 * camera.up.length(),
+        Projection::Panorama | Projection::Fisheye { .. } => return,
+    };
+    let pixel = height / f64::from(desc.image.height.value);
+    let step = camera.eye.abs().max_element().max(target.abs().max_element()) * f64::from(f32::EPSILON) / 2.0;
+    if pixel < step {
+        let steps = step / pixel;
+        diagnostics.push(
+            Diagnostic::warning(
+                codes::FAR_VIEW,
+                desc.camera.position.span,
+                format!("the view is so far and so narrow that single precision shows: in steps of {steps:.0} pixels"),
+            )
+            .expected("a camera nearer to what it looks at")
+            .hint("bring the camera nearer, with a wider `fov`, or the objects nearer to the camera"),
+        );
+    }
+}
+
+/// Rectangles that shine to one side, where there is nothing.
+fn turned_away(
+    desc: &SceneDesc,
+    placed: &Placed,
+    curved: &[Curved],
+    materials: &BTreeMap<&str, &Material>,
+    diagnostics: &mut Diagnostics,
+) {
+    // Marks are of that many copies only.
+    const MOST_MARKED: usize = 1024;
+    let is_few = polygonal(desc).enumerate().all(|(k, _)| placed.maps_of(k).len() <= MOST_MARKED)
+        && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
+    const CORNERS: [DVec3; 4] = [
+        DVec3::new(-0.5, -0.5, 0.0),
+        DVec3::new(0.5, -0.5, 0.0),
+        DVec3::new(0.5, 0.5, 0.0),
+        DVec3::new(-0.5, 0.5, 0.0),
+    ];
+    let polygonal_count = polygonal(desc).count();
+    let mut left = MOST_PAIRS / 10;
+    let eye = DVec3::from(desc.camera.position.value);
+    for (k, object) in polygonal(desc).enumerate() {
+        let emissive = material_of(materials, object.material).and_then(Material::shines);
+        let is_lamp = emissive.is_some_and(|emissive| !emissive.two_sided);
+        let is_flat = matches!(object.geometry, Geometry::Unit(UnitShape::Square));
+        if !is_lamp || !is_flat || !is_few {
+            continue;
+        }
+        let is_turned_away = |map: &DAffine3| {
+            let [right, up] = [map.matrix3.x_axis, map.matrix3.y_axis];
+            let (normal, center) = (right.cross(up).normalize_or_zero(), map.translation);
+            // In front by more than rounding.
+            let least = 1e-6 * (right.length() + up.length() + center.length());
+            let in_front = |p: DVec3| normal.dot(p - center) > least;
+            let far = center + normal * 1e12;
+            let others = (0..polygonal_count).filter(|&other| other != k).flat_map(|other| placed.marks_of(other, far));
+            // A box about what is tilted sticks out in front of it: of its own copies the corners count.
+            let own = placed.maps_of(k).iter().flat_map(|map| CORNERS.map(|corner| map.transform_point3(corner)));
+            let mut all = others.chain(own).chain(curved.iter().flat_map(|object| object.marks(far)));
+            // Which side is the front of what is mirrored is not asked.
+            map.matrix3.determinant() > 0.0 && !in_front(eye) && !all.any(in_front)
+        };
+        let maps = placed.maps_of(k);
+        // Each looks at all others.
+        let others = desc.objects.len().saturating_mul(maps.len());
+        if others > left {
+            return;
+        }
+        left -= others;
+        if !maps.is_empty() && maps.iter().all(is_turned_away) {
+            diagnostics.push(
+                Diagnostic::warning(
+                    codes::UNSEEN_LIGHT,
+                    object.span,
+                    format!("objects[{}] shines to where nothing is: nobody sees its light", object.number),
+                )
+                .expected("an object, or the camera, before its front")
+                .hint("turn it round (the other `normal`), or let it shine to both sides: `two_sided: true`"),
+            );
+        }
+    }
 }
 
 /// The material that an object names or has; `None` for the default and those of its file.

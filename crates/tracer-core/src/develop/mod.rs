@@ -8,6 +8,7 @@ pub use tone_map::{agx, filmic};
 
 use crate::denoise::Denoised;
 use crate::film::{Crop, Film, LayerImage};
+use crate::mattes::MatteImage;
 use rayon::prelude::*;
 use scene_format::desc::ToneMap;
 use srgb::ENCODER;
@@ -56,6 +57,8 @@ pub struct Image {
     pub alpha: Option<Vec<f32>>,
     /// The film's layers, as they are: not developed.
     pub layers: Vec<LayerImage>,
+    /// Mattes; [`crate::Mattes::develop`] makes them.
+    pub mattes: MatteImage,
 }
 
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
@@ -131,7 +134,7 @@ fn developed(
     let layers = film.layers().iter().filter_map(|layer| film.layer(layer)).collect();
     let alpha_of = |k: u32| film.alpha(x + k % width, y + k / width) as f32;
     let alpha = (backdrop == Backdrop::Clear).then(|| (0..width * height).into_par_iter().map(alpha_of).collect());
-    Image { width, height, linear, display, alpha, layers }
+    Image { width, height, linear, display, alpha, layers, mattes: MatteImage::default() }
 }
 
 /// The display's linear colour of exposed radiance.

@@ -66,8 +66,10 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("part", film.part() == fresh.part())?;
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
-    fits("set of layers", film.has_layers_of(&fresh))?;
+    // Both need layers of their own, so they come before those.
     fits("backdrop", film.has_backdrop() == fresh.has_backdrop())?;
+    fits("choice of mattes", film.mattes() == fresh.mattes())?;
+    fits("set of layers", film.has_layers_of(&fresh))?;
     fits("choice of halves", film.has_halves() == fresh.has_halves())?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
     let samples = samples(scene, options);
@@ -90,7 +92,10 @@ fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
     let mut film = Film::new(scene.size, crop, options.seed.unwrap_or(scene.seed), scene.radiance_unit, clamp);
     film.keep_backdrop(scene.backdrop);
     let alpha = scene.backdrop.then_some(Layer::Alpha);
-    film.keep_layers(options.layers.unwrap_or(scene.layers).iter().chain(alpha).collect(), scene);
+    film.keep_mattes(options.mattes);
+    let of_mattes = options.mattes.layers();
+    let layers = options.layers.unwrap_or(scene.layers);
+    film.keep_layers(layers.iter().chain(alpha).chain(of_mattes.iter()).collect(), scene);
     film.keep_part(options.part);
     film.keep_halves(options.halves);
     film
@@ -168,6 +173,7 @@ fn painter<'a>(
         statistics: options.statistics,
         limit: film.clamp.map(|limit| f64::from(limit) / engine.scene.radiance_unit),
         backdrop: film.has_backdrop(),
+        mattes: film.mattes(),
         lamps: film.place_of_lamps(),
         until: None,
         done: AtomicU64::new(if film.is_begun() { film.camera_samples() } else { 0 }),

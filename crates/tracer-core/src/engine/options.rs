@@ -1,6 +1,6 @@
 //! What a caller may decide about a rendering.
 
-use crate::film::{Crop, Part};
+use crate::film::{Crop, MattesKept, Part};
 use std::time::{Duration, Instant};
 use tracer_kernels::layers::LayerSet;
 use tracer_kernels::level::Level;
@@ -39,6 +39,8 @@ pub struct RenderOptions {
     pub layers: Option<LayerSet>,
     /// Whether the film keeps two halves of the samples apart, too, as [`crate::denoise`] needs them.
     pub halves: bool,
+    /// What the film counts for mattes ([`crate::Film::matte`]).
+    pub mattes: MattesKept,
     /// Whether to keep [`crate::Statistics`].
     pub statistics: bool,
     /// Passes are made no longer than this, as far as those before tell, so that [`crate::Observer::state`] comes

@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::observer::{Observer, Progress};
 use super::technique::{Engine, OnFilm, Technique};
 use super::trace::trace;
-use crate::film::{Cells, Film, Keeper, Piece, Unfinished, half_end, half_of};
+use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use tracer_kernels::engine::batch::{Batch, ITEMS};
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::layers::LayerSet;
 use tracer_kernels::report::Stage;
 use tracer_kernels::sampling::blocks::{Item, QUARTERS, slots_of_block};
 
@@ -144,6 +145,8 @@ pub struct Painter<'a> {
     pub limit: Option<f64>,
     /// What is seen behind everything is summed by itself.
     pub backdrop: bool,
+    /// What is counted for mattes.
+    pub mattes: MattesKept,
     /// Where the layer `emission` stands among the sums of samples, where halves are kept.
     pub lamps: Option<usize>,
     /// When the rendering ends at the latest.
@@ -245,7 +248,7 @@ impl Painter<'_> {
             if let Some(limit) = self.limit {
                 clamp_samples(limit, cells, batch);
             }
-            let added = self.add_samples(cells, batch);
+            let added = self.add_samples(pass.layers, cells, batch);
             batch.watch.lap(Stage::Film);
             batch.watch.costs.total += start.elapsed().as_secs_f64();
             if !self.tell(added) {
@@ -272,7 +275,7 @@ impl Painter<'_> {
     }
 
     /// Adds the samples of a batch to the film; how many they are.
-    fn add_samples(&self, cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+    fn add_samples(&self, layers: LayerSet, cells: &Cells<'_>, batch: &mut Batch) -> u64 {
         let mut added = 0;
         for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
             let slots = slots_of_block(first);
@@ -282,6 +285,9 @@ impl Painter<'_> {
                 batch.counters.dropped += left_out.dropped;
                 batch.counters.beyond += left_out.beyond;
                 tile.add_layers(&batch.layers, first, common);
+                if !self.mattes.is_empty() {
+                    tile.add_mattes(self.mattes, layers, &batch.layers, first, common);
+                }
                 let half = half_of(batch.items[first].sample);
                 if self.backdrop {
                     tile.add_missed(samples, &batch.layers, first, common, half);

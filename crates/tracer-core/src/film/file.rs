@@ -14,8 +14,9 @@
 //! | 8 | checksum of all before |
 
 use super::layers::SavedLayer;
+use super::mattes::longest_record;
 use super::record::{kept, read_tile, record};
-use super::{Crop, Film, FilmLayer, Part, Piece, TILE, Tile, Unfinished};
+use super::{Crop, Film, FilmLayer, MattesKept, Part, Piece, TILE, Tile, Unfinished};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use std::io::{self, Read, Write};
@@ -27,7 +28,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
@@ -94,6 +95,7 @@ pub struct FilmHead {
     pub(super) layers: Vec<SavedLayer>,
     pub(super) halves: bool,
     pub(super) backdrop: bool,
+    pub(super) mattes: MattesKept,
 }
 
 impl FilmHead {
@@ -119,6 +121,7 @@ impl FilmHead {
             layers: film.layers.iter().map(|layer| layer.saved()).collect(),
             halves: film.halves,
             backdrop: film.backdrop,
+            mattes: film.mattes,
         }
     }
 
@@ -140,6 +143,7 @@ impl FilmHead {
         let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
         numbers.push(self.clamp.map_or(0, f32::to_bits));
         numbers.extend([self.reuse, self.caustics, self.halves, self.backdrop].map(u32::from));
+        numbers.push(self.mattes.bits());
         numbers.extend([whole, *self.samples.end(), self.light_samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
         numbers.extend([end, pieces.len() as u32]);
@@ -177,6 +181,7 @@ impl FilmHead {
         let (seed, clamp) = (next()?, f32::from_bits(next()?));
         let [reuse, caustics] = [next()? != 0, next()? != 0];
         let [halves, backdrop] = [next()? != 0, next()? != 0];
+        let mattes = MattesKept::from_bits(next()?)?;
         let samples = next()?..=next()?;
         let (light_samples, end, count) = (next()?, next()?, next()?);
         let mut pieces = Vec::new();
@@ -218,6 +223,7 @@ impl FilmHead {
             layers,
             halves,
             backdrop,
+            mattes,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -256,6 +262,23 @@ impl FilmHead {
     pub fn bytes(&self) -> u64 {
         let layers = self.layers.iter().filter_map(|layer| Some(layer.layer()?.layer)).collect();
         Film::bytes_of(self.crop, self.clamp.is_some(), true, layers, self.halves)
+            + tile_count(self.crop) as u64 * self.mattes.bytes() as u64
+    }
+
+    /// The mattes that it holds.
+    pub fn mattes(&self) -> MattesKept {
+        self.mattes
+    }
+
+    /// Whether what is seen behind everything is kept apart.
+    pub fn has_backdrop(&self) -> bool {
+        self.backdrop
+    }
+
+    /// No tile's record is longer.
+    fn longest_tile(&self) -> u32 {
+        let mattes = longest_record(self.mattes, *self.samples.end());
+        u32::try_from(mattes.saturating_add(LONGEST_TILE.into())).unwrap_or(u32::MAX)
     }
 
     /// The names of the layers that it holds, as files have them.
@@ -269,6 +292,7 @@ impl FilmHead {
             && tile.half.is_some() == self.halves
             && (tile.missed.is_none() || self.backdrop)
             && (tile.layers.is_none() || kept != Kept::default())
+            && tile.mattes.as_ref().is_none_or(|_| !self.mattes.is_empty())
     }
 
     /// Whether two halves of the samples are kept apart.
@@ -409,7 +433,7 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
         let (mut tile, most) = (Tile::zeroed(), *self.head.samples.end());
-        let kept = kept(&self.head.film_layers()?);
+        let kept = (kept(&self.head.film_layers()?), self.head.mattes);
         self.tiles(|_, bytes| read_tile(bytes, most, kept, &mut tile))?;
         Ok(self.head)
     }
@@ -426,7 +450,7 @@ impl<R: Read> SavedFilm<R> {
         let head = self.head.clone();
         self.tiles(|place, bytes| {
             let tile = tiles.get_mut(place)?;
-            read_tile(bytes, *head.samples.end(), kept, tile)?;
+            read_tile(bytes, *head.samples.end(), (kept, head.mattes), tile)?;
             head.has(tile, kept).then_some(())
         })?;
         // Without tiles: theirs are at hand.
@@ -438,7 +462,7 @@ impl<R: Read> SavedFilm<R> {
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
-        film.backdrop = head.backdrop;
+        (film.backdrop, film.mattes) = (head.backdrop, head.mattes);
         Ok(film)
     }
 
@@ -447,17 +471,22 @@ impl<R: Read> SavedFilm<R> {
         let count = tile_count(self.head.crop);
         let mut seen = vec![false; count];
         let mut bytes = Vec::new();
+        let longest = self.head.longest_tile();
         for _ in 0..count {
             let mut start = [0; 8];
             self.from.read_exact(&mut start).map_err(cut_short)?;
             self.sum.update(&start);
             let [place, length] = [0, 4].map(|k| number(&mut &start[k..]).unwrap_or(u32::MAX));
             let first = seen.get_mut(place as usize).is_some_and(|seen| !std::mem::replace(seen, true));
-            if !first || length > LONGEST_TILE {
+            if !first || length > longest {
                 return Err(FilmError::Damaged("a tile is wrong"));
             }
-            bytes.resize(length as usize, 0);
-            self.from.read_exact(&mut bytes).map_err(cut_short)?;
+            // Grows with what comes: a length that lies takes no memory.
+            bytes.clear();
+            self.from.by_ref().take(u64::from(length)).read_to_end(&mut bytes)?;
+            if bytes.len() < length as usize {
+                return Err(FilmError::Damaged("it is cut short"));
+            }
             self.sum.update(&bytes);
             keep(place as usize, &bytes).ok_or(FilmError::Damaged("a tile is wrong"))?;
         }

@@ -121,10 +121,11 @@ impl FilmHead {
             ("seed", self.seed == other.seed),
             ("clamp", self.clamp == other.clamp),
             ("range of brightness", self.unit == other.unit),
+            ("backdrop", self.backdrop == other.backdrop),
+            ("choice of mattes", self.mattes == other.mattes),
             ("set of layers", layers(self) == layers(other)),
             ("reuse", self.reuse == other.reuse),
             ("caustics", self.caustics == other.caustics),
-            ("backdrop", self.backdrop == other.backdrop),
             ("choice of halves", self.halves == other.halves),
         ];
         same.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
@@ -269,7 +270,7 @@ impl Film {
             return Err(FilmError::Damaged("it has changed since its head was read"));
         }
         let layers = head.film_layers()?;
-        let (kept, most) = (kept(&layers), *head.samples.end());
+        let (kept, most) = ((kept(&layers), head.mattes), *head.samples.end());
         let Crop { x, y, width, .. } = head.crop;
         let columns = ((x + width).div_ceil(TILE) - x / TILE) as usize;
         // In the same columns, but further down.
@@ -278,7 +279,7 @@ impl Film {
         saved.tiles(|place, bytes| {
             tile = Tile::zeroed();
             read_tile(bytes, most, kept, &mut tile)?;
-            if !head.has(&tile, kept) {
+            if !head.has(&tile, kept.0) {
                 return None;
             }
             self.tiles.get_mut(before + place)?.merge(&tile);
@@ -305,6 +306,7 @@ fn empty(head: &FilmHead) -> Result<Film, MergeError> {
     (film.reuse, film.caustics) = (head.reuse, head.caustics);
     film.keep_halves(head.halves);
     film.keep_backdrop(head.backdrop);
+    film.keep_mattes(head.mattes);
     film.layers = head.film_layers().map_err(|error| MergeError::Part { part: 0, error })?;
     Ok(film)
 }
@@ -366,6 +368,11 @@ impl Tile {
         }
         if let Some(from) = &other.missed {
             add_sums(self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
+        }
+        match (&mut self.mattes, &other.mattes) {
+            (_, None) => {}
+            (Some(mattes), Some(from)) => mattes.merge(from),
+            (mattes, from) => mattes.clone_from(from),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A tile of a film as it stands in a file ([`super::file`]).
 
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{FilmLayer, Splats, Squares, Sums, Taken, Tile, TileHalf, TileLayers};
+use super::{FilmLayer, MattesKept, Splats, Squares, Sums, Taken, Tile, TileHalf, TileLayers, TileMattes};
 use bytemuck::Zeroable;
 use tracer_kernels::layers::{Kept, LayerSet};
 
@@ -16,7 +16,8 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     out.extend((place as u32).to_le_bytes());
     out.extend([0; 4]);
     let [taken, splats] = [tile.taken.is_some(), tile.splats.is_some()];
-    let parts = [taken, splats, tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some()];
+    let parts =
+        [taken, splats, tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some(), tile.mattes.is_some()];
     out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
     let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
     sums(&tile.sums, &mut out);
@@ -39,14 +40,17 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     if let Some(missed) = &tile.missed {
         sums(missed, &mut out);
     }
+    if let Some(mattes) = &tile.mattes {
+        mattes.record(&mut out);
+    }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
     out
 }
 
 /// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many;
-/// this is kept for layers.
-pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile) -> Option<()> {
+/// this is kept for layers and mattes.
+pub(super) fn read_tile(mut from: &[u8], most: u32, (kept, mattes): (Kept, MattesKept), tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
     let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
@@ -86,5 +90,8 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, kept: Kept, tile: &mut Tile)
         sums(&mut missed, from)?;
         tile.missed = Some(missed);
     }
-    (flags < 32 && from.is_empty()).then_some(())
+    if flags & 32 != 0 {
+        tile.mattes = Some(Box::new(TileMattes::read(from, &tile.samples, mattes)?));
+    }
+    (flags < 64 && from.is_empty()).then_some(())
 }

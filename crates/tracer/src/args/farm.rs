@@ -116,32 +116,21 @@ pub struct FarmSlurmArgs {
 impl FarmSlurmArgs {
     /// The rendering that the parts are of.
     pub fn as_render(&self) -> RenderArgs {
+        // Whatever else is an option of `render`: the tests of `commands/farm/scripts.rs` see that it is handed on.
         RenderArgs {
             scene: self.scene.clone(),
             output: self.output.clone(),
-            format: None,
             bits: self.bits,
             samples: self.samples,
-            noise: None,
-            time: None,
             size: self.size,
             crop: self.crop,
-            part: None,
             split: self.split,
             seed: self.seed,
             exposure: self.exposure,
             layers: self.layers.clone(),
             denoise: self.denoise,
-            threads: None,
-            checkpoint: None,
             every: self.every,
-            resume: None,
-            report: None,
-            frames: None,
-            skip_existing: false,
-            open: false,
-            stats: false,
-            quiet: false,
+            ..RenderArgs::default()
         }
     }
 }

@@ -54,29 +54,13 @@ impl MergeArgs {
         RenderArgs {
             scene,
             output: self.output.clone(),
-            frames: None,
-            skip_existing: false,
-            open: false,
             format: self.format.clone(),
             bits: self.bits,
-            samples: None,
-            noise: None,
-            time: None,
-            size: None,
-            crop: None,
-            part: None,
-            split: None,
-            seed: None,
-            exposure: None,
-            layers: Vec::new(),
             denoise: self.denoise,
             threads: self.threads,
-            checkpoint: None,
-            every: None,
-            resume: None,
             report: self.report.clone(),
-            stats: false,
             quiet: self.quiet,
+            ..RenderArgs::default()
         }
     }
 

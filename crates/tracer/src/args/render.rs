@@ -14,7 +14,7 @@ Examples:
 `tracer man render` has --camera, --frame, --crop, --layers, --report and more.";
 
 /// `tracer render`
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub struct RenderArgs {
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
 
+use super::picture::{backdrop_told, mattes_told};
 use super::{picture_notes, told};
 use crate::failure::Failure;
 use scene_format::desc::{Acceleration, ToneMap};
@@ -11,7 +12,7 @@ use std::io;
 use std::mem::{swap, take};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
-use tracer_core::{Crop, FilmHead, Note, PROGRAM, Part};
+use tracer_core::{Crop, FilmHead, Mattes, MattesKept, Note, PROGRAM, Part};
 
 /// Kinds of notes, as their names begin: a value to be shown, a part of the scene by its hash, a file by its own.
 const SETTING: &str = "render.";
@@ -26,7 +27,7 @@ const WHOLE: &str = "whole";
 ///
 /// # Errors
 /// When a file of the scene cannot be read any more.
-pub fn notes(desc: &mut SceneDesc, files: &[PathBuf], set: &[String]) -> Result<Vec<Note>, Failure> {
+pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[String]) -> Result<Vec<Note>, Failure> {
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let mut notes: Vec<Note> = vec![("scene".to_owned(), name.to_owned()), ("hash".to_owned(), hash_hex(desc))];
     notes.push((WHOLE.to_owned(), hash_of_film(desc)));
@@ -55,7 +56,7 @@ pub fn notes(desc: &mut SceneDesc, files: &[PathBuf], set: &[String]) -> Result<
     swap(&mut lent.objects, &mut desc.objects);
     part("objects", &lent);
     swap(&mut lent.objects, &mut desc.objects);
-    notes.extend(picture_notes(desc, set));
+    notes.extend(picture_notes(desc, mattes, set));
     for file in files {
         let shown = file.strip_prefix(&desc.base_dir).unwrap_or(file);
         notes.push((format!("{FILE}{}", shown.display()), hash_of(file)?));
@@ -121,6 +122,10 @@ pub struct Asked<'a> {
     pub clamp: Option<f32>,
     /// Names of the layers; `none` where there is none.
     pub layers: String,
+    /// What is behind everything is kept apart.
+    pub backdrop: bool,
+    /// What is counted for mattes.
+    pub mattes: MattesKept,
     /// As [`notes`] gives them.
     pub notes: &'a [Note],
 }
@@ -144,6 +149,8 @@ impl<'a> Asked<'a> {
             seed: head.seed,
             clamp: head.clamp,
             layers: told::layers(head),
+            backdrop: head.has_backdrop(),
+            mattes: head.mattes(),
             notes: &head.notes,
         }
     }
@@ -177,7 +184,20 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     compare("the seed", head.seed.to_string(), asked.seed.to_string());
     let clamp = |limit: Option<f32>| limit.map_or("None".to_owned(), |limit| limit.to_string());
     compare("render.clamp", clamp(head.clamp), clamp(asked.clamp));
-    compare("the set of layers", told::layers(head), asked.layers.clone());
+    // Of parts one picture is made, so it is the same one; a film alone can be developed otherwise.
+    let is_part = matches!(asked.extent, Extent::PartOf(..));
+    if is_part || head.has_backdrop() != asked.backdrop {
+        compare("the backdrop", backdrop_told(&head.notes).to_owned(), backdrop_told(asked.notes).to_owned());
+    }
+    if is_part || head.mattes() != asked.mattes {
+        compare("the choice of mattes", mattes_told(&head.notes), mattes_told(asked.notes));
+    }
+    let layers = told::layers(head);
+    if layers != asked.layers {
+        let there = told::asked_layers(&layers, &head.notes, head.has_backdrop(), head.mattes());
+        let here = told::asked_layers(&asked.layers, asked.notes, asked.backdrop, asked.mattes);
+        compare("the set of layers", there, here);
+    }
     note_differences(&mut found, &head.notes, asked.notes);
     found
 }

@@ -9,7 +9,7 @@ mod told;
 
 pub use flushing::Flushing;
 pub use identity::{Asked, Extent, differences, note_differences, notes, now, sha256_of};
-pub use picture::{look, picture_layers, picture_notes, provenance};
+pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};
 pub use told::{as_json, as_text, note, part_told};

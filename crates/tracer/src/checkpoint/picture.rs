@@ -4,14 +4,14 @@ use crate::write::{Provenance, Setting};
 use scene_format::SceneDesc;
 use scene_format::desc::{Output, ToneMap};
 use std::path::Path;
-use tracer_core::{Backdrop, Crop, Film, LayerSet, Look, Note};
+use tracer_core::{Backdrop, Crop, Film, LayerSet, Look, MatteOf, Mattes, Note};
 
 /// How the names of these notes begin.
 const NOTE: &str = "picture.";
 const TONE_MAPS: [ToneMap; 3] = [ToneMap::None, ToneMap::Filmic, ToneMap::AgX];
 
 /// Of a scene, and the fields of it that the command line has set.
-pub fn picture_notes(desc: &SceneDesc, set: &[String]) -> Vec<Note> {
+pub fn picture_notes(desc: &SceneDesc, mattes: &Mattes, set: &[String]) -> Vec<Note> {
     let source = desc.sources.first();
     let name = source.map_or("", |source| source.name.as_str());
     let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy()).into_owned();
@@ -27,6 +27,9 @@ pub fn picture_notes(desc: &SceneDesc, set: &[String]) -> Vec<Note> {
         note("backdrop", backdrop_note(&desc.output)),
         note("layers", tracer_core::layer_set(&desc.output.layers).names().collect::<Vec<_>>().join(",")),
     ];
+    if !mattes.is_empty() {
+        notes.push(note("mattes", mattes_note(mattes)));
+    }
     notes.extend(set.iter().map(|set| note("set", set.clone())));
     notes
 }
@@ -44,6 +47,37 @@ fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
 pub fn picture_layers(notes: &[Note]) -> Option<LayerSet> {
     let names = all(notes, "layers").next()?;
     Some(names.split(',').filter_map(LayerSet::by_name).collect())
+}
+
+/// Mattes with all names, as a note.
+fn mattes_note(mattes: &Mattes) -> String {
+    let Mattes { cryptomatte, masks, objects, materials } = mattes;
+    let has = |of: MatteOf| cryptomatte.contains(&of);
+    let kinds = [has(MatteOf::Objects), has(MatteOf::Materials)];
+    serde_json::json!([kinds, masks, objects, materials]).to_string()
+}
+
+/// The mattes of the picture; `None` where the notes do not tell.
+pub fn mattes(notes: &[Note]) -> Option<Mattes> {
+    let Some(note) = all(notes, "mattes").next() else { return Some(Mattes::default()) };
+    let (kinds, masks, objects, materials): ([bool; 2], _, _, _) = serde_json::from_str(note).ok()?;
+    let cryptomatte = [MatteOf::Objects, MatteOf::Materials].into_iter().zip(kinds).filter(|(_, has)| *has);
+    Some(Mattes { cryptomatte: cryptomatte.map(|(of, _)| of).collect(), masks, objects, materials })
+}
+
+/// What mattes there are, for people.
+pub fn mattes_told(notes: &[Note]) -> String {
+    let names: Vec<String> = mattes(notes).unwrap_or_default().names().collect();
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// What is behind everything, for people.
+pub fn backdrop_told(notes: &[Note]) -> &str {
+    match first(notes, "backdrop") {
+        "" => "the background",
+        "clear" => "nothing (alpha)",
+        color => color,
+    }
 }
 
 /// What is behind everything, as a note.

@@ -50,7 +50,9 @@ pub fn look_for(
     shell: &Shell,
 ) -> Result<Found, Failure> {
     let layers = layers_of(scene.layers.names(), halves);
-    let asked = Asked { size: scene.size, extent, seed: scene.seed, clamp: scene.clamp, layers, notes };
+    let (backdrop, mattes) = (scene.backdrop, scene.mattes.kept());
+    let asked =
+        Asked { size: scene.size, extent, seed: scene.seed, clamp: scene.clamp, layers, backdrop, mattes, notes };
     let (name, previous) = (place.name(), format!("{}.previous", place.name()));
     let first = match load(place.file(), &name, &asked) {
         Ok(film) => return Ok(Found { film: Some(film), is_spoilt: false }),

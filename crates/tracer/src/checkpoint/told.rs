@@ -1,9 +1,10 @@
 //! What a checkpoint holds, for `tracer info`.
 
+use super::picture::{mattes_told, picture_layers};
 use crate::memory::human;
 use serde_json::json;
 use std::path::Path;
-use tracer_core::{Crop, FilmHead, Part};
+use tracer_core::{Crop, FilmHead, MattesKept, Note, Part};
 
 /// A note of a film; empty where there is none of that name.
 pub fn note<'a>(head: &'a FilmHead, name: &str) -> &'a str {
@@ -23,6 +24,20 @@ pub fn layers(head: &FilmHead) -> String {
 pub fn layers_of<'a>(names: impl Iterator<Item = &'a str>, halves: bool) -> String {
     let names: Vec<&str> = names.chain(halves.then_some("halves")).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// These names, but for layers that nobody asked for: that of a backdrop, and those that mattes are made of.
+pub fn asked_layers(layers: &str, notes: &[Note], backdrop: bool, mattes: MattesKept) -> String {
+    let asked = picture_layers(notes);
+    let is_asked = |name: &str| asked.is_some_and(|asked| asked.names().any(|layer| layer == name));
+    let hidden = |name: &str| match name {
+        "alpha" => backdrop,
+        "object_id" => mattes.objects,
+        "material_id" => mattes.materials,
+        _ => false,
+    };
+    let left: Vec<&str> = layers.split(", ").filter(|name| is_asked(name) || !hidden(name)).collect();
+    if left.is_empty() { "none".to_owned() } else { left.join(", ") }
 }
 
 /// What a film is of its rendering: `samples 3 to 5 of 9, rows 0 to 63`.
@@ -55,6 +70,9 @@ pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     if head.layers().next().is_some() {
         line("layers", layers(head));
     }
+    if !head.mattes().is_empty() {
+        line("mattes", mattes_told(&head.notes));
+    }
     line("written", note(head, "when").to_owned());
     line("program", head.program.clone());
     for (k, file) in files(head).into_iter().enumerate() {
@@ -86,6 +104,7 @@ pub fn as_json(path: &Path, bytes: u64, head: &FilmHead) -> serde_json::Value {
         "samples_min": fewest,
         "samples_max": most,
         "layers": head.layers().collect::<Vec<_>>(),
+        "mattes": { "objects": head.mattes().objects, "materials": head.mattes().materials },
         "written": note(head, "when"),
         "tracer_version": head.program,
         "files": files(head),

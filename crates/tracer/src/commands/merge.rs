@@ -4,7 +4,7 @@ use super::render::outputs::{self, Output};
 use super::render::rescue::{Pictures, pictures};
 use super::render::write_report;
 use crate::args::MergeArgs;
-use crate::checkpoint::{Asked, differences, look, part_told, picture_layers, provenance};
+use crate::checkpoint::{Asked, differences, look, mattes, part_told, picture_layers, provenance};
 use crate::denoising;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
@@ -47,7 +47,11 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         outputs::tell_of_alpha(&outputs, shell);
     }
     let layers = picture_layers(notes).unwrap_or(film.layers());
-    let (image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    let (mut image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    let mattes = mattes(notes).unwrap_or_default();
+    if outputs::has_exr(&outputs) {
+        image.mattes = mattes.develop(&film);
+    }
     let developed = started.elapsed().as_secs_f64();
     let provenance = provenance(notes, &film, denoised.is_some());
     let Pictures { files, failed } = pictures(&outputs, &image, &provenance, shell)?;
@@ -65,6 +69,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     if let Some(path) = &args.report {
         let of_parts = parts.iter().map(|(path, head)| PartReport::new(path, &head.part())).collect();
         let seconds = [merged, developed - merged, total - developed, total];
+        let layers = layers.names().map(str::to_owned).chain(mattes.names()).collect();
         let report =
             MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, (layers, denoised), seconds, files);
         write_report(path, report.to_json())?;

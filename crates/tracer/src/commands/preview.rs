@@ -13,7 +13,7 @@ use scene_format::SceneDesc;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
-use tracer_core::{Film, Look, develop};
+use tracer_core::{Film, Look, Mattes, develop};
 use tracer_preview::{Editor, Host, Kind, Listen, Options, Preview, StartError};
 
 pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
@@ -121,7 +121,7 @@ impl Host for Program {
             Kind::Exr => Encoding::Exr,
         };
         let image = develop(film, look);
-        encode(&image, encoding, &provenance(&picture_notes(desc, &self.set), film, false))
+        encode(&image, encoding, &provenance(&picture_notes(desc, &Mattes::default(), &self.set), film, false))
             .map_err(|error| error.to_string())
     }
 

@@ -5,7 +5,15 @@ use tracer_core::Image;
 /// A picture of numbers in 0..=1, by [`magma`].
 pub fn false_colours(numbers: &[f32], width: u32, height: u32) -> Image {
     let display: Vec<f32> = numbers.iter().flat_map(|&x| magma(x)).collect();
-    Image { width, height, linear: display.clone(), display, alpha: None, layers: Vec::new() }
+    Image {
+        width,
+        height,
+        linear: display.clone(),
+        display,
+        alpha: None,
+        layers: Vec::new(),
+        mattes: Default::default(),
+    }
 }
 
 /// Display values of the colour map "magma" (Stéfan van der Walt, Nathaniel Smith, 2015: dark is none, bright is much,

@@ -20,6 +20,7 @@ mod interrupt;
 #[cfg(unix)]
 mod kubernetes;
 mod layers;
+mod mattes;
 mod parts;
 mod render;
 mod report;

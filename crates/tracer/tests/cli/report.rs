@@ -33,11 +33,16 @@ fn fields_are_the_documented_ones() {
     let sandbox = Sandbox::new();
     let mut found = BTreeSet::new();
     // One scene without a tree, one with it.
-    fields(&report(&sandbox, &[]), "", &mut found);
+    let mark = "output.marks={\"A\": (0, 0, 0)}";
+    fields(&report(&sandbox, &["--set", mark]), "", &mut found);
     assert!(found.contains("tree") && found.contains("stats"), "they are null");
     let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));
-    fields(&report(&sandbox, &["--size", "8x8", "--stats", "--denoise", "--set", "render.clamp=0.5"]), "", &mut found);
+    fields(
+        &report(&sandbox, &["--size", "8x8", "--stats", "--denoise", "--set", "render.clamp=0.5", "--set", mark]),
+        "",
+        &mut found,
+    );
     let documentation = std::fs::read_to_string(repository().join("docs/report.md")).expect("documentation");
     let documented: BTreeSet<String> = documentation
         .lines()

@@ -1,6 +1,6 @@
 //! What compiles and is surely not meant: warned of by `check` and `render`.
 
-use crate::support::Sandbox;
+use crate::support::{Sandbox, repository};
 
 const CUBE: [[i32; 3]; 12] = [
     [1, 3, 2],
@@ -131,4 +131,67 @@ fn empty_pictures_are_told() {
     // A part of a picture may be empty.
     sandbox.write("some.ron", scene("background: (0.2, 0.4, 0.8),", "Sphere(center: (0, 0, 0), radius: 1)"));
     sandbox.run(&["render", "some.ron", "-o", "a.png", "--crop", "0,0,2,2"]).ends(0).silent();
+}
+
+#[test]
+fn light_that_nobody_sees_is_told() {
+    let sandbox = Sandbox::new();
+    let with = |lamp: &str| scene("background: 0.5,", &format!("Sphere(center: (0, 0, 0), radius: 1), {lamp}"));
+    let lamp = |normal: &str, more: &str| {
+        with(&format!("Rectangle(center: (0, 3, 0), normal: {normal}, size: 1, material: Emissive(radiance: 5{more}))"))
+    };
+    assert_eq!(codes(&sandbox, &lamp("(0, 1, 0)", "")), ["W0315"]);
+    assert_eq!(codes(&sandbox, &lamp("(0, 1, -0.4)", "")), ["W0315"]);
+    // Turned down, to both sides, to the camera alone; with something above.
+    let above = with(
+        "Rectangle(center: (0, 3, 0), normal: (0, 1, 0), size: 1, material: Emissive(radiance: 5)), \
+         Sphere(center: (9, 3.1, 0), radius: 0.2)",
+    );
+    for meant in [lamp("(0, -1, 0)", ""), lamp("(0, 1, 0)", ", two_sided: true"), lamp("(0, 0.001, 1)", ""), above] {
+        assert!(codes(&sandbox, &meant).is_empty(), "{meant}");
+    }
+    // Of copies one that is of use is enough.
+    let copies = with(
+        "Rectangle(normal: (0, 1, 0), size: 1, material: Emissive(radiance: 5), \
+         placements: [[Translate((0, 3, 0))], [Translate((0, -3, 0))]])",
+    );
+    assert!(codes(&sandbox, &copies).is_empty());
+}
+
+#[test]
+fn views_that_are_too_far_are_told() {
+    let sandbox = Sandbox::new();
+    let far = |distance: f64, fov: f64| {
+        format!(
+            "Scene(camera: Camera(position: (0, 0, {distance:?}), look_at: (0, 0, 0), fov: {fov:.12}), \
+             image: Image(width: 96, height: 96), render: Render(samples: 1), background: (1, 0.5, 0.2), \
+             objects: [Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: 0.5))])"
+        )
+    };
+    let of_ball = |distance: f64| far(distance, 2.0 * (1.5 / distance).atan().to_degrees());
+    for near in [5.0, 1e3, 3e5] {
+        assert!(codes(&sandbox, &of_ball(near)).is_empty(), "{near}");
+    }
+    assert_eq!(codes(&sandbox, &of_ball(1e7)), ["W0314"]);
+    sandbox.write("odd.ron", of_ball(1e7));
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["in steps of 19 pixels"]);
+    // Far away and wide is fine, and so is what is far from the origin, but not from the camera.
+    assert!(codes(&sandbox, &far(1e7, 40.0)).iter().all(|code| code != "W0314"));
+    let elsewhere = of_ball(5.0).replace("(0, 0, 5.0)", "(1e8, 0, 5)").replace("(0, 0, 0)", "(1e8, 0, 0)");
+    assert!(codes(&sandbox, &elsewhere).is_empty());
+}
+
+/// Scenes that people have looked at raise none of these warnings.
+#[test]
+fn scenes_that_are_meant_raise_nothing() {
+    let sandbox = Sandbox::new();
+    let folder = |name: &str| repository().join(name).display().to_string();
+    let folders = ["scenes", "golden"].map(folder);
+    let arguments = [&["check", "--diagnostics", "json"], &folders.each_ref().map(String::as_str)[..]].concat();
+    let ran = sandbox.run(&arguments).ends(0);
+    let lines = ran.err.lines().chain(ran.out_text().lines()).map(str::to_owned).collect::<Vec<_>>();
+    let of_meant = ["W0305", "W0306", "W0307", "W0314", "W0315", "W0521"];
+    let false_alarms: Vec<&String> =
+        lines.iter().filter(|line| of_meant.iter().any(|code| line.contains(&format!("\"{code}\"")))).collect();
+    assert!(false_alarms.is_empty(), "{false_alarms:#?}");
 }

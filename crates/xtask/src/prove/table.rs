@@ -65,6 +65,13 @@ pub const PROOFS: &[Proof] = &[
         ],
     ),
     proof(
+        "cryptomatte",
+        Asked,
+        "mattes as the official OpenEXR and another program's decoder of Cryptomatte read them; half a minute",
+        &[Python(&["OpenEXR==3.5.3", "cryptomatte-api==1.0.0", "mmh3==5.3.1", "numpy"])],
+        &["cargo build --locked -p tracer", "python crates/tracer/tests/cryptomatte/main.py"],
+    ),
+    proof(
         "pairs",
         Always,
         "scenes that must look the same, in exact pairs; four minutes",

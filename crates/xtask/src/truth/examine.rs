@@ -3,6 +3,7 @@
 use super::judge::{self, Question, Told};
 use super::kinds::Case;
 use super::relation::Relation;
+use super::report::{percent, signed};
 use super::squares::{LIMIT, PICTURES, squares};
 use super::trial::{Picture, Pictures as _, Source};
 use super::world::World;
@@ -187,10 +188,10 @@ fn unguarded(case: &Case, against: Against, threads: usize) -> anyhow::Result<Ex
 fn differences(told: &Told) -> Vec<Finding> {
     let line = |d: &judge::Difference| {
         format!(
-            "{}: {:+.2} % +- {:.2} ({:.6} against {:.6}; {} pictures of each)",
+            "{}: {} +- {} ({:.6} against {:.6}; {} pictures of each)",
             d.region,
-            100.0 * d.relative,
-            100.0 * d.error,
+            signed(d.relative, 2),
+            percent(d.error, 2),
             d.means[0],
             d.means[1],
             d.pictures

@@ -12,6 +12,7 @@
 use super::meshes::Shape;
 use super::receivers::Receiver;
 use super::relation::{PLANE_MIRROR, Relation};
+use super::report::{percent, signed};
 use super::trial::{Picture, Pictures as _, Source, TILE, regions};
 use super::world::{World, diffuse, glass, matt, mirror, tinted};
 use scene_format::desc::{Instances, Material, Placements, Transform};
@@ -383,9 +384,9 @@ fn equal(ours: &[Picture], theirs: &[Picture], across: usize, level: f64) -> Out
         // False for no number, too.
         let same = compared.probability >= level;
         if !same {
-            let (off, error) = (100.0 * apart / b.mean, 100.0 * error / b.mean);
+            let (off, error) = (signed(apart / b.mean, 2), percent(error / b.mean, 2));
             let (name, z) = (&region.name, compared.z);
-            outcome.faults.push(format!("{name}: {off:+.2} % +- {error:.2}, z {z:.1} ({:.6}, {:.6})", a.mean, b.mean));
+            outcome.faults.push(format!("{name}: {off} +- {error}, z {z:.1} ({:.6}, {:.6})", a.mean, b.mean));
         }
     }
     noticed.sort_by(f64::total_cmp);
@@ -426,11 +427,14 @@ pub fn run(pictures: usize, filter: &str, plain: bool) -> anyhow::Result<usize> 
 impl Outcome {
     /// What came of it, in a line and one more for each fault.
     pub fn line(&self) -> String {
-        let [off, error, least] = self.whole.map(|x| 100.0 * x);
+        let [off, error, least] = self.whole;
         let mut line = format!(
-            "{:<46} {off:+7.2} % +- {error:.2}; would notice {least:.1}, in a tile {:.1}",
+            "{:<46} {:>9} +- {}; would notice {}, in a tile {}",
             self.name,
-            100.0 * self.tile
+            signed(off, 2),
+            percent(error, 2),
+            percent(least, 1),
+            percent(self.tile, 1)
         );
         for fault in &self.faults {
             line += &format!("\n    {fault}");

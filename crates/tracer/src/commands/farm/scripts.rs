@@ -161,6 +161,85 @@ pub fn ranges(numbers: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::args::{Cli, Command, FarmArgs, FarmCommand, RenderArgs};
+    use clap::{CommandFactory, Parser};
+
+    /// Options of `render` that are none of the farm's, or not handed on as they are, and why.
+    const OWN: [(&str, &str); 14] = [
+        ("format", "pictures are files"),
+        ("noise", "parts end at their samples"),
+        ("time", "parts end at their samples"),
+        ("part", "each part has its own"),
+        ("threads", "Slurm gives cores"),
+        ("checkpoint", "each part has its own"),
+        ("resume", "each part has its own"),
+        ("report", "of what one process did"),
+        ("stats", "of what one process did"),
+        ("open", "nobody looks at a node's screen"),
+        ("frames", "a farm renders one picture"),
+        ("skip-existing", "a farm renders one picture"),
+        ("quiet", "a part's log is all that tells of it"),
+        ("diagnostics", "faults are told before parts are submitted"),
+    ];
+
+    /// A value of each of the others; those that stand in the part's script by themselves are marked.
+    const HANDED_ON: [(&str, &[&str], bool); 15] = [
+        ("output", &["--output", "b.exr"], true),
+        ("bits", &["--bits", "16"], true),
+        ("samples", &["--samples", "7"], false),
+        ("size", &["--size", "40x30"], false),
+        ("crop", &["--crop", "1,2,3,4"], true),
+        ("split", &["--split", "rows"], true),
+        ("seed", &["--seed", "5"], false),
+        ("exposure", &["--exposure", "1.5"], true),
+        ("layers", &["--layers", "depth,albedo"], true),
+        ("denoise", &["--denoise=on"], true),
+        ("every", &["--every", "5s"], false),
+        ("set", &["--set", "camera.fov=40"], true),
+        ("camera", &["--camera", "a"], true),
+        ("frame", &["--frame", "3"], true),
+        ("syntax", &["--syntax", "toml"], true),
+    ];
+
+    /// What the farm is told with these words.
+    fn farm(words: &[&str]) -> RenderArgs {
+        let line = [&["tracer", "farm", "slurm", "s.ron", "-o", "a.png", "--parts", "2"], words].concat();
+        match Cli::try_parse_from(line).expect("a command line").command {
+            Command::Farm(FarmArgs { command: FarmCommand::Slurm(args) }) => args.as_render(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// An option of `render` is one of the farm's, too, and is told to each part; or it stands above with the reason.
+    #[test]
+    fn options_of_render_are_handed_on() {
+        let cli = Cli::command();
+        let render = cli.find_subcommand("render").expect("it is there");
+        let all = || render.get_arguments().filter_map(|arg| arg.get_long());
+        for name in all() {
+            let both = [OWN.iter().any(|own| own.0 == name), HANDED_ON.iter().any(|of| of.0 == name)];
+            assert!(
+                both == [true, false] || both == [false, true],
+                "--{name}: hand it on in as_render, or say why not"
+            );
+        }
+        assert_eq!(all().count(), OWN.len() + HANDED_ON.len());
+        for (name, words, stands) in HANDED_ON {
+            // Only parts can be split.
+            let part = if name == "split" { &["--part", "1/2"][..] } else { &[] };
+            let line = [&["tracer", "render", "s.ron", "-o", "a.png"], words, part].concat();
+            let Command::Render(rendered) = Cli::try_parse_from(line).expect("a command line").command else {
+                panic!()
+            };
+            let handed = farm(words);
+            let expected = format!("{:?}", RenderArgs { part: None, ..*rendered });
+            assert_eq!(format!("{handed:?}"), expected, "--{name}");
+            if stands {
+                let [told, without] = [handed, farm(&[])].map(|args| repeat::words(&args, &SceneDesc::default()));
+                assert!(told.len() > without.len(), "--{name} is not told to the parts: {told:?}");
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_told_in_ranges() {

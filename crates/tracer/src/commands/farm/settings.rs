@@ -2,7 +2,7 @@
 
 use super::record::{Record, VERSION, whole};
 use crate::args::{FarmSlurmArgs, SplitName};
-use crate::checkpoint::{note_differences, notes};
+use crate::checkpoint::{mattes_told, note_differences, notes};
 use crate::failure::Failure;
 use crate::loading::compile;
 use crate::shell::Shell;
@@ -31,7 +31,7 @@ pub fn record(args: &FarmSlurmArgs, desc: &mut SceneDesc, shell: &Shell) -> Resu
         .map_err(|error| Failure::could_not(format!("cannot tell the current folder: {error}")))?;
     let pictures = args.output.iter().map(|path| text(path)).collect::<Result<Vec<_>, _>>()?;
     let places = args.output.iter().map(|path| text(&whole(path)?)).collect::<Result<Vec<_>, Failure>>()?;
-    let notes = notes(desc, &scene.files, &args.scene.sets())?;
+    let notes = notes(desc, &scene.mattes, &scene.files, &args.scene.sets())?;
     let settings = settings(args, desc, &places, scene.clamp, &notes);
     Ok(Record {
         farm_version: VERSION,
@@ -82,6 +82,7 @@ fn settings(
         ("the seed", desc.render.seed.value.to_string()),
         ("render.clamp", clamp.map_or("None".to_owned(), |limit| limit.to_string())),
         ("the set of layers", layers),
+        ("the choice of mattes", mattes_told(notes)),
         ("--denoise", if args.denoise.is_on() { "on" } else { "off" }.to_owned()),
         ("the exposure", desc.effects.exposure.value.to_string()),
         ("the tone map", format!("{:?}", desc.effects.tone_map)),

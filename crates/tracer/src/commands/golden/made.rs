@@ -126,6 +126,7 @@ fn png(picture: &Rgb8, name: &str) -> Result<Vec<u8>, WriteError> {
         display,
         alpha: None,
         layers: Vec::new(),
+        mattes: Default::default(),
     };
     let settings = vec![Setting { name: "golden", value: name.to_owned() }];
     encode(&image, Encoding::Png(Bits::Eight), &Provenance { settings, ..Provenance::default() })

@@ -86,12 +86,12 @@ impl Places {
         let Some((place, lock)) = self.write else {
             // Pictures need to tell less of what they are made of than films.
             let notes = match args.part {
-                Some(_) => notes(desc, &scene.files, &args.scene.sets())?,
-                None => picture_notes(desc, &args.scene.sets()),
+                Some(_) => notes(desc, &scene.mattes, &scene.files, &args.scene.sets())?,
+                None => picture_notes(desc, &scene.mattes, &args.scene.sets()),
             };
             return Ok(Kept { film: None, checkpoints: None, notes, _lock: None });
         };
-        let notes = notes(desc, &scene.files, &args.scene.sets())?;
+        let notes = notes(desc, &scene.mattes, &scene.files, &args.scene.sets())?;
         let (found, _lock) = match self.resume {
             Some((resume, lock)) => {
                 let mut found = look_for(&resume, scene, args.denoise.is_on(), extent, &notes, shell)?;

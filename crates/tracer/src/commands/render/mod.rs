@@ -29,7 +29,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, RenderOptions, Scene, render, resume};
+use tracer_core::{Counters, Crop, Film, Mattes, RenderOptions, Scene, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
@@ -91,6 +91,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         level: Some(level),
         until: goals.until,
         halves: args.denoise.is_on(),
+        mattes: scene.mattes.kept(),
         statistics: args.stats,
         longest_pass: checkpoints.as_ref().map(Checkpoints::longest_pass),
         ..RenderOptions::default()
@@ -117,7 +118,10 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let made = (!outputs.is_empty())
         .then(|| denoising::picture(&film, &scene.look, written_layers, args.denoise.is_on(), shell))
         .transpose()?;
-    let (image, denoised) = made.unzip();
+    let (mut image, denoised) = made.unzip();
+    if let Some(image) = image.as_mut().filter(|_| outputs::has_exr(&outputs)) {
+        image.mattes = scene.mattes.develop(&film);
+    }
     let denoised = denoised.flatten();
     let developed = clock.lap();
 
@@ -145,7 +149,9 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let mut report =
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     if let Some(report) = &mut report {
-        (report.picture.layers, report.denoise) = (written_layers.names().collect(), denoised);
+        report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
+        let layers = written_layers.names().map(str::to_owned);
+        (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised);
     }
     let written = clock.lap();
     let seconds = Seconds {
@@ -296,7 +302,9 @@ fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failu
     let layers = if denoise { denoising::with_guides(layers) } else { layers };
     // As numbers, as channels and as bytes.
     let of_denoising = if denoise { denoising::BYTES_PER_PIXEL } else { 0 };
-    let of_pixel = BYTES_PER_PIXEL + 12 * layers.channels() as u64 + of_denoising;
+    let mattes = Mattes::asked(&desc.output);
+    let channels = (layers.channels() + mattes.channels()) as u64;
+    let of_pixel = BYTES_PER_PIXEL + 12 * channels + of_denoising + mattes.kept().bytes_of_pixel();
     let needed = memory::of_film(crop, &desc.render, layers, denoise) + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
@@ -355,7 +363,8 @@ fn report(
             samples_min,
             samples_max,
             samples_resumed: before.samples,
-            layers: film.layers().names().collect(),
+            layers: film.layers().names().map(str::to_owned).collect(),
+            marks: Vec::new(),
         },
         transport: Transport::new(&desc.render, film),
         rays: Rays {

@@ -10,6 +10,7 @@ use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
+use tracer_core::Mattes;
 
 /// A picture to write.
 pub struct Output {
@@ -142,7 +143,7 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
 }
 
 /// Layers go into this kind of picture only.
-fn has_exr(outputs: &[Output]) -> bool {
+pub(in crate::commands) fn has_exr(outputs: &[Output]) -> bool {
     outputs.iter().any(|output| output.encoding == Encoding::Exr)
 }
 
@@ -162,6 +163,14 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
     if !layers.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
         shell.say(&format!(
             "warning: the scene's layers ({layers}) are written into EXR only; add -o {}",
+            exr_beside(outputs, args)
+        ));
+    }
+    let mattes: Vec<String> = Mattes::asked(&desc.output).names().collect();
+    if !mattes.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
+        shell.say(&format!(
+            "warning: the scene's mattes ({}) are written into EXR only; add -o {}",
+            mattes.join(", "),
             exr_beside(outputs, args)
         ));
     }
