@@ -114,12 +114,26 @@ class Repeat(_RepeatRequired, total=False):
     vars: Dict[str, Any]
 
 
+class Animation(TypedDict, total=False):
+    """A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its seconds from the start. Each frame is a picture of its own: nothing moves while one is taken.
+
+    frames: How many frames there are.
+    fps: Frames in a second: `time` is `frame / fps`. Unit: per second.
+    frame: The frame that is seen unless the command line names others (`--frame 12`, `--frames 0-47`).
+    """
+
+    frames: Union[int, str, PickItem]
+    fps: Union[float, str, PickItem]
+    frame: Union[int, str, PickItem]
+
+
 class Camera(TypedDict, total=False):
     """A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
 
     position: Eye point. Unit: the scene's unit.
     look_at: A point in the middle of the picture. Unit: the scene's unit.
     up: The direction that is up in the picture.
+    matrix: Instead of `position`, `look_at` and `up`, as other programs say it: three rows of four numbers, whose columns are the directions to the right, upwards and backwards in the picture, and the eye point, as in glTF and Blender. It turns and moves, nothing else.
     fov: Field of view in degrees: the picture's height, unless `fov_axis` says otherwise.
     fov_axis: Side of the picture that `fov` is measured along.
     focal_length: Instead of `fov`, as photographers say it: the focal length of a lens before film that is `sensor_width` wide. 50 is normal for film of 36 mm, 24 wide, 85 a portrait. The picture's width sees 2 atan(sensor_width / 2 focal_length). How sharp it is, `effects` say. Unit: millimetres.
@@ -132,6 +146,7 @@ class Camera(TypedDict, total=False):
     position: Union[Sequence[Union[float, str]], Array, str, PickItem]
     look_at: Union[Sequence[Union[float, str]], Array, str, PickItem]
     up: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    matrix: Any
     fov: Union[float, str, PickItem]
     fov_axis: Union[FovAxis, PickItem]
     focal_length: Any
@@ -286,14 +301,22 @@ class Output(TypedDict, total=False):
     layers: Layers that EXR files get beside the picture: what camera rays hit first. The picture is the same with and without them.
     alpha: Leaves the background out, to lay the picture over another one: PNG and EXR files say how much of each pixel is covered. It still lights the scene, and shows in mirrors and through glass.
     backdrop: A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still lights the scene, and shows in mirrors and through glass.
+    cryptomatte: Mattes that EXR files get beside the picture, in the form of Cryptomatte: compositing programs cut out any object or material by its name, with soft edges.
+    masks: Masks that EXR files get beside the picture: for each of these names the share of every pixel that the objects and lights of that name cover, as `mask.NAME.Y`.
+    marks: Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how far away it is, and whether something hides it: for labels that are laid over the picture.
     """
 
     layers: Sequence[Union[Layer, RepeatItem, PickItem]]
     alpha: Union[bool, str, PickItem]
     backdrop: Any
+    cryptomatte: Sequence[Union[Matte, RepeatItem, PickItem]]
+    masks: Sequence[Union[str, RepeatItem, PickItem]]
+    marks: Dict[str, Union[Sequence[Union[float, str]], Array, str]]
 
 
 Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha"]
+
+Matte = Literal["Objects", "Materials"]
 
 Background = EnvironmentItem
 
@@ -1227,7 +1250,9 @@ _SceneDictFields = TypedDict("_SceneDictFields", {
     "version": "Union[int, str, PickItem]",
     "include": "Sequence[Union[str, RepeatItem, PickItem]]",
     "vars": "Dict[str, Any]",
-    "camera": "Camera",
+    "animation": "Animation",
+    "cameras": "Dict[str, Camera]",
+    "camera": "Union[str, Camera, PickItem]",
     "image": "Image",
     "render": "Render",
     "effects": "Effects",
@@ -1243,9 +1268,11 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     """A whole scene: one file.
 
     version: Version of the language. Files of version 1 load for ever.
-    include: Files whose `vars` and `materials` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
+    include: Files whose `vars`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
     vars: Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
-    camera: The camera.
+    animation: Frames and time, for expressions.
+    cameras: Cameras by name.
+    camera: The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where the file's own `cameras` are one or none.
     image: The picture's size.
     render: How to render.
     effects: Film and lens effects.

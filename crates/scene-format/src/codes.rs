@@ -349,7 +349,8 @@ codes! {
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BAD_VAR_NAME "E0408" "a name that no expression can use";
-    /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
+    /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`; or there are several there, and
+    /// none is chosen.
     ///
     /// ```ron
     /// Scene(cameras: { "a": Camera() }, camera: "b", background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])

@@ -218,6 +218,6 @@ fn mutants_of(scene: &Scene) {
     });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
-    later[8] = 5;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(5))));
+    later[8] = 6;
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(6))));
 }

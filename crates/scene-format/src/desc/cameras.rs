@@ -1,8 +1,7 @@
 //! Cameras by name, and which of them is meant.
 
 use super::Camera;
-use crate::codes;
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::diagnostic::{Span, Spanned};
 use crate::form::{Entry, Form};
 use crate::read::{Reader, are_cameras, expected_for, is_expression};
 use crate::schema::{FieldDef, Type};
@@ -36,8 +35,8 @@ impl Words for Vec<NamedCamera> {
 /// What stands at `camera`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum CameraChoice {
-    /// Nothing: the first of the scene's own `cameras`, if it has some.
-    First,
+    /// Nothing: the only one of the scene's own `cameras`, if it has one.
+    Only,
     /// One of `cameras`.
     Named(Spanned<Arc<str>>),
     /// One that is written there.
@@ -59,19 +58,15 @@ impl Words for CameraChoice {
                     .then(|| format!("\"{}\"", item.text()));
                 reader.wrong_kind(item, at.noun, &expected_for(at, item), quoted)
             }
-            _ if are_cameras(item) => {
-                let message = "the camera is one, and these are several by their names";
-                let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
-                reader.report(fault.expected(expected_for(at, item)).hint("write `cameras`"));
-                None
-            }
+            // Told when the whole scene has been read.
+            _ if are_cameras(item) => None,
             _ => Camera::read(reader, item, at).map(|camera| CameraChoice::Written(Box::new(camera))),
         }
     }
 
     fn form(&self, all: bool) -> Form {
         match self {
-            CameraChoice::First => Camera::default().form(all),
+            CameraChoice::Only => Camera::default().form(all),
             CameraChoice::Named(name) => Form::Text(name.value.to_string()),
             CameraChoice::Written(camera) => camera.form(all),
         }
@@ -102,7 +97,7 @@ impl CameraChoice {
         let same = |named: &&NamedCamera| Some(&named.name.value) == name && named.camera == *camera;
         match cameras.iter().find(same) {
             Some(named) => CameraChoice::Named(Spanned { value: Arc::clone(&named.name.value), span: Span::NONE }),
-            None if cameras.is_empty() && *camera == Camera::default() => CameraChoice::First,
+            None if cameras.is_empty() && *camera == Camera::default() => CameraChoice::Only,
             None => CameraChoice::Written(Box::new(camera.clone())),
         }
     }

@@ -134,9 +134,9 @@ scene_struct! {
         animation: Film = Film::default();
         /// Cameras by name.
         cameras: Vec<NamedCamera> = Vec::new();
-        /// The camera, or the name of one of `cameras`, as `--camera` chooses it. Without it, it is the first of the
-        /// file's own `cameras`, if there are any.
-        camera: CameraChoice = CameraChoice::First;
+        /// The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where
+        /// the file's own `cameras` are one or none.
+        camera: CameraChoice = CameraChoice::Only;
         /// The picture's size.
         image: Image = Image::default();
         /// How to render.

@@ -127,17 +127,34 @@ impl Reader<'_> {
         self.cameras.first(name).is_some()
     }
 
+    /// Cameras by their names at `camera`; where it is written twice, that is told already.
+    pub(super) fn several_cameras(&mut self, root: Item<'_, '_>) {
+        let mut written = root.fields().filter(|(key, _)| key.text() == "camera");
+        if let (Some((_, item)), None) = (written.next(), written.next())
+            && are_cameras(item)
+        {
+            let message = "the camera is one, and these are several by their names";
+            let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
+            self.report(fault.expected("a name from `cameras`, or a camera written here").hint("write `cameras`"));
+        }
+    }
+
     /// The camera that is meant.
     pub(super) fn chosen(&mut self, choice: CameraChoice) -> Chosen {
         let name = match choice {
             CameraChoice::Written(camera) => return Chosen::written(*camera),
             CameraChoice::Named(name) => name,
-            CameraChoice::First => {
-                let own = self.cameras.read.iter().find(|named| !self.is_included(named.name.span));
-                return own.map_or_else(
-                    || Chosen::written(Camera::default()),
-                    |first| Chosen { camera: first.camera.clone(), name: Some(Arc::clone(&first.name.value)) },
-                );
+            CameraChoice::Only => {
+                let own: Vec<NamedCamera> =
+                    self.cameras.read.iter().filter(|named| !self.is_included(named.name.span)).cloned().collect();
+                return match own.as_slice() {
+                    [] => Chosen::written(Camera::default()),
+                    [only] => Chosen { camera: only.camera.clone(), name: Some(Arc::clone(&only.name.value)) },
+                    [first, ..] => {
+                        self.camera_not_chosen(&own);
+                        Chosen { camera: first.camera.clone(), name: Some(Arc::clone(&first.name.value)) }
+                    }
+                };
             }
         };
         if let Some(named) = self.cameras.read.iter().find(|named| named.name == name) {
@@ -147,6 +164,20 @@ impl Reader<'_> {
             self.unknown_camera(&name);
         }
         Chosen::written(Camera::default())
+    }
+
+    /// Of several none is said to be meant. In which order they stand means nothing: JSON and TOML keep none.
+    fn camera_not_chosen(&mut self, own: &[NamedCamera]) {
+        let [first, ..] = own else { return };
+        // What else is wrong may be why.
+        if self.cameras.damaged || self.sink.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+            return;
+        }
+        let names: Vec<&str> = own.iter().map(|named| &*named.name.value).collect();
+        let message = format!("the scene has {} cameras and does not say which one is meant", own.len());
+        let fault = Diagnostic::error(codes::UNKNOWN_CAMERA, first.name.span, message);
+        let hint = format!("write the name at `camera`, or choose by `--camera`: {}", shortened(names[0]));
+        self.report(fault.expected("a name from `cameras` at `camera`").hint(hint));
     }
 
     fn unknown_camera(&mut self, name: &Spanned<Arc<str>>) {

@@ -49,6 +49,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     };
     (reader.materials.damaged, reader.cameras.damaged) = (damaged("materials"), damaged("cameras"));
     let scene = Scene::read(&mut reader, root, &ROOT);
+    reader.several_cameras(root);
     reader.pending_vars(root);
     let objects = root.fields().find(|(key, _)| key.text() == "objects").map(|(_, value)| value);
     let no_root = scene.is_none();
@@ -69,7 +70,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         reader.path.pop();
     }
     let mut scene = scene?;
-    let chosen = reader.chosen(std::mem::replace(&mut scene.camera, CameraChoice::First));
+    let chosen = reader.chosen(std::mem::replace(&mut scene.camera, CameraChoice::Only));
     reader.output(&scene.output);
     reader.masks(&scene);
     let camera = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, value)| value);

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 const FILM: &str = r#"Scene(
     animation: Animation(frames: 4, fps: 2),
+    camera: "front",
     cameras: { "front": Camera(position: (0, 0, 6)), "top": Camera(position: (0, 6, 0.1)) },
     image: Image(width: 24, height: 16), render: Render(samples: 2),
     background: 1,
@@ -131,6 +132,10 @@ fn cameras_are_chosen_by_name() {
     let ran = sandbox.run(&["render", "film.ron", "--camera", "tap", "-o", "x.png"]).ends(2);
     ran.says(&["there is no camera \"tap\"", "`front` or `top`", "--camera"]);
     sandbox.run(&["info", "film.ron", "--camera", "top"]).ends(0);
+    sandbox.write("which.ron", FILM.replace("camera: \"front\",", ""));
+    sandbox.run(&["render", "which.ron", "-o", "x.png"]).ends(2).says(&["2 cameras", "`--camera`", "front"]);
+    sandbox.run(&["render", "which.ron", "--camera", "front", "-o", "chosen.pfm"]).ends(0);
+    assert_eq!(sandbox.read("chosen.pfm"), sandbox.read("front.pfm"));
     sandbox.run(&["render", "scene.ron", "--camera", "a", "-o", "x.png"]).ends(2).says(&["no `cameras`"]);
     // What is set of the named one is seen.
     let set = ["--camera", "top", "--set", "cameras.top.fov=20", "-o", "near.pfm"];
@@ -147,10 +152,9 @@ fn cameras_are_chosen_by_name() {
 #[test]
 fn a_matrix_is_a_camera() {
     let sandbox = film();
-    let placed = FILM
-        .replace("cameras: {", "camera: Camera(position: (3, 4, 5), look_at: (3, -1, 5), up: (0, 0, -1)), cameras: {");
-    let matrix =
-        FILM.replace("cameras: {", "camera: Camera(matrix: ((1, 0, 0, 3), (0, 0, 1, 4), (0, -1, 0, 5))), cameras: {");
+    let other = |camera: &str| FILM.replace("camera: \"front\"", &format!("camera: {camera}"));
+    let placed = other("Camera(position: (3, 4, 5), look_at: (3, -1, 5), up: (0, 0, -1))");
+    let matrix = other("Camera(matrix: ((1, 0, 0, 3), (0, 0, 1, 4), (0, -1, 0, 5)))");
     sandbox.write("placed.ron", placed);
     sandbox.write("matrix.ron", matrix);
     for name in ["placed", "matrix"] {
