@@ -3,26 +3,40 @@
 //! `E01xx` syntax, `E02xx` structure, `E03xx` values, `E04xx` names, `E05xx` files, `W....` warnings. A code never
 //! changes its meaning and is never given twice.
 
-mod code;
-
-pub use code::{Code, Entry, explain, find};
-
+/// Constants of codes, and the list of their entries.
 macro_rules! codes {
-    ($( $(#[doc = $doc:literal])+ $NAME:ident $code:literal $title:literal; )+) => {
+    ($LIST:ident: $( $(#[doc = $doc:literal])+ $NAME:ident $code:literal $title:literal; )+) => {
         $(
             #[doc = concat!($code, ": ", $title, ".\n")]
             $(#[doc = $doc])+
             pub const $NAME: Code = Code::new($code);
         )+
 
-        /// All codes in order.
-        pub const CODES: &[Entry] = &[
+        pub(super) const $LIST: &[Entry] = &[
             $( Entry { code: $NAME, title: $title, text: concat!($($doc, "\n"),+) }, )+
         ];
     };
 }
 
+mod code;
+mod warnings;
+
+pub use code::{Code, Entry, explain, find};
+pub use warnings::*;
+
+/// All codes in order.
+pub const CODES: &[Entry] = &{
+    let mut all = [ERRORS[0]; ERRORS.len() + warnings::WARNINGS.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = if k < ERRORS.len() { ERRORS[k] } else { warnings::WARNINGS[k - ERRORS.len()] };
+        k += 1;
+    }
+    all
+};
+
 codes! {
+    ERRORS:
     /// At this place the language allows a value or a name, and what stands there begins neither. Often a comment sign
     /// of another syntax (`#` in RON, `//` in TOML, any in JSON), typographic quotes, or round brackets in TOML and
     /// JSON.
@@ -483,160 +497,4 @@ codes! {
     /// Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1/3)])
     /// ```
     BARE_EXPRESSION "E0607" "an expression without quotes";
-
-    /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to
-    /// `lights`, an object with an `Emissive` material, or a `background`.
-    ///
-    /// ```ron
-    /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
-    /// ```
-    BLACK_PICTURE "W0301" "the picture will be black";
-    /// A Blinn-Phong material, as the formula of the report has it, reflects more light than it gets: under light from
-    /// everywhere up to albedo * (1 + 3 * specular) times as much, along its normal. The picture is what the formula
-    /// says, but no real surface looks like it, and rooms full of it get too bright. `energy_conserving: true` takes
-    /// the lobe that never does.
-    ///
-    /// ```text
-    /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5)                              // up to 2.24 times
-    /// BlinnPhong(albedo: 0.9, exponent: 1000, specular: 0.5, energy_conserving: true)
-    /// ```
-    REFLECTS_MORE "W0302" "a material reflects more than it gets";
-    /// A light, or the background, has less than 1e-37 of the radiance of the brightest one: single precision may not
-    /// hold it beside the other. Bring the radiances closer together, or leave it out.
-    LIGHT_TOO_DARK "W0303" "a light is too dark beside the others";
-    /// `render.indirect: Map` asks for the map of indirect light that earlier versions had. It let light through walls
-    /// and is gone; indirect light comes by paths. Leave the field out.
-    MAP_IS_GONE "W0304" "there is no map of indirect light any more";
-    /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong
-    /// way at it. Seen from outside, the corners of a face go round counterclockwise.
-    INSIDE_OUT "W0305" "glass that is inside out";
-    /// The camera stands inside an opaque ball or box in which there is no light: all that it sees is black.
-    ///
-    /// ```text
-    /// Scene(background: 1, objects: [Sphere(center: (0, 0, 5), radius: 1)])
-    /// ```
-    CAMERA_SHUT_IN "W0306" "the camera is shut in";
-    /// A light lies inside an opaque ball or box, and the camera does not: none of its light gets out.
-    ///
-    /// ```text
-    /// Scene(
-    ///     lights: [SphereLight(center: (0, 0, 0), radius: 0.5, radiance: 10)],
-    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
-    /// )
-    /// ```
-    LIGHT_SHUT_IN "W0307" "a light is shut in";
-    /// The rendered picture is black: no light reaches what the camera sees.
-    ALL_BLACK "W0308" "the picture is black";
-    /// The rendered picture shows nothing but the background: the camera looks past all objects.
-    NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and
-    /// never back.
-    ///
-    /// ```text
-    /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
-    /// ```
-    OPEN_GLASS "W0310" "glass without an inside";
-    /// A `Scatter` with `spacing` found no room for all of its copies: those that it found none for in 32 tries are
-    /// left out. After 256 of them in a row no more are tried. Make the box larger, or `spacing` or `count` smaller.
-    ///
-    /// ```text
-    /// placements: Scatter(count: 1000, min: (0, 0, 0), max: (1, 0, 1), spacing: 0.5)
-    /// ```
-    FEWER_COPIES "W0311" "fewer copies than asked for";
-    /// The smooth curve through the points of a `Lathe` comes, between two of them, to less than half of their distance
-    /// from the axis, or even to the axis, where it is cut off: a stem thins to nothing. A curve swings out where long
-    /// and short distances between points meet. Add a point between the two.
-    ///
-    /// ```ron
-    /// Scene(
-    ///     background: 1,
-    ///     objects: [Lathe(profile: [(0.2, 0), (0.05, 0.16), (0.05, 0.9), (0.2, 1)], curve: CatmullRom)],
-    /// )
-    /// ```
-    THIN_PROFILE "W0312" "a curve that comes too near to its axis";
-    /// The profile of a `Lathe` of glass crosses itself: what is inside of one part is outside of the other, and light
-    /// is bent the wrong way there.
-    ///
-    /// ```ron
-    /// Scene(
-    ///     background: 1,
-    ///     objects: [Lathe(profile: [(0, 0), (1, 1), (1, 0), (0, 1)], material: Transparent(ior: 1.5))],
-    /// )
-    /// ```
-    CROSSED_GLASS "W0313" "glass whose profile crosses itself";
-    /// The camera is so far away, and sees so little, that a pixel is smaller than the steps of single precision there:
-    /// edges become stairs. Bring the camera nearer (a wider `fov` shows the same from there), or bring it nearer to
-    /// the middle of the objects.
-    ///
-    /// ```text
-    /// Scene(
-    ///     camera: Camera(position: (0, 0, 10000000), look_at: (0, 0, 0), fov: 0.00001),
-    ///     background: 1,
-    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
-    /// )
-    /// ```
-    FAR_VIEW "W0314" "a view so far that single precision shows";
-    /// A `Rectangle` shines to one side, to which there is nothing: no object, and not the camera. All of its light is
-    /// lost. Turn it round, or let it shine to both sides.
-    ///
-    /// ```text
-    /// Scene(
-    ///     background: 1,
-    ///     objects: [
-    ///         Sphere(center: (0, 0, 0), radius: 1),
-    ///         Rectangle(center: (0, 9, 0), normal: (0, 1, 0), size: 1, material: Emissive(radiance: 5)),
-    ///     ],
-    /// )
-    /// ```
-    UNSEEN_LIGHT "W0315" "light that nobody sees";
-    /// Spheres, cylinders, cones or capsules lie in one place, as a `Repeat` makes them whose items do not go by its
-    /// index. One of them is seen: what shines, else what lets no light through, else the first; the others are left
-    /// out.
-    ///
-    /// ```text
-    /// Repeat(count: 5, items: [Sphere(center: (0, 0, 0), radius: 1)])
-    /// ```
-    IN_ONE_PLACE "W0316" "shapes in one place";
-    /// A material has a name that no object uses. Remove it, or use it.
-    ///
-    /// ```ron
-    /// Scene(
-    ///     background: 1,
-    ///     materials: { "red": Diffuse() },
-    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
-    /// )
-    /// ```
-    UNUSED_MATERIAL "W0401" "a material is not used";
-    /// A name in `vars` that no expression uses. Remove it, or use it.
-    ///
-    /// ```ron
-    /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
-    /// ```
-    UNUSED_VAR "W0402" "a var is not used";
-    /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0.
-    ///
-    /// ```ron
-    /// Scene(background: 1, objects: [Sphere(center: ("=time", 0, 0), radius: 1)])
-    /// ```
-    NOTHING_MOVES "W0403" "time does not go by";
-    /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are
-    /// counted.
-    MESH_ODDITIES "W0510" "oddities in a mesh";
-    /// A material file (MTL) says things that this renderer cannot do, or a glTF file has materials of its own, which
-    /// are not taken.
-    MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
-    /// A glTF file has more than meshes that stand still: skins, morph targets, animations, extensions that it can be
-    /// read without. The mesh is taken without them, as its nodes place it.
-    GLTF_UNSUPPORTED "W0512" "a glTF file has more than meshes that stand still";
-    /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same;
-    /// pictures of other layouts (a cube's sides, a mirror ball) look wrong so.
-    ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
-    /// A texture has transparent pixels. Its colours are used, its transparency is not.
-    TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
-    /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every
-    /// point of it has the colour of one corner. A pattern with `mapping: Object()` needs none.
-    NO_COORDINATES "W0521" "a texture on a mesh without texture coordinates";
-    /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as
-    /// the largest number of a half, 65504.
-    ENVIRONMENT_PIXELS "W0552" "pixels of an environment that no light can have";
 }

@@ -515,6 +515,9 @@ pub fn case(seed: u64, size: u32) -> Case {
         draw::film(&mut world, random);
         super::view::view(&mut world, random);
     }
+    if relation == Relation::Dark {
+        super::view::from_the_eye(&mut world);
+    }
     if once_in(random, 4) && !matches!(relation, Relation::Unfolded | Relation::Shells) {
         draw::name_materials(&mut world);
     }

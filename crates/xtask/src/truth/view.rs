@@ -6,6 +6,17 @@ use glam::DVec3;
 use scene_format::desc::{FisheyeMapping, Focus, FovAxis, Projection, ThinLens};
 use tracer_reference::Random;
 
+/// Lets all rays leave from the eye: those of an orthographic camera, of a lens and behind `near` may begin beyond the
+/// walls of a room.
+pub fn from_the_eye(world: &mut World) {
+    let camera = &mut world.desc.camera;
+    if matches!(camera.projection, Projection::Orthographic { .. }) {
+        camera.projection = Projection::Perspective;
+    }
+    camera.near = None;
+    world.desc.effects.depth_of_field = None;
+}
+
 /// The camera's words, its place aside; and the lens.
 pub fn view(world: &mut World, random: &mut Random) {
     let desc = &mut world.desc;
@@ -69,4 +80,23 @@ pub fn view(world: &mut World, random: &mut Random) {
         lens.tilt = [random.between(-60.0, 60.0), random.between(-40.0, 40.0)].into();
     }
     desc.effects.depth_of_field = Some(lens);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::truth::kinds::{case, kind};
+
+    /// Of rooms without light all rays begin within: seed 90766 had an orthographic window that reached through a wall.
+    #[test]
+    fn dark_rooms_are_seen_from_within() {
+        let seeds: Vec<u64> = (0..3000).filter(|&seed| kind(seed) == "dark room").chain([90766]).collect();
+        assert!(seeds.len() > 100, "{} dark rooms", seeds.len());
+        for seed in seeds {
+            let desc = case(seed, 16).world.desc;
+            let camera = &desc.camera;
+            let beyond = matches!(camera.projection, Projection::Orthographic { .. }) || camera.near.is_some();
+            assert!(!beyond && desc.effects.depth_of_field.is_none(), "{seed}");
+        }
+    }
 }
