@@ -18,6 +18,7 @@ mod materials;
 mod pattern;
 mod random;
 mod shapes;
+mod solids;
 pub mod statistics;
 mod surface;
 mod texture;

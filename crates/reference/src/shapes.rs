@@ -8,7 +8,7 @@ use tracer_core::scene::Shape;
 use tracer_core::shapes::UnitShape;
 
 /// Nearer hits are the surface that the ray leaves.
-const NEAREST: f64 = 1e-9;
+pub const NEAREST: f64 = 1e-9;
 
 /// A quadric x.A x + b.x + c = 0 with A diagonal, b along z, and the z between which it counts.
 struct Sheet {
@@ -52,6 +52,16 @@ fn pieces(unit: &UnitShape) -> (Vec<Sheet>, Vec<Flat>) {
             let side = Sheet { squares: [1.0, 1.0, 0.0], linear: 0.0, constant: -1.0, between: [-half, half] };
             (vec![side, ball(-half, [-half - 2.0, -half]), ball(half, [half, half + 2.0])], Vec::new())
         }
+        UnitShape::Cube => {
+            let pair = |axis: usize| {
+                let mut squares = [0.0; 3];
+                squares[axis] = 1.0;
+                Sheet { squares, linear: 0.0, constant: -0.25, between: everywhere }
+            };
+            ((0..3).map(pair).collect(), Vec::new())
+        }
+        // See `solids`.
+        UnitShape::Solid(_) => (Vec::new(), Vec::new()),
     }
 }
 
@@ -63,9 +73,15 @@ fn object_ray(ray: &Ray, shape: &Shape) -> (DVec3, DVec3, DMat3) {
 
 /// The nearest hit ahead.
 pub fn meet(ray: &Ray, shape: &Shape) -> Option<f64> {
+    crossings(ray, shape).into_iter().filter(|&t| t > NEAREST).reduce(f64::min)
+}
+
+/// Every t, also behind the ray's origin, where its line crosses a piece of the surface; of cubes also where it crosses
+/// the planes of their faces.
+pub fn crossings(ray: &Ray, shape: &Shape) -> Vec<f64> {
     let (o, d, _) = object_ray(ray, shape);
     let (sheets, flats) = pieces(&shape.unit);
-    let mut nearest = f64::INFINITY;
+    let mut found = Vec::new();
     for Sheet { squares, linear, constant, between } in sheets {
         let squares = DVec3::from(squares);
         let (a, b) = ((squares * d).dot(d), 2.0 * (squares * o).dot(d) + linear * d.z);
@@ -73,25 +89,28 @@ pub fn meet(ray: &Ray, shape: &Shape) -> Option<f64> {
         let root = (b * b - 4.0 * a * c).sqrt();
         for t in [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)] {
             let z = o.z + t * d.z;
-            if t > NEAREST && t < nearest && z >= between[0] && z <= between[1] {
-                nearest = t;
+            if t.is_finite() && z >= between[0] && z <= between[1] {
+                found.push(t);
             }
         }
     }
     for Flat { height, radii: [inner, outer], .. } in flats {
         let t = (height - o.z) / d.z;
         let r = (o + t * d).truncate().length();
-        if t > NEAREST && t < nearest && r >= inner && r <= outer {
-            nearest = t;
+        if t.is_finite() && r >= inner && r <= outer {
+            found.push(t);
         }
     }
-    nearest.is_finite().then_some(nearest)
+    found
 }
 
 /// The surface at a hit: that of the piece whose equation holds best there.
 pub fn surface(body: u32, shape: &Shape, p: DVec3, direction: DVec3) -> Surface {
     let inverse = shape.placement.matrix3.inverse();
     let q = inverse * (p - shape.placement.translation);
+    if shape.unit == UnitShape::Cube {
+        return on_cube(body, shape.material, (p, q), &inverse, direction);
+    }
     let (sheets, flats) = pieces(&shape.unit);
     let mut best = (f64::INFINITY, DVec3::Z, None);
     for Sheet { squares, linear, constant, between } in sheets {
@@ -112,6 +131,20 @@ pub fn surface(body: u32, shape: &Shape, p: DVec3, direction: DVec3) -> Surface 
     let n = if outside { outward } else { -outward };
     let uv = uv(&shape.unit, q, flat);
     Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material, body }
+}
+
+/// The face of a cube that is nearest: a rectangle that faces outwards, as the manual says.
+fn on_cube(body: u32, material: u32, (p, q): (DVec3, DVec3), inverse: &DMat3, direction: DVec3) -> Surface {
+    let axis = (0..3).fold(0, |best, axis| if q[axis].abs() > q[best].abs() { axis } else { best });
+    let mut normal = DVec3::ZERO;
+    normal[axis] = q[axis].signum();
+    let outward = (inverse.transpose() * normal).normalize();
+    let right = if axis == 1 { DVec3::X } else { DVec3::Y.cross(normal) };
+    let up = normal.cross(right);
+    let outside = outward.dot(direction) < 0.0;
+    let n = if outside { outward } else { -outward };
+    let uv = [0.5 + right.dot(q), 0.5 + up.dot(q)];
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material, body }
 }
 
 /// Texture coordinates as the manual says them.

@@ -1,9 +1,10 @@
 //! What rays can hit: every sphere, every other curved shape and every triangle of every copy, in one list each.
 
-use crate::{Ray, Smoothing, shapes, surface};
+use crate::{Ray, Smoothing, shapes, solids, surface};
 use glam::{DMat3, DVec3};
 use tracer_core::Scene;
 use tracer_core::scene::{self, Instance, NONE, Sphere};
+use tracer_core::shapes::UnitShape;
 
 /// Nearer hits are the surface that the ray leaves. Render space is of size one, and `f64` has 16 digits.
 const NEAREST: f64 = 1e-9;
@@ -42,6 +43,9 @@ pub struct Hit {
 pub struct World {
     spheres: Vec<Sphere>,
     curved: Vec<scene::Shape>,
+    solids: scene::Solids,
+    /// The number of the first operand of solids as a body.
+    first_operand: u32,
     triangles: Vec<Triangle>,
 }
 
@@ -53,7 +57,13 @@ impl World {
             (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count)
                 .map(move |k| triangle(scene, body, instance, k))
         });
-        World { spheres: scene.spheres.clone(), curved: scene.shapes.clone(), triangles: triangles.collect() }
+        World {
+            spheres: scene.spheres.clone(),
+            curved: scene.shapes.clone(),
+            solids: scene.solids.clone(),
+            first_operand: loose + scene.instances.len() as u32,
+            triangles: triangles.collect(),
+        }
     }
 
     /// The nearest hit.
@@ -65,7 +75,11 @@ impl World {
             }
         }
         for (k, shape) in self.curved.iter().enumerate() {
-            if let Some(t) = shapes::meet(ray, shape).filter(|&t| t < closest.t) {
+            let met = match &shape.unit {
+                UnitShape::Solid(solid) => solids::meet(ray, &self.solids, solid),
+                _ => shapes::meet(ray, shape),
+            };
+            if let Some(t) = met.filter(|&t| t < closest.t) {
                 closest = Hit { t, shape: Shape::Curved(k) };
             }
         }
@@ -101,7 +115,10 @@ impl World {
         let p = ray.origin + hit.t * ray.direction;
         match hit.shape {
             Shape::Sphere(k) => surface::on_sphere(k as u32, &self.spheres[k], p, ray.direction),
-            Shape::Curved(k) => shapes::surface((self.spheres.len() + k) as u32, &self.curved[k], p, ray.direction),
+            Shape::Curved(k) => match &self.curved[k].unit {
+                UnitShape::Solid(solid) => solids::surface(ray, hit.t, &self.solids, solid, self.first_operand),
+                _ => shapes::surface((self.spheres.len() + k) as u32, &self.curved[k], p, ray.direction),
+            },
             Shape::Triangle(k) => surface::on_triangle(&self.triangles[k], p, ray.direction, smoothing),
         }
     }

@@ -28,7 +28,7 @@ impl Random {
     }
 }
 
-const SHAPES: [UnitShape; 9] = [
+const SHAPES: [UnitShape; 10] = [
     UnitShape::Sphere,
     UnitShape::Disk { inner: 0.0 },
     UnitShape::Disk { inner: 0.5 },
@@ -38,6 +38,7 @@ const SHAPES: [UnitShape; 9] = [
     UnitShape::Cone { radii: [1.0, 0.5], caps: false, upright: false },
     UnitShape::Capsule { half: 1.5 },
     UnitShape::Capsule { half: 0.01 },
+    UnitShape::Cube,
 ];
 
 /// Whether a point of object space is within a closed shape, and how far off its surface about.
@@ -53,6 +54,8 @@ fn depth(shape: &UnitShape, q: DVec3) -> f64 {
             if caps { side.min(1.0 - q.z.abs()) } else { -side.abs().max(q.z.abs() - 1.0) }
         }
         UnitShape::Capsule { half } => 1.0 - (q - DVec3::new(0.0, 0.0, q.z.clamp(-half, half))).length(),
+        UnitShape::Cube => 0.5 - q.abs().max_element(),
+        UnitShape::Solid(_) => panic!("see solids.rs"),
     }
 }
 
@@ -171,6 +174,7 @@ fn closed_shapes_have_no_seams() {
                     }
                 }
                 UnitShape::Capsule { half } => (half, 1.0),
+                UnitShape::Cube => (0.5, 0.0),
                 _ => (0.0, 1.0),
             };
             let rim = map.transform_point3(DVec3::new(r * libm::cos(turn), r * libm::sin(turn), z));
@@ -233,7 +237,8 @@ fn the_tree_finds_what_brute_force_finds() {
     // Ids 5 and 6 are of spheres that hang beside the tree.
     let first_shape = 7;
     let meshes = [ball.geometry(first_shape + rows.len() as u32)];
-    let geometry = Geometry { spheres: &spheres, shapes: &rows, first_shape, meshes: &meshes, instances: &[HERE] };
+    let geometry =
+        Geometry { spheres: &spheres, shapes: &rows, first_shape, parts: &[], meshes: &meshes, instances: &[HERE] };
     let mut batch = Batch::random(800, 1.5, &mut numbers);
     batch.append(&Batch::beams(30, 1.5, &mut numbers));
     let brute = |batch: &Batch, ray: usize| {

@@ -4,7 +4,7 @@ use crate::args::{DiagnosticsForm, SceneArgs};
 use crate::failure::Failure;
 use crate::memory::human;
 use crate::shell::{Shell, counted};
-use scene_format::desc::{Material, MaterialRef};
+use scene_format::desc::{Material, MaterialRef, with_operands};
 use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
@@ -220,7 +220,7 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, kept: Option<&Kept>, she
 pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
     let mut files: Vec<&Path> = desc.includes.iter().map(|file| &**file).collect();
     let mut materials: Vec<&Material> = desc.materials.iter().map(|named| &named.material).collect();
-    for object in &desc.objects {
+    for object in with_operands(&desc.objects) {
         files.extend(object.value.file().map(|file| &*file.value));
         files.extend(object.value.placements().files().iter().map(|file| &*file.value));
         if let MaterialRef::Inline(material) = object.value.material() {

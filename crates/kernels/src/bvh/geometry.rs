@@ -3,6 +3,7 @@
 //! Render space is the world moved and scaled so that the scene is about 1 in size; every length here is an f32 in it.
 
 use crate::shapes::Row;
+use crate::shapes::csg::Part;
 use glam::DVec3;
 
 /// No primitive, or no instance: rays that leave no surface, spheres (which belong to no instance), and misses.
@@ -17,6 +18,8 @@ pub struct Geometry<'a> {
     pub shapes: &'a [ShapeGeometry],
     /// The id of shape 0, not below the number of spheres; anything where there are none.
     pub first_shape: u32,
+    /// The parts of all shapes that are made of several.
+    pub parts: &'a [Part],
     /// Every mesh once, however often it is placed.
     pub meshes: &'a [MeshGeometry<'a>],
     /// Where the meshes stand. A mesh without an instance is not in the scene.

@@ -118,6 +118,8 @@ pub struct Accel {
     top: TopBoxes,
     second: SecondBoxes,
     meshes: Vec<MeshRecord>,
+    /// Of the shapes that are made of several.
+    parts: Vec<crate::shapes::csg::Part>,
     spheres: u32,
     instances: u32,
     size: f32,
@@ -295,6 +297,7 @@ impl Accel {
             spheres: self.spheres,
             instances: self.records(),
             meshes: &self.meshes,
+            parts: &self.parts,
         }
     }
 

@@ -31,9 +31,9 @@ pub enum Pixel {
     Mean,
     /// The mean over those that hit something; this value where none does.
     MeanOfHits(f32),
-    /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive and instance; zero where that hits
-    /// nothing.
-    Nearest(fn(&Scene, u32, u32) -> u32),
+    /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive, instance and body
+    /// ([`Surface::body`]); zero where that hits nothing.
+    Nearest(fn(&Scene, u32, u32, u32) -> u32),
     /// Not of what camera rays hit: a number that the film has of each pixel.
     OfFilm(FilmNumber),
 }

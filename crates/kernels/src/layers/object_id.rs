@@ -9,7 +9,7 @@ impl PictureLayer for ObjectId {
     const NAME: &'static str = "object_id";
     const CHANNELS: &'static [&'static str] = &["Y"];
     // Between two numbers there is a third object, so they have no mean.
-    const PIXEL: Pixel = Pixel::Nearest(|scene, primitive, instance| {
+    const PIXEL: Pixel = Pixel::Nearest(|scene, primitive, instance, _| {
         let shape =
             || scene.shapes.get((primitive as usize).checked_sub(scene.spheres.len())?).map(|shape| shape.object);
         let sphere = || scene.spheres.get(primitive as usize).map(|sphere| sphere.object);

@@ -32,8 +32,8 @@ pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
 pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
-pub use shape::Shape;
-pub use shape::ShapeTable;
+pub use shape::{Operand, Shape, Solids, Step};
+pub use shape::{OperandRow, ShapeTable};
 pub use sphere::Sphere;
 pub use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
@@ -96,6 +96,8 @@ pub struct Scene {
     pub spheres: Vec<Sphere>,
     /// Curved shapes that are no spheres. Shape k has primitive id `spheres.len() + k`.
     pub shapes: Vec<Shape>,
+    /// What those of them are made of that are made of several.
+    pub solids: Solids,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
     /// Lights: the spheres, then the others.
@@ -145,8 +147,8 @@ impl Scene {
     }
 
     /// Rows of the 3x4 matrix from render space to the coordinates that a surface is written in, before its transforms;
-    /// `body`: the number of the sphere, behind the spheres that of the shape, behind those that of the instance;
-    /// `None`: to the world's. `None` where no pattern asks for it.
+    /// `body`: the number of the sphere, behind the spheres that of the shape, behind those that of the instance,
+    /// behind those that of a solid's operand; `None`: to the world's. `None` where no pattern asks for it.
     pub fn to_object(&self, body: Option<u32>) -> Option<[[f64; 4]; 3]> {
         let patterns = &self.tables.patterns;
         let entry = body.map_or(Some(0), |body| patterns.entry.get(body as usize).copied())?;

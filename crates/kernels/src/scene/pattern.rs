@@ -1,6 +1,6 @@
 //! Textures that are reckoned: where they are mapped to, two colours, and the parameters of each kind.
 
-use super::{Shape, Sphere};
+use super::{Operand, Shape, Sphere};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// What a pattern's coordinates are made of.
@@ -231,7 +231,7 @@ pub const STRIDE: u32 = 24;
 /// Which coordinates surfaces are written in. Nothing where no pattern asks for it.
 #[derive(Default)]
 pub struct Written {
-    /// Per sphere, behind them per shape, behind them per instance: which of `maps`.
+    /// Per sphere, behind them per shape, behind them per instance, behind them per operand of solids: which of `maps`.
     pub entry: Vec<u32>,
     /// From there to the world; the first is the world's own.
     pub maps: Vec<DAffine3>,
@@ -239,9 +239,16 @@ pub struct Written {
 
 impl Written {
     /// `of_instances`: which of the maps each instance has.
-    pub fn new(maps: Vec<DAffine3>, spheres: &[Sphere], shapes: &[Shape], of_instances: &[u32]) -> Self {
+    pub fn new(
+        maps: Vec<DAffine3>,
+        spheres: &[Sphere],
+        shapes: &[Shape],
+        of_instances: &[u32],
+        operands: &[Operand],
+    ) -> Self {
         let loose = spheres.iter().map(|s| s.coordinates).chain(shapes.iter().map(|s| s.coordinates));
-        let mut entry: Vec<u32> = loose.chain(of_instances.iter().copied()).collect();
+        let of_operands = operands.iter().map(|operand| operand.coordinates);
+        let mut entry: Vec<u32> = loose.chain(of_instances.iter().copied()).chain(of_operands).collect();
         // It is looked up even where nothing is.
         entry.resize(entry.len().max(1), 0);
         Written { entry, maps }
@@ -261,7 +268,8 @@ pub struct PatternTable {
     pub kinds: u32,
     /// Whether any goes by points in space.
     pub solid: bool,
-    /// Per sphere, behind them per shape, behind them per instance: which matrix of `to_object`.
+    /// Per sphere, behind them per shape, behind them per instance, behind them per operand of solids: which matrix of
+    /// `to_object`.
     pub entry: Vec<u32>,
     /// Rows of the 3x4 matrices from render space to the coordinates that something is written in, 12 numbers each; the
     /// first is to the world's.

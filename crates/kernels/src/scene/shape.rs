@@ -1,5 +1,6 @@
 //! Curved shapes that are no spheres (see [`crate::shapes`]).
 
+use crate::shapes::csg::{Operation, Part};
 use crate::shapes::{Row, UnitShape};
 use glam::{DAffine3, DVec3};
 
@@ -38,6 +39,47 @@ impl Shape {
     }
 }
 
+/// A shape that a solid is made of, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Operand {
+    /// What it is in its object space.
+    pub unit: UnitShape,
+    /// From there to render space.
+    pub placement: DAffine3,
+    /// Index into `Scene::materials`.
+    pub material: u32,
+    /// As [`Shape::coordinates`].
+    pub coordinates: u32,
+}
+
+/// How a solid is made, in postfix order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// One of [`Solids::operands`].
+    Operand(u32),
+    /// Of the two before it.
+    Operation(Operation),
+}
+
+/// What all solids of a scene are made of ([`crate::shapes::csg`]).
+#[derive(Clone, Debug, Default)]
+pub struct Solids {
+    /// The shapes.
+    pub operands: Vec<Operand>,
+    /// How they are put together.
+    pub steps: Vec<Step>,
+    /// The same as rays are tested with it.
+    pub parts: Vec<Part>,
+}
+
+/// An operand as the engine reads it.
+pub struct OperandRow {
+    /// Its own surface.
+    pub row: Row,
+    /// Its material.
+    pub material: u32,
+}
+
 /// Shapes as the engine reads them: index = primitive id less the number of spheres.
 #[derive(Default)]
 pub struct ShapeTable {
@@ -45,12 +87,25 @@ pub struct ShapeTable {
     pub rows: Vec<Row>,
     /// Their materials.
     pub material: Vec<u32>,
+    /// The parts of all solids.
+    pub parts: Vec<Part>,
+    /// Their operands.
+    pub operands: Vec<OperandRow>,
+    /// The number of the first operand as a body (`Surface::body`): behind those of the instances.
+    pub first_body: u32,
 }
 
 impl ShapeTable {
-    /// Of the shapes, in their order.
-    pub fn new(shapes: &[Shape]) -> Self {
+    /// Of the shapes, in their order. `first_body`: spheres, shapes and instances of the scene.
+    pub fn new(shapes: &[Shape], solids: &Solids, first_body: u32) -> Self {
+        let of = |operand: &Operand| OperandRow {
+            row: Row::new(&operand.unit, &operand.placement),
+            material: operand.material,
+        };
         ShapeTable {
+            parts: solids.parts.clone(),
+            operands: solids.operands.iter().map(of).collect(),
+            first_body,
             rows: shapes.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect(),
             material: shapes.iter().map(|shape| shape.material).collect(),
         }

@@ -9,18 +9,18 @@ use glam::{DVec2, DVec3};
 
 /// How R runs.
 #[derive(Clone, Copy)]
-struct Side {
+pub(super) struct Side {
     middle: f64,
-    slope: f64,
+    pub(super) slope: f64,
 }
 
 impl Side {
-    fn of([first, last, _]: &[f32; 3]) -> Self {
-        let [first, last] = [f64::from(*first), f64::from(*last)];
+    /// With these radii at z = -1 and 1.
+    pub(super) fn of([first, last]: [f64; 2]) -> Self {
         Side { middle: 0.5 * (first + last), slope: 0.5 * (last - first) }
     }
 
-    fn radius(self, z: f64) -> f64 {
+    pub(super) fn radius(self, z: f64) -> f64 {
         self.middle + self.slope * z
     }
 
@@ -32,7 +32,7 @@ impl Side {
     }
 
     /// Where the line is within the half of the double cone with R >= 0.
-    fn within(self, ray: &ObjectRay, on: bool) -> Option<Interval> {
+    pub(super) fn within(self, ray: &ObjectRay, on: bool) -> Option<Interval> {
         let [a, beta, gamma] = self.quadratic(ray, on);
         if a > 0.0 {
             return quadratic(a, beta, gamma);
@@ -55,6 +55,10 @@ impl Side {
     }
 }
 
+fn side(&[first, last, _]: &[f32; 3]) -> Side {
+    Side::of([f64::from(first), f64::from(last)])
+}
+
 fn flags(parameters: &[f32; 3]) -> u32 {
     parameters[2].to_bits()
 }
@@ -67,7 +71,7 @@ fn cap(side: Side, q: DVec3, flags: u32) -> Option<f64> {
 }
 
 pub(super) fn hit(parameters: &[f32; 3], ray: &ObjectRay, leaves: bool) -> Option<f64> {
-    let (side, flags) = (Side::of(parameters), flags(parameters));
+    let (side, flags) = (side(parameters), flags(parameters));
     if flags & CAPS == 0 {
         return open(side, ray, leaves);
     }
@@ -99,12 +103,12 @@ fn open(side: Side, ray: &ObjectRay, leaves: bool) -> Option<f64> {
 
 /// z and radii of its caps, where it has any.
 pub(super) fn faces(parameters: &[f32; 3]) -> [Option<(f64, [f64; 2])>; 2] {
-    let side = Side::of(parameters);
+    let side = side(parameters);
     [-1.0, 1.0].map(|z| (flags(parameters) & CAPS != 0 && side.radius(z) > 0.0).then(|| (z, [0.0, side.radius(z)])))
 }
 
 pub(super) fn surface(parameters: &[f32; 3], q: DVec3) -> OnUnit {
-    let (side, flags) = (Side::of(parameters), flags(parameters));
+    let (side, flags) = (side(parameters), flags(parameters));
     if let Some(z) = cap(side, q, flags) {
         // Seen from below right is where left is from above, but for upright axes, where right is +x for both.
         let r = side.radius(z);

@@ -8,7 +8,7 @@
 //! once to `f32`. The same function is called by all kernels for one ray at a time, hence the same bits at all levels
 //! and widths. A scalar `f64` operation takes as long as one in `f32`. Closed shapes are one primitive each: their hits
 //! are the ends of the interval in which the line is within all of their parts, so that no ray slips between cap and
-//! side.
+//! side. What is made of several ([`csg`]) is one primitive, too.
 //!
 //! A ray that leaves a shape knows it and starts on it but for a rounding: the part that it starts on is found from the
 //! point, and its root there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards; no
@@ -16,6 +16,8 @@
 
 mod capsule;
 mod cone;
+pub mod csg;
+mod cube;
 mod disk;
 mod sphere;
 
@@ -46,6 +48,23 @@ pub enum UnitShape {
         /// Half the distance between its centres.
         half: f64,
     },
+    /// About the origin, of side 1: a box that is an operand. Boxes by themselves are triangles.
+    Cube,
+    /// Made of others, in render space: a range of the parts of all solids. Its own map is not asked.
+    Solid(Solid),
+}
+
+/// What is made of other shapes ([`csg`]), in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solid {
+    /// The first of its parts among those of all solids, and how many they are.
+    pub parts: [u32; 2],
+    /// As well its steps ([`crate::scene::Step`]).
+    pub steps: [u32; 2],
+    /// As well its operands.
+    pub operands: [u32; 2],
+    /// A box that it lies in.
+    pub bounds: [DVec3; 2],
 }
 
 /// Bits of the third parameter of cones.
@@ -90,6 +109,8 @@ impl UnitShape {
     const CONE: u32 = 1;
     const CAPSULE: u32 = 2;
     const SPHERE: u32 = 3;
+    const CUBE: u32 = 4;
+    const SOLID: u32 = 5;
 
     fn numbers(&self) -> (u32, [f32; 3]) {
         match *self {
@@ -100,6 +121,10 @@ impl UnitShape {
                 (Self::CONE, [radii[0] as f32, radii[1] as f32, f32::from_bits(bits)])
             }
             UnitShape::Capsule { half } => (Self::CAPSULE, [half as f32, 0.0, 0.0]),
+            UnitShape::Cube => (Self::CUBE, [0.0; 3]),
+            UnitShape::Solid(Solid { parts: [first, count], .. }) => {
+                (Self::SOLID, [f32::from_bits(first), f32::from_bits(count), 0.0])
+            }
         }
     }
 
@@ -113,6 +138,8 @@ impl UnitShape {
                 (first * across - w.z).max(last * across + w.z)
             }
             UnitShape::Capsule { half } => w.length() + half * w.z.abs(),
+            UnitShape::Cube => 0.5 * w.abs().element_sum(),
+            UnitShape::Solid(Solid { bounds: [low, high], .. }) => (w * low).max(w * high).element_sum(),
         }
     }
 
@@ -121,7 +148,7 @@ impl UnitShape {
         match self {
             UnitShape::Disk { .. } => false,
             UnitShape::Cone { caps, .. } => *caps,
-            UnitShape::Sphere | UnitShape::Capsule { .. } => true,
+            UnitShape::Sphere | UnitShape::Capsule { .. } | UnitShape::Cube | UnitShape::Solid(_) => true,
         }
     }
 
@@ -163,9 +190,19 @@ impl Row {
 
     /// The least t > 0 at which the ray meets the shape; `leaves`: it starts on this very shape and is not met there.
     /// The direction need not be unit.
+    pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
+        self.hit_among(&[], origin, direction, leaves)
+    }
+
+    /// As [`hit`](Self::hit); `parts`: those of all solids.
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
     #[inline(never)]
-    pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
+    pub fn hit_among(&self, parts: &[csg::Part], origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
+        if self.kind == UnitShape::SOLID {
+            let [o, d] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
+            let t = csg::hit(self.parts(parts), o, d, leaves)? as f32;
+            return (t > 0.0 && t < f32::INFINITY).then_some(t);
+        }
         let map = self.object_from_render();
         let d = DVec3::from(direction.map(f64::from));
         let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.anchor);
@@ -175,10 +212,24 @@ impl Row {
             UnitShape::DISK => disk::hit(&self.parameters, &ray, leaves),
             UnitShape::CONE => cone::hit(&self.parameters, &ray, leaves),
             UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
+            UnitShape::CUBE => cube::hit(&ray, leaves),
             _ => sphere::hit(&ray, leaves),
         }?;
         let t = t as f32;
         (t > 0.0 && t < f32::INFINITY).then_some(t)
+    }
+
+    /// Of the parts of all solids its own, where it is a solid.
+    fn parts<'a>(&self, parts: &'a [csg::Part]) -> &'a [csg::Part] {
+        let [first, count] = [0, 1].map(|k| self.parameters[k].to_bits() as usize);
+        parts.get(first..first + count).unwrap_or(&[])
+    }
+
+    /// Where it is a solid: the operand whose surface is its own near a point of render space, among those of the
+    /// scene, and the unit normal there, outwards.
+    #[inline(never)]
+    pub fn on_solid(&self, parts: &[csg::Part], point: DVec3) -> Option<(u32, DVec3)> {
+        if self.kind == UnitShape::SOLID { csg::surface(self.parts(parts), point) } else { None }
     }
 
     /// The surface at a point of render space near the shape: point and outward unit normal in render space, texture
@@ -191,6 +242,7 @@ impl Row {
             UnitShape::DISK => disk::surface(&self.parameters, q),
             UnitShape::CONE => cone::surface(&self.parameters, q),
             UnitShape::CAPSULE => capsule::surface(&self.parameters, q),
+            UnitShape::CUBE => cube::surface(q),
             _ => sphere::surface(q),
         };
         OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }

@@ -41,11 +41,11 @@ fn kinds_lists_and_choices_become_types() {
     });
     let made = python::module(&schema);
     for expected in [
-        "Object = Union[\"BallItem\", Literal[\"Nothing\"]]\n",
+        "Object = Either[\"BallItem\", Literal[\"Nothing\"]]\n",
         "BallItem = TypedDict(\"BallItem\", {\"Ball\": \"Ball\"})\n",
-        "class _BallRequired(TypedDict):\n    radius: Union[float, str]\n",
+        "class _BallRequired(TypedDict):\n    radius: Either[float, str]\n",
         "class Ball(_BallRequired, total=False):\n    \"\"\"A ball.\n\n    radius: How large.\n    \"\"\"\n\n    \
-         center: Union[Sequence[float], Array]\n",
+         center: Either[Sequence[float], Array]\n",
         "class _SceneDictRequired(TypedDict):\n    objects: Sequence[Object]\n",
     ] {
         assert!(made.contains(expected), "{expected}\nis not in\n{made}");

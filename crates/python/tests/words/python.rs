@@ -15,7 +15,8 @@ Made of the schema (`tracer schema`); `UPDATE_EXPECT=1 cargo test -p tracer-pyth
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, TypedDict
+from typing import Union as Either
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from ._assets import Mesh as MeshArrays
 
     Array = npt.NDArray[Any]
-    File = Union[str, "os.PathLike[str]", Array, MeshArrays]
+    File = Either[str, "os.PathLike[str]", Array, MeshArrays]
 else:
     Array = Any
     File = Any
@@ -137,7 +138,7 @@ impl Made {
             Some("array") => {
                 let item = self.kind(&schema["items"]);
                 let list = format!("Sequence[{item}]");
-                if is_numbers(&item) { format!("Union[{list}, Array]") } else { list }
+                if is_numbers(&item) { format!("Either[{list}, Array]") } else { list }
             }
             Some("object") => self.object(schema),
             _ => "Any".to_owned(),
@@ -169,7 +170,7 @@ impl Made {
         let mut kinds: Vec<String> = Vec::new();
         for choice in choices {
             let kind = self.kind(choice);
-            let inner = kind.strip_prefix("Union[").and_then(|kind| kind.strip_suffix(']'));
+            let inner = kind.strip_prefix("Either[").and_then(|kind| kind.strip_suffix(']'));
             let parts = inner.map_or(vec![kind.clone()], parts);
             kinds.extend(parts.into_iter().filter(|part| !kinds.contains(part)).collect::<Vec<_>>());
         }
@@ -178,7 +179,7 @@ impl Made {
         }
         match kinds.as_slice() {
             [only] => only.clone(),
-            kinds => format!("Union[{}]", kinds.join(", ")),
+            kinds => format!("Either[{}]", kinds.join(", ")),
         }
     }
 }
@@ -205,20 +206,20 @@ fn parts(list: &str) -> Vec<String> {
 /// Whether arrays can stand for a list of these.
 fn is_numbers(kind: &str) -> bool {
     let words: Vec<&str> = kind.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-    let known = ["float", "int", "str", "Union", "Sequence", "Array", "RepeatItem", "PickItem"];
+    let known = ["float", "int", "str", "Either", "Sequence", "Array", "RepeatItem", "PickItem"];
     words.iter().any(|word| ["float", "int"].contains(word)) && words.iter().all(|word| known.contains(word))
 }
 
 /// A type as an alias holds it: names in quotes, as they may come later.
 fn forward(kind: &str) -> String {
-    let Some(inner) = kind.strip_prefix("Union[").and_then(|kind| kind.strip_suffix(']')) else {
+    let Some(inner) = kind.strip_prefix("Either[").and_then(|kind| kind.strip_suffix(']')) else {
         return kind.to_owned();
     };
     let quoted: Vec<String> = parts(inner)
         .into_iter()
         .map(|part| if part.starts_with("Literal[") { part } else { format!("\"{part}\"") })
         .collect();
-    format!("Union[{}]", quoted.join(", "))
+    format!("Either[{}]", quoted.join(", "))
 }
 
 fn prose(text: &Value) -> String {

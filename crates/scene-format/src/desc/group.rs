@@ -19,7 +19,7 @@ use crate::words::{Words, scene_struct};
 use std::sync::Arc;
 
 /// Groups within each other, at most.
-const MOST_NESTED: usize = 16;
+pub(crate) const MOST_NESTED: usize = 16;
 
 scene_struct! {
     /// Objects and lights that are moved and copied as one. What stands in it may be a group again, sixteen deep.

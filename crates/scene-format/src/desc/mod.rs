@@ -37,7 +37,7 @@ pub use cameras::NamedCamera;
 pub(crate) use cameras::{CameraChoice, Chosen};
 pub use effects::{Effects, PixelFilter, ToneMap};
 pub use group::group_fault;
-pub(crate) use group::{ITEMS, Objects};
+pub(crate) use group::{ITEMS, MOST_NESTED, Objects};
 pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;
 pub use lens::{Focus, ThinLens};
@@ -47,14 +47,15 @@ pub use materials::{
     Transparent,
 };
 pub use name::Name;
-pub use object::{Faulty, Object, cannot_shine};
+pub use object::{Faulty, Object, cannot_shine, with_operands};
 pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, HeightField, InlineMesh, Instances,
-    Lathe, Mesh, MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile,
-    Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
+    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField, InlineMesh,
+    Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, PathPoints, PlacementList,
+    PlacementPattern, Placements, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning,
+    Union, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

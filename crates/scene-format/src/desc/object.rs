@@ -1,8 +1,8 @@
 //! Objects: what is to be seen.
 
 use super::shapes::{
-    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, HeightField, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle,
-    Sphere, Torus, Tube,
+    Arrow, Capsule, Cone, Cylinder, Difference, Disk, Extrude, HeightField, Intersection, Lathe, Mesh, Operands,
+    Placements, Polygon, RectBox, Rectangle, Sphere, Torus, Tube, Union,
 };
 use super::{MaterialRef, Name, Transform, Vec3};
 use crate::codes;
@@ -174,4 +174,36 @@ shapes! {
     Polygon(Box<Polygon>);
     /// A triangle mesh from a file.
     Mesh(Mesh);
+    /// Closed shapes put together to one body.
+    Union(Box<Union>);
+    /// What closed shapes have in common: of two balls a lens.
+    Intersection(Box<Intersection>);
+    /// The first of several closed shapes without the others: a wall with a window, a bowl.
+    Difference(Box<Difference>);
+}
+
+impl Object {
+    /// The shapes that it is made of, where it is made of several.
+    pub fn operands(&self) -> Option<&Operands> {
+        match self {
+            Object::Union(solid) => Some(&solid.objects),
+            Object::Intersection(solid) => Some(&solid.objects),
+            Object::Difference(solid) => Some(&solid.objects),
+            _ => None,
+        }
+    }
+}
+
+/// Objects, each followed by what it is made of.
+pub fn with_operands(objects: &[Spanned<Object>]) -> impl Iterator<Item = &Spanned<Object>> {
+    let mut rest: Vec<&[Spanned<Object>]> = vec![objects];
+    std::iter::from_fn(move || {
+        loop {
+            let list = rest.pop()?;
+            let Some((first, others)) = list.split_first() else { continue };
+            rest.push(others);
+            rest.extend(first.value.operands().map(|operands| &operands.0[..]));
+            return Some(first);
+        }
+    })
 }

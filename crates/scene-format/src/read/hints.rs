@@ -155,7 +155,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Align", &["orient", "aligned", "align_to", "alignto", "rotate_to", "rotateto", "point_at", "reorient"]),
         ("FitTo", &["fit", "resize", "normalize", "normalise", "unitize", "scale_to", "scaleto", "dimensions"]),
         ("DropTo", &["drop", "ground", "place_on", "rest_on"]),
-        ("Group", &["union", "node", "collection", "merge", "shapegroup", "assembly"]),
+        ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
         ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps"]),
@@ -215,8 +215,9 @@ const OBJECTS: Hints = &[
          objects by a rule",
     ),
     (
-        &["difference", "intersection", "subtract", "csg", "boolean"],
-        "solids cannot be cut from each other: build it of parts, or name a mesh file in a `Mesh`",
+        &["csg", "boolean", "booleanmodifier", "solid"],
+        "closed shapes are put together by Union(objects: [..]) and cut by Intersection(objects: [..]) and \
+         Difference(objects: [..]), the first without the others",
     ),
     (
         &["import", "link", "reference", "scene"],

@@ -3,7 +3,7 @@
 
 use super::Reader;
 use crate::codes;
-use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene, cannot_shine};
+use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene, cannot_shine, with_operands};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::path::shown;
 use std::collections::HashSet;
@@ -50,7 +50,8 @@ impl Reader<'_> {
             } else {
                 sides -= sides_of(&object.value);
             }
-            faults.extend(without_light(object, &shining));
+            let with_operands = with_operands(std::slice::from_ref(object)).enumerate();
+            faults.extend(with_operands.filter_map(|(k, part)| without_light(part, k > 0, &shining)));
             // What is repeated is wrong many times, and told once.
             for fault in faults {
                 if told.insert((fault.span, fault.code)) {
@@ -73,15 +74,17 @@ fn sides_of(object: &Object) -> usize {
     if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count }
 }
 
-/// The fault of a shape with curved sides that is to shine.
-fn without_light(object: &Spanned<Object>, shining: &HashSet<&str>) -> Option<Diagnostic> {
+/// The fault of a shape with curved sides, or in a solid, that is to shine.
+fn without_light(object: &Spanned<Object>, in_solid: bool, shining: &HashSet<&str>) -> Option<Diagnostic> {
     let at = match object.value.material() {
-        _ if object.value.shines() => return None,
+        _ if object.value.shines() && !in_solid => return None,
         MaterialRef::Inline(material) => material.value.shines().map(|_| material.span),
         MaterialRef::Named { name, span } => shining.contains(&**name).then_some(*span),
         MaterialRef::Default => None,
     };
-    at.map(|at| cannot_shine(&format!("a {}", object.value.kind().to_lowercase()), at))
+    let kind = object.value.kind().to_lowercase();
+    let article = if kind.starts_with('i') { "an" } else { "a" };
+    at.map(|at| cannot_shine(&if in_solid { "a part of a solid".to_owned() } else { format!("{article} {kind}") }, at))
 }
 
 fn of_lathe(lathe: &Lathe, span: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {

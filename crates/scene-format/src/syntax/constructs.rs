@@ -221,10 +221,17 @@ const SHAPES: &[Block] = &[
 /// Other blocks of it.
 const POV: &[Block] = &[
     (
-        &["union", "merge", "object", "difference", "intersection"],
-        "Group(objects: [..]); solids cannot be cut from each other",
-        "{ Group = { objects = [..] } }; solids cannot be cut from each other",
+        &["union", "merge"],
+        "Union(objects: [..]), which has no inner walls, as `merge`",
+        "{ Union = { objects = [..] } }, which has no inner walls, as `merge`",
     ),
+    (&["intersection"], "Intersection(objects: [..])", "{ Intersection = { objects = [..] } }"),
+    (
+        &["difference"],
+        "Difference(objects: [..]), the first without the others",
+        "{ Difference = { objects = [..] } }, the first without the others",
+    ),
+    (&["object"], "Group(objects: [..])", "{ Group = { objects = [..] } }"),
     (
         &["light_source"],
         "SphereLight(center: (x, y, z), radius: .., power: ..) in `lights`",

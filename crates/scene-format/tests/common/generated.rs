@@ -1,6 +1,7 @@
 //! Scenes by chance, of every word that a description has.
 
 use super::Random;
+use super::solid::solid;
 use scene_format::SceneDesc;
 use scene_format::desc::*;
 use scene_format::diagnostic::{Span, Spanned};
@@ -17,11 +18,11 @@ fn number(random: &mut Random, low: f64, high: f64) -> f64 {
     }
 }
 
-fn length(random: &mut Random) -> f64 {
+pub(super) fn length(random: &mut Random) -> f64 {
     number(random, 1e-9, 1e9).max(1e-9)
 }
 
-fn vector(random: &mut Random) -> Vec3 {
+pub(super) fn vector(random: &mut Random) -> Vec3 {
     [(); 3].map(|()| number(random, -1e6, 1e6))
 }
 
@@ -169,7 +170,7 @@ fn inline_mesh(random: &mut Random) -> MeshSource {
     MeshSource::Inline(Arc::new(InlineMesh { points, faces }.into()))
 }
 
-fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {
+pub(super) fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {
     (0..random.below(4)).map(|_| transform(random).into()).collect()
 }
 
@@ -196,7 +197,7 @@ fn pattern(random: &mut Random) -> PlacementPattern {
     }
 }
 
-fn name(random: &mut Random) -> Name {
+pub(super) fn name(random: &mut Random) -> Name {
     (random.below(3) == 0).then(|| text(random)).into()
 }
 
@@ -295,7 +296,8 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
-        let mut object = match random.below(16) {
+        let mut object = match random.below(17) {
+            16 => solid(random, material, placements, &material_ref, 2),
             15 => Object::HeightField(Box::new(HeightField {
                 file: PathBuf::from(text(random)).into(),
                 size: [(); 3].map(|()| length(random)).into(),

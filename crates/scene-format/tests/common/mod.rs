@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 pub mod generated;
+mod solid;
 
 use scene_format::{Diagnostic, LoadError, Loaded, Severity, Syntax, load_str};
 use std::path::Path;

@@ -16,15 +16,15 @@ use tracer_kernels::shapes::UnitShape;
 use tracer_mesh::shapes::of_object;
 
 /// An object with curved sides, as it is written.
-struct Written {
-    unit: UnitShape,
+pub(super) struct Written {
+    pub(super) unit: UnitShape,
     /// From object space to where it is before its transforms.
-    local: DAffine3,
-    noun: &'static str,
+    pub(super) local: DAffine3,
+    pub(super) noun: &'static str,
 }
 
 /// The shape of an object with curved sides.
-fn written(object: &Object) -> Option<Written> {
+pub(super) fn written(object: &Object) -> Option<Written> {
     match object {
         Object::Sphere(sphere) => {
             let matrix3 = DMat3::from_diagonal(DVec3::splat(sphere.radius.value));

@@ -5,7 +5,7 @@
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
-use scene_format::desc::{Albedo, BlinnPhong, Material, MaterialRef};
+use scene_format::desc::{Albedo, BlinnPhong, Material, MaterialRef, with_operands};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeSet;
@@ -38,7 +38,7 @@ struct Loud<'d> {
 /// picture by its path.
 pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>, diagnostics: &mut Diagnostics) {
     let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
-    let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
+    let inline = with_operands(&desc.objects).filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => Some((None, &material.value)),
         _ => None,
     });

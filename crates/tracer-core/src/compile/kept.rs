@@ -139,6 +139,7 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
         add(bytemuck::bytes_of(&shape.row));
         [shape.lower, shape.upper].iter().for_each(|corner| add(bytemuck::cast_slice(corner)));
     }
+    add(bytemuck::cast_slice(geometry.parts));
     add(&geometry.first_shape.to_le_bytes());
     // All meshes of a scene share their positions.
     let mut positions: Option<&[[f32; 3]]> = None;

@@ -145,11 +145,21 @@ impl<'a> MaterialBuilder<'a> {
 
     /// The index of what an object of this number names.
     pub fn resolve(&mut self, reference: &MaterialRef, number: u32, diagnostics: &mut Diagnostics) -> u32 {
+        self.resolve_as(reference, || format!("objects[{number}].material"), diagnostics)
+    }
+
+    /// As [`resolve`](Self::resolve), with the name of a material that is written where it is used.
+    pub fn resolve_as(
+        &mut self,
+        reference: &MaterialRef,
+        name: impl FnOnce() -> String,
+        diagnostics: &mut Diagnostics,
+    ) -> u32 {
         match reference {
             MaterialRef::Default => self.default_material(),
             MaterialRef::Inline(material) => {
                 let base = self.desc.base_dir.clone();
-                self.add(&material.value, Some(&base), || format!("objects[{number}].material"))
+                self.add(&material.value, Some(&base), name)
             }
             MaterialRef::Named { name, span } => self.named.get(&**name).copied().unwrap_or_else(|| {
                 diagnostics.push(

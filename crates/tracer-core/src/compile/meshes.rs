@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
-use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Shape, Triangles};
+use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Shape, Solids, Triangles};
 use tracer_mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 
 /// Which material each object of triangles has.
@@ -319,7 +319,7 @@ impl Built {
         &self,
         acceleration: bvh::Acceleration,
         spheres: &[bvh::SphereGeometry],
-        shapes: &[Shape],
+        (shapes, solids): (&[Shape], &Solids),
         first_shape: u32,
         materials: &[Material],
         kept: Option<&Kept>,
@@ -339,7 +339,7 @@ impl Built {
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
         let placed: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
-        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, meshes, instances };
+        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, parts: &solids.parts, meshes, instances };
         build_tree(kept, &geometry, acceleration, &self.ranks(shapes, materials))
     }
 

@@ -3,6 +3,7 @@
 
 mod assets;
 mod camera;
+mod csg;
 mod curved;
 mod energy;
 mod environment;
@@ -41,7 +42,7 @@ use std::time::Instant;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::{
     Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, Shape, ShapeTable,
-    Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -99,6 +100,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let loaded = meshes::load(desc, sources, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
     let mut curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
+    let solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let mattes = Mattes::of(desc, builder.names());
@@ -119,7 +121,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
-    let frame = Frame::choose(eye, &marks(&curved, &placed, look_at));
+    let frame = Frame::choose(eye, &marks(&curved, &solid_objects, &placed, look_at));
     let camera = camera::camera(desc, &frame);
     unmeant::far_view(desc, &camera, &frame, &mut diagnostics);
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
@@ -137,7 +139,11 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     // The world's own coordinates are the first.
     let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv);
     let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
-    let (spheres, shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
+    let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
+    let mut solids = Solids::default();
+    for object in &solid_objects {
+        object.build(&frame, &mut shapes, &mut solids, written.as_mut());
+    }
     let parts = meshes::Parts {
         desc,
         loaded: &loaded,
@@ -154,21 +160,31 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
-    let written =
-        written.map_or_else(Written::default, |maps| Written::new(maps, &spheres, &shapes, &built.coordinates));
+    let written = written.map_or_else(Written::default, |maps| {
+        Written::new(maps, &spheres, &shapes, &built.coordinates, &solids.operands)
+    });
+    let first_body = (spheres.len() + shapes.len() + built.instances.len()) as u32;
     let pattern_table = PatternTable::new(patterns, &frame, written);
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
     let kept = sources.kept;
-    let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
-        .map_err(|message| CompileError { diagnostics: vec![*message] })?;
+    let accel = build_tree(
+        desc.render.acceleration,
+        &spheres,
+        sphere_table.in_tree,
+        (&shapes, &solids),
+        &built,
+        &materials,
+        kept,
+    )
+    .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
         Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
+            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, (&shapes, &solids), &built, &materials, kept)
                 .map_err(|message| CompileError { diagnostics: vec![*message] })?
                 .map(|accel| boxes_of(&accel))
         }
@@ -201,7 +217,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         spheres,
         tables: Tables {
             spheres: sphere_table,
-            shapes: ShapeTable::new(&shapes),
+            shapes: ShapeTable::new(&shapes, &solids, first_body),
             materials: material_table,
             lights: light_table,
             textures: TextureTable::new(pictures, &uses),
@@ -209,6 +225,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
             instances: instance_table,
         },
         shapes,
+        solids,
         materials,
         lights,
         meshes: built.meshes,
@@ -250,8 +267,9 @@ pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
 }
 
 /// One point per object near what the camera looks at, on its surface or in its box.
-fn marks(curved: &[Curved], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
-    curved.iter().flat_map(|object| object.marks(look_at)).chain(placed.marks(look_at)).collect()
+fn marks(curved: &[Curved], solids: &[csg::SolidObject], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
+    let of_solids = solids.iter().flat_map(|object| object.marks(look_at));
+    curved.iter().flat_map(|object| object.marks(look_at)).chain(of_solids).chain(placed.marks(look_at)).collect()
 }
 
 /// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved
@@ -294,7 +312,7 @@ fn build_tree(
     acceleration: Acceleration,
     spheres: &[Sphere],
     in_tree: usize,
-    shapes: &[Shape],
+    (shapes, solids): (&[Shape], &Solids),
     built: &meshes::Built,
     materials: &[Material],
     kept: Option<&Kept>,
@@ -305,10 +323,12 @@ fn build_tree(
     let acceleration = self::acceleration(acceleration);
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    built.tree(acceleration, &hung, shapes, spheres.len() as u32, materials, kept).map(Some).map_err(|error| {
-        Box::new(
-            Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
-                .hint("bring the sizes and distances of the objects closer together"),
-        )
-    })
+    built.tree(acceleration, &hung, (shapes, solids), spheres.len() as u32, materials, kept).map(Some).map_err(
+        |error| {
+            Box::new(
+                Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
+                    .hint("bring the sizes and distances of the objects closer together"),
+            )
+        },
+    )
 }

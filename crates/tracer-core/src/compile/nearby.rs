@@ -1,7 +1,7 @@
 //! Where a missing file may be: a file of its name, or of nearly its name, near the scene.
 
 use scene_format::codes;
-use scene_format::desc::{Material, MaterialRef};
+use scene_format::desc::{Material, MaterialRef, with_operands};
 use scene_format::diagnostic::{Edit, Source, Span, Spanned};
 use scene_format::{Diagnostics, SceneDesc, nearest};
 use std::collections::{BTreeMap, VecDeque};
@@ -59,7 +59,7 @@ pub fn by_place(desc: &SceneDesc) -> BTreeMap<Span, &Path> {
 
 /// All files that the scene names, in order of mention, also where it was built in code.
 pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
-    let of_objects = desc.objects.iter().flat_map(|object| {
+    let of_objects = with_operands(&desc.objects).flat_map(|object| {
         let file = object.value.file();
         let texture = match object.value.material() {
             MaterialRef::Inline(material) => texture_file(&material.value),

@@ -135,6 +135,12 @@ fn of_rectangle(rectangle: &Rectangle) -> DAffine3 {
     }
 }
 
+/// A box as an operand of a solid.
+pub(super) fn cube(object: &Object) -> Option<super::curved::Written> {
+    let Object::Box(cuboid) = object else { return None };
+    Some(super::curved::Written { unit: tracer_kernels::shapes::UnitShape::Cube, local: of_box(cuboid), noun: "box" })
+}
+
 /// From the unit cube to a box.
 fn of_box(cuboid: &RectBox) -> DAffine3 {
     DAffine3 {

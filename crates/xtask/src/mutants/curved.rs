@@ -3,6 +3,7 @@
 use super::{Mutant, proofs, suite};
 
 const CONE: &str = "crates/kernels/src/shapes/cone.rs";
+const CSG: &str = "crates/kernels/src/shapes/csg.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -51,8 +52,22 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "shapes-in-the-tree-are-nowhere-left",
         file: "crates/kernels/src/bvh/kernels/leaves.rs",
-        find: "leaf.row.hit(origin, direction, leaf.ids[0] == from)",
-        replace: "leaf.row.hit(origin, direction, leaf.ids[1] == from)",
+        find: "leaf.row.hit_among(parts, origin, direction, leaf.ids[0] == from)",
+        replace: "leaf.row.hit_among(parts, origin, direction, leaf.ids[1] == from)",
         caught_by: suite("shapes", &["the_tree"]),
+    },
+    Mutant {
+        name: "rays-start-on-one-of-two-faces",
+        file: CSG,
+        find: "cosine.abs() >= ALONG",
+        replace: "cosine.abs() >= 2.0",
+        caught_by: suite("solids", &["there_are_no_inner_walls"]),
+    },
+    Mutant {
+        name: "cuts-face-the-wrong-way",
+        file: CSG,
+        find: "outward: if sides[0] { -self.normal[k] } else { self.normal[k] }, sign })",
+        replace: "outward: self.normal[k], sign })",
+        caught_by: suite("solids", &["hits_are_the_first"]),
     },
 ];

@@ -23,6 +23,7 @@ mod report;
 pub mod rooms;
 pub mod shining;
 mod shrink;
+mod solids;
 pub mod squares;
 pub mod trial;
 mod view;

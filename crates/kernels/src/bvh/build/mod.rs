@@ -173,7 +173,7 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
     let depth = world_plan.map_or(0, |plan| plan.depth) + below;
     // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
     assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
-    let table_bytes = meshes.len() * size_of::<MeshRecord>();
+    let table_bytes = meshes.len() * size_of::<MeshRecord>() + size_of_val(geometry.parts);
     let coplanar = Coplanar::find(geometry, ranks);
     let stats = AccelStats {
         triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
@@ -195,6 +195,7 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
         top,
         second,
         meshes,
+        parts: geometry.parts.to_vec(),
         spheres: geometry.spheres.len() as u32,
         instances: instances as u32,
         size: size_of_scene(&world.contents.bounds),

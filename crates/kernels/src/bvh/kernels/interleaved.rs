@@ -229,7 +229,7 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
                 let mut hits = if leaf.is_shape() {
                     // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
                     let leaf = unsafe { item::<Shape>(tree, node & Ref::UNIT) };
-                    shape(leaf, o, d, flight.from, flight.t)
+                    shape(leaf, tree.parts, o, d, flight.from, flight.t)
                 } else {
                     spheres4(isa, leaf, o, d, flight.from, flight.t)
                 };

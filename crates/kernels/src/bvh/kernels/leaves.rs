@@ -5,6 +5,7 @@ use super::super::layout::{Parts4, Shape, Spheres4, Triangles4};
 use super::super::ray_space::{PAD, RaySpace};
 use super::super::triangle::{SLACK, SLACK_OF_ZERO};
 use super::isa::Isa;
+use crate::shapes::csg::Part;
 
 /// Candidates of a leaf: bit i of `mask` set where `t[i]` is a hit in (0, limit].
 pub struct LeafHits {
@@ -269,10 +270,18 @@ pub fn spheres4<I: Isa>(
 }
 
 /// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves. One function for all
-/// levels and widths ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits.
+/// levels and widths ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits. `parts`: those of all
+/// shapes that are made of several.
 #[inline(always)]
-pub fn shape(leaf: &Shape, origin: [f32; 3], direction: [f32; 3], from: u32, limit: f32) -> Option<LeafHits> {
-    let t = leaf.row.hit(origin, direction, leaf.ids[0] == from)?;
+pub fn shape(
+    leaf: &Shape,
+    parts: &[Part],
+    origin: [f32; 3],
+    direction: [f32; 3],
+    from: u32,
+    limit: f32,
+) -> Option<LeafHits> {
+    let t = leaf.row.hit_among(parts, origin, direction, leaf.ids[0] == from)?;
     (t <= limit).then_some(LeafHits { mask: 1, t: [t; 4] })
 }
 

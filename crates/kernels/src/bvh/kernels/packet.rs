@@ -374,7 +374,7 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             let mut hits = if leaf.is_shape() {
                 // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
                 let leaf = unsafe { item::<Shape>(self.tree, unit) };
-                shape(leaf, o, d, self.from.0[lane], self.t.0[lane])
+                shape(leaf, self.tree.parts, o, d, self.from.0[lane], self.t.0[lane])
             } else {
                 spheres4(self.isa, leaf, o, d, self.from.0[lane], self.t.0[lane])
             };

@@ -4,6 +4,7 @@ use super::super::geometry::NONE;
 use super::super::layout::InstanceRecord;
 use super::super::{Hits, Occlusion, Rays};
 use super::packet::gather;
+use crate::shapes::csg::Part;
 use std::ops::Range;
 
 /// A tree as the kernels see it.
@@ -22,6 +23,8 @@ pub struct TreeView<'a> {
     pub spheres: u32,
     pub instances: &'a [InstanceRecord],
     pub meshes: &'a [MeshRecord],
+    /// The parts of all shapes that are made of several.
+    pub parts: &'a [Part],
 }
 
 /// A mesh as the kernels see it.

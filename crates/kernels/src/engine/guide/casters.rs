@@ -2,6 +2,7 @@
 //! aimed.
 
 use crate::scene::{NONE, Scene};
+use crate::shapes::{Solid, UnitShape};
 use glam::{DMat3, DVec3};
 
 /// A caster, or several that lie together.
@@ -47,7 +48,13 @@ impl Casters {
             }
         }
         for (id, shape) in scene.shapes.iter().enumerate() {
-            let reflectance = passes_on(scene, shape.material);
+            let reflectance = match shape.unit {
+                UnitShape::Solid(Solid { operands: [first, count], .. }) => (first..first + count)
+                    .filter_map(|k| scene.solids.operands.get(k as usize))
+                    .map(|operand| passes_on(scene, operand.material))
+                    .fold(0.0, f64::max),
+                _ => passes_on(scene, shape.material),
+            };
             if reflectance > 0.0 {
                 let [low, high] = shape.bounds();
                 let caster = Caster { center: (low + high) * 0.5, radius: 0.5 * low.distance(high), reflectance };

@@ -39,6 +39,8 @@ pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &
             let slot = (slot & path::SLOT) as usize;
             samples.hits[slot / ITEM_PIXELS] |= u64::from(bits >> lane & 1) << (slot % ITEM_PIXELS);
         }
+        let mut bodies = [0; MOST_LANES];
+        s.body.store(&mut bodies);
         let (mut sum, mut nearest) = (0, 0);
         for layer in layers.iter() {
             let Definition { channels, pixel, .. } = definition(layer);
@@ -58,7 +60,8 @@ pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &
                     for (lane, &slot) in slots.iter().enumerate() {
                         if bits >> lane & 1 == 1 {
                             let (primitive, instance) = (hits.primitive[i + lane], hits.instance[i + lane]);
-                            samples.nearest[nearest][(slot & path::SLOT) as usize] = number(scene, primitive, instance);
+                            samples.nearest[nearest][(slot & path::SLOT) as usize] =
+                                number(scene, primitive, instance, bodies[lane]);
                         }
                     }
                     nearest += 1;

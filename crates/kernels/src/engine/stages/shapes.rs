@@ -6,6 +6,7 @@ use crate::bvh::Accel;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Scene, ShapeTable};
+use crate::shapes::OnUnit;
 use glam::DVec3;
 
 /// The most lanes that there are.
@@ -30,7 +31,7 @@ pub fn on_shapes<F: Lanes>(
         o.store(&mut at.origin[axis]);
         d.store(&mut at.direction[axis]);
     }
-    let found = find(&scene.tables.shapes, &at, mask.bits());
+    let found = find(&scene.tables.shapes, scene.tables.spheres.len, &at, mask.bits());
     let p = V3(F::load(&found.p[0]), F::load(&found.p[1]), F::load(&found.p[2]));
     let n = V3(F::load(&found.n[0]), F::load(&found.n[1]), F::load(&found.n[2]));
     let outside = F::M::from_bits(found.outside);
@@ -52,7 +53,7 @@ pub fn on_shapes<F: Lanes>(
         v: F::load(&found.uv[1]),
         material: F::U::load(&found.material),
         light: F::U::splat(0),
-        body: index + F::U::splat(scene.tables.spheres.len),
+        body: F::U::load(&found.body),
     }
 }
 
@@ -70,13 +71,14 @@ struct Found {
     n: [[f32; MOST]; 3],
     uv: [[f32; MOST]; 2],
     material: [u32; MOST],
+    body: [u32; MOST],
     outside: u32,
 }
 
 #[inline(never)]
-fn find(table: &ShapeTable, at: &At, mut lanes: u32) -> Found {
-    let zero = [0.0; MOST];
-    let mut found = Found { p: [zero; 3], n: [zero; 3], uv: [zero; 2], material: [0; MOST], outside: 0 };
+fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
+    let (zero, none) = ([0.0; MOST], [0; MOST]);
+    let mut found = Found { p: [zero; 3], n: [zero; 3], uv: [zero; 2], material: none, body: none, outside: 0 };
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize & (MOST - 1);
         lanes &= lanes - 1;
@@ -84,7 +86,16 @@ fn find(table: &ShapeTable, at: &At, mut lanes: u32) -> Found {
         let (Some(row), Some(&material)) = (table.rows.get(index), table.material.get(index)) else { continue };
         let of = |columns: &[[f32; MOST]; 3]| DVec3::from([0, 1, 2].map(|axis: usize| f64::from(columns[axis][lane])));
         let direction = of(&at.direction);
-        let on = row.surface(of(&at.origin) + f64::from(at.t[lane]) * direction);
+        let point = of(&at.origin) + f64::from(at.t[lane]) * direction;
+        let (mut body, mut material) = (spheres + at.index[lane], material);
+        let on = match row.on_solid(&table.parts, point) {
+            None => row.surface(point),
+            Some((operand, n)) => {
+                let Some(of) = table.operands.get(operand as usize) else { continue };
+                (body, material) = (table.first_body + operand, of.material);
+                OnUnit { n, ..of.row.surface(point) }
+            }
+        };
         for axis in 0..3 {
             found.p[axis][lane] = on.q[axis] as f32;
             found.n[axis][lane] = on.n[axis] as f32;
@@ -92,6 +103,7 @@ fn find(table: &ShapeTable, at: &At, mut lanes: u32) -> Found {
         found.uv[0][lane] = on.uv.x as f32;
         found.uv[1][lane] = on.uv.y as f32;
         found.material[lane] = material;
+        found.body[lane] = body;
         found.outside |= u32::from(on.n.dot(direction) < 0.0) << lane;
     }
     found

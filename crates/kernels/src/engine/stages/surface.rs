@@ -34,7 +34,7 @@ pub struct Surface<F: Lanes> {
     /// Light + 1, or 0.
     pub light: F::U,
     /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the
-    /// instance.
+    /// instance, behind those that of a solid's operand.
     pub body: F::U,
 }
 

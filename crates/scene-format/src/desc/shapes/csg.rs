@@ -1,0 +1,237 @@
+//! Constructive solid geometry: closed shapes put together, what they have in common, one without others.
+
+use super::Placements;
+use crate::codes;
+use crate::desc::{Cone, Cylinder, Faulty, ITEMS, MOST_NESTED, MaterialRef, Name, Object, ShapeWords, Transform};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::files::FileKind;
+use crate::form::Form;
+use crate::read::Reader;
+use crate::schema::{FieldDef, Rule, Type};
+use crate::tree::{Item, Kind};
+use crate::words::{Told, Words, scene_struct};
+
+/// Shapes that one solid is made of, at most, those of solids in it counted.
+const MOST_OPERANDS: usize = 64;
+
+/// The shapes that a solid is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operands(pub Vec<Spanned<Object>>);
+
+impl Words for Operands {
+    const TYPE: Type = Type::List(&Type::Later(|| Type::Enum(&Object::DEF)));
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if reader.groups >= MOST_NESTED {
+            let message = format!("groups and solids stand more than {MOST_NESTED} deep");
+            reader.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
+            return None;
+        }
+        reader.groups += 1;
+        let few = if item.kind() == Kind::List { item.children().take(MOST_OPERANDS).count() } else { 0 };
+        let (mut list, mut whole) = (Vec::with_capacity(few), true);
+        let read = reader.items(item, at, |reader, child| {
+            let Some(chosen) = reader.variant(child, &ITEMS) else {
+                whole = false;
+                return;
+            };
+            if let kind @ ("Group" | "Include") = chosen.variant.name {
+                whole = false;
+                let what = if kind == "Group" { "a group" } else { "an include" };
+                reader.report(no_operand(child.head(), format!("{what} is no closed shape"), CLOSED));
+                return;
+            }
+            match Object::of_chosen(reader, &chosen) {
+                Some(value) => list.push(Spanned { value, span: child.span() }),
+                None => whole = false,
+            }
+        });
+        reader.groups -= 1;
+        read?;
+        // Of what could not be read nobody knows whether the rest would do.
+        whole.then_some(Operands(list))
+    }
+
+    fn form(&self, all: bool) -> Form {
+        Form::list(self.0.iter().map(|object| object.value.form(all)))
+    }
+}
+
+scene_struct! {
+    /// Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has
+    /// the material of the shape that it is of, and its texture coordinates. It cannot shine.
+    pub struct Union as "Union", "a union" {
+        /// The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`,
+        /// `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each
+        /// other counted. Where surfaces coincide that of the first shows.
+        objects: Operands;
+        /// The material of those shapes in it that have none of their own.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
+        /// `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
+        /// whole, by this name.
+        name: Name = Name::default();
+    }
+}
+
+scene_struct! {
+    /// What closed shapes have in common: of two balls a lens. Every surface has the material of the shape that it is
+    /// of, and its texture coordinates. It cannot shine.
+    pub struct Intersection as "Intersection", "an intersection" {
+        /// The shapes, as those of a `Union`. Where surfaces coincide that of the first shows.
+        objects: Operands;
+        /// The material of those shapes in it that have none of their own.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
+        /// `about` are about the origin. `DropTo` and `FitTo` go by what the boxes of the shapes have in common.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
+        /// whole, by this name.
+        name: Name = Name::default();
+    }
+}
+
+scene_struct! {
+    /// The first of several closed shapes without the others: a wall with a window, a bowl. Where it is cut the surface
+    /// is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It cannot
+    /// shine.
+    pub struct Difference as "Difference", "a difference" {
+        /// The shapes, as those of a `Union`: first what is cut, then what is taken away. Where both have a face in
+        /// one place, and what is taken away lies behind it, it is gone: no skin is left.
+        objects: Operands;
+        /// The material of those shapes in it that have none of their own.
+        material: MaterialRef = MaterialRef::Default;
+        /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
+        /// `about` are about the origin. `DropTo` and `FitTo` go by the box of the first shape.
+        transform: Vec<Spanned<Transform>> = Vec::new();
+        /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+        placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
+        /// whole, by this name.
+        name: Name = Name::default();
+    }
+}
+
+impl Told for Union {
+    const ALSO: &'static [&'static str] = &["merge", "fuse", "booleanunion"];
+    const EXAMPLE: &'static str = "Union(objects: [Box(size: (2, 0.3, 1)), Cylinder(to: (0, 1, 0), radius: 0.3)])";
+}
+
+impl Told for Intersection {
+    const ALSO: &'static [&'static str] = &["intersect", "booleanintersect", "common"];
+    const EXAMPLE: &'static str = "Intersection(material: Transparent(ior: 1.5), objects: [\n    \
+         Sphere(center: (0, 0, -2), radius: 2.2),\n    Sphere(center: (0, 0, 2), radius: 2.2),\n])";
+}
+
+impl Told for Difference {
+    const ALSO: &'static [&'static str] = &["subtract", "subtraction", "booleandifference", "cut", "minus"];
+    const EXAMPLE: &'static str = "Difference(objects: [\n    Box(size: (3, 2, 0.2)),\n    \
+         Box(size: (1, 1, 1), material: Diffuse(albedo: (0.8, 0.3, 0.2))),\n])";
+}
+
+impl ShapeWords for Union {
+    const MANY: &'static str = "unions";
+    const SHINES: bool = false;
+}
+
+impl ShapeWords for Intersection {
+    const MANY: &'static str = "intersections";
+    const SHINES: bool = false;
+}
+
+impl ShapeWords for Difference {
+    const MANY: &'static str = "differences";
+    const SHINES: bool = false;
+}
+
+impl Faulty for Union {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        faults(&self.objects, "union", span)
+    }
+}
+
+impl Faulty for Intersection {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        faults(&self.objects, "intersection", span)
+    }
+}
+
+impl Faulty for Difference {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        faults(&self.objects, "difference", span)
+    }
+}
+
+const CLOSED: &str =
+    "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection` or `Difference`";
+
+fn no_operand(at: Span, message: String, expected: &str) -> Diagnostic {
+    Diagnostic::error(codes::NO_OPERAND, at, message).expected(expected)
+}
+
+/// What is wrong with the shapes of a solid.
+fn faults(objects: &Operands, noun: &str, span: Span) -> Vec<Diagnostic> {
+    let count = count(objects);
+    if count > MOST_OPERANDS {
+        let message = format!("the {noun} is made of {count} shapes");
+        return vec![Diagnostic::error(codes::TOO_MUCH, span, message).expected(format!("{MOST_OPERANDS} at most"))];
+    }
+    let mut found = Vec::new();
+    collect(objects, noun, span, &mut found);
+    found
+}
+
+fn count(objects: &Operands) -> usize {
+    objects.0.iter().map(|object| object.value.operands().map_or(1, count)).sum()
+}
+
+fn collect(objects: &Operands, noun: &str, span: Span, found: &mut Vec<Diagnostic>) {
+    if objects.0.is_empty() {
+        found.push(no_operand(span, format!("the {noun} is made of nothing"), "at least one shape in `objects`"));
+    }
+    for object in &objects.0 {
+        let at = if object.span == Span::NONE { span } else { object.span };
+        if let Some(inner) = object.value.operands() {
+            collect(inner, &object.value.kind().to_lowercase(), at, found);
+        } else if let Some((why, hint)) = unfit(&object.value) {
+            found.push(no_operand(at, why, CLOSED).hint(hint));
+            continue;
+        } else {
+            found.extend(object.value.faults(at));
+        }
+        if *object.value.placements() != Placements::One {
+            let message = format!("a shape in a {noun} has no copies: its `placements` are not empty");
+            let fault = no_operand(at, message, "one shape, moved by `transform`");
+            found.push(fault.hint("copies in a solid are items of a `Repeat`"));
+        }
+    }
+}
+
+/// Why a shape cannot be part of a solid, and what to do.
+fn unfit(object: &Object) -> Option<(String, &'static str)> {
+    let closed = "close it: `caps: true`";
+    Some(match object {
+        Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) => return None,
+        Object::Cylinder(cylinder) if matches!(**cylinder, Cylinder { caps: true, .. }) => return None,
+        Object::Cone(cone) if matches!(**cone, Cone { caps: true, .. }) => return None,
+        Object::Cylinder(_) => ("an open cylinder has no inside".to_owned(), closed),
+        Object::Cone(_) => ("an open cone has no inside".to_owned(), closed),
+        Object::Rectangle(_) => ("a rectangle has no inside".to_owned(), "a thin `Box` has one"),
+        Object::Disk(_) => ("a disk has no inside".to_owned(), "a short `Cylinder` has one"),
+        other => {
+            let kind = other.kind();
+            let article = if kind.starts_with(['A', 'E']) { "an" } else { "a" };
+            let message = format!("{article} `{kind}` is made of triangles, and cannot be part of a solid");
+            (message, "build it of such shapes, or let it stand beside the solid")
+        }
+    })
+}

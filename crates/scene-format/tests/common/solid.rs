@@ -1,0 +1,46 @@
+//! Solids by chance.
+
+use super::Random;
+use super::generated::{length, name, transforms, vector};
+use scene_format::desc::{Capsule, Difference, Intersection, MaterialRef, Object, Operands, Placements, Sphere, Union};
+
+/// A solid of closed shapes, solids among them.
+pub fn solid(
+    random: &mut Random,
+    material: MaterialRef,
+    placements: Placements,
+    material_ref: &dyn Fn(&mut Random) -> MaterialRef,
+    depth: usize,
+) -> Object {
+    let count = 1 + random.below(3);
+    let part = |random: &mut Random| {
+        let material = material_ref(random);
+        match random.below(3) {
+            0 if depth > 0 => solid(random, material, Placements::One, material_ref, depth - 1),
+            1 => Object::Capsule(Box::new(Capsule {
+                from: [0.0; 3].into(),
+                to: [1.0, length(random), 0.0].into(),
+                radius: length(random).into(),
+                material,
+                transform: transforms(random),
+                placements: Placements::One,
+                name: name(random),
+            })),
+            _ => Object::Sphere(Box::new(Sphere {
+                center: vector(random).into(),
+                radius: length(random).into(),
+                material,
+                transform: transforms(random),
+                placements: Placements::One,
+                name: name(random),
+            })),
+        }
+    };
+    let objects = Operands((0..count).map(|_| part(random).into()).collect());
+    let (transform, name) = (transforms(random), name(random));
+    match random.below(3) {
+        0 => Object::Union(Box::new(Union { objects, material, transform, placements, name })),
+        1 => Object::Intersection(Box::new(Intersection { objects, material, transform, placements, name })),
+        _ => Object::Difference(Box::new(Difference { objects, material, transform, placements, name })),
+    }
+}

@@ -1,0 +1,411 @@
+//! Solids: objects that are made of closed shapes (see [`tracer_kernels::shapes::csg`]).
+//!
+//! Surfaces of different operands that are one and the same get the same numbers here, once for all copies: so lines
+//! meet them at the same places to the last bit, and where faces coincide nothing is between them.
+
+use super::assets::Sources;
+use super::curved::{Written, written};
+use super::materials::MaterialBuilder;
+use super::placing::{Subject, place_all};
+use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
+use scene_format::desc::{MaterialRef, Object, Placements, cannot_shine};
+use scene_format::diagnostic::Spanned;
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use tracer_kernels::scene::{Frame, Operand, Shape, Solids, Step};
+use tracer_kernels::shapes::csg::{Operation, Part, Surface};
+use tracer_kernels::shapes::{Solid, UnitShape};
+
+/// What a solid is made of.
+enum Node {
+    /// One of the operands.
+    Operand(usize),
+    /// What becomes of several: two at a time, from the first on.
+    Made(Operation, Vec<Node>),
+}
+
+/// A shape in a solid.
+struct OperandWritten {
+    unit: UnitShape,
+    /// From its object space to where it is before its transforms.
+    local: DAffine3,
+    /// From there to where it is in the solid, before the solid's transforms.
+    moved: DAffine3,
+    material: u32,
+}
+
+/// A surface of an operand, in the space that the solid is written in.
+struct PartWritten {
+    surface: Surface,
+    map: DAffine3,
+    flipped: bool,
+    joins: bool,
+    operand: usize,
+}
+
+/// A solid of the scene.
+pub struct SolidObject {
+    /// Its place among the objects of the scene.
+    number: u32,
+    node: Node,
+    operands: Vec<OperandWritten>,
+    parts: Vec<PartWritten>,
+    /// From where it is written to the world, one per copy.
+    maps: Vec<DAffine3>,
+}
+
+/// Lower and upper corner.
+type Box3 = [DVec3; 2];
+
+/// Surfaces of solids that a scene may have, those of copies counted: 2 GB.
+const MOST_ROWS: usize = 1 << 24;
+
+/// Finds materials and places of the solids, in order.
+pub fn load(
+    desc: &SceneDesc,
+    sources: &Sources<'_>,
+    builder: &mut MaterialBuilder,
+    diagnostics: &mut Diagnostics,
+) -> Vec<SolidObject> {
+    let (mut all, mut rows) = (Vec::new(), 0usize);
+    for (number, object) in (0..).zip(&desc.objects) {
+        if object.value.operands().is_none() {
+            continue;
+        }
+        let noun = noun(&object.value);
+        let (transform, placements) = (object.value.transform(), object.value.placements());
+        let faults = object.value.faults(object.span);
+        if !faults.is_empty() {
+            builder.resolve(object.value.material(), number, diagnostics);
+            diagnostics.extend(faults);
+            // A placements file is read even when something else is wrong: all faults in one run.
+            place_all((desc, sources), transform, placements, &Subject::unknown(noun), diagnostics);
+            continue;
+        }
+        let mut reader = Nodes { desc, sources, builder: &mut *builder, diagnostics: &mut *diagnostics };
+        let mut operands = Vec::new();
+        let node = reader.node(object, &format!("objects[{number}]"), None, &mut operands);
+        let reach = |map: &DAffine3, axis: usize| bounds(&node, &operands, map).map(|corner| corner[axis]);
+        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&reach) };
+        let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
+        super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
+        let parts = parts(&operands);
+        rows += maps.len().saturating_mul(parts.len());
+        if rows > MOST_ROWS {
+            let message = format!("the surfaces of all copies of solids are more than {MOST_ROWS}");
+            diagnostics.push(Diagnostic::error(codes::TOO_MUCH, object.span, message).expected("fewer copies"));
+            break;
+        }
+        all.push(SolidObject { number, node, operands, parts, maps });
+    }
+    all
+}
+
+fn noun(object: &Object) -> &'static str {
+    match object {
+        Object::Union(_) => "union",
+        Object::Intersection(_) => "intersection",
+        _ => "difference",
+    }
+}
+
+/// What reads the parts of a solid.
+struct Nodes<'a, 'k, 'm> {
+    desc: &'a SceneDesc,
+    sources: &'a Sources<'k>,
+    builder: &'a mut MaterialBuilder<'m>,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Nodes<'_, '_, '_> {
+    /// What an object is made of. `path`: where it stands; `inherited`: the material of what has none of its own. Its
+    /// own transforms are applied to its operands where it is part of another.
+    fn node(
+        &mut self,
+        object: &Spanned<Object>,
+        path: &str,
+        inherited: Option<u32>,
+        operands: &mut Vec<OperandWritten>,
+    ) -> Node {
+        let material = match object.value.material() {
+            MaterialRef::Default => inherited,
+            own => Some(self.builder.resolve_as(own, || format!("{path}.material"), self.diagnostics)),
+        };
+        let (operation, list) = match &object.value {
+            Object::Union(solid) => (Operation::Union, &solid.objects.0),
+            Object::Intersection(solid) => (Operation::Intersection, &solid.objects.0),
+            Object::Difference(solid) => (Operation::Difference, &solid.objects.0),
+            _ => return self.operand(object, material, operands),
+        };
+        let nodes = list.iter().enumerate().map(|(k, part)| {
+            let first = operands.len();
+            let node = self.node(part, &format!("{path}.objects[{k}]"), material, operands);
+            if part.value.operands().is_some() {
+                let reach = |map: &DAffine3, axis: usize| bounds(&node, operands, map).map(|corner| corner[axis]);
+                let map = self.map_of(part, noun(&part.value), DAffine3::IDENTITY, DVec3::ZERO, &reach);
+                operands[first..].iter_mut().for_each(|operand| operand.moved = map * operand.moved);
+            }
+            node
+        });
+        Node::Made(operation, nodes.collect())
+    }
+
+    fn operand(&mut self, object: &Spanned<Object>, material: Option<u32>, operands: &mut Vec<OperandWritten>) -> Node {
+        let index = operands.len();
+        // What cannot be an operand is told before.
+        let Written { unit, local, noun } = written(&object.value)
+            .or_else(|| super::polygonal::cube(&object.value))
+            .unwrap_or(Written { unit: UnitShape::Sphere, local: DAffine3::IDENTITY, noun: "shape" });
+        let material = material.unwrap_or_else(|| self.builder.default_material());
+        if self.builder.emissive(material).is_some() {
+            self.diagnostics.push(cannot_shine("a part of a solid", object.span));
+        }
+        let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
+        let moved = self.map_of(object, noun, local, local.translation, &reach);
+        operands.push(OperandWritten { unit, local, moved, material });
+        Node::Operand(index)
+    }
+
+    /// Where its transforms put what is written.
+    fn map_of(
+        &mut self,
+        object: &Spanned<Object>,
+        noun: &str,
+        local: DAffine3,
+        middle: DVec3,
+        reach: super::placing::Reach<'_>,
+    ) -> DAffine3 {
+        let subject = Subject { noun, local: DAffine3::IDENTITY, middle, reach: Some(reach) };
+        let transform = object.value.transform();
+        let maps = place_all((self.desc, self.sources), transform, &Placements::One, &subject, self.diagnostics);
+        let whole: Vec<DAffine3> = maps.iter().map(|map| *map * local).collect();
+        super::placing::check(&whole, transform.first().map_or(object.span, |t| t.span), noun, self.diagnostics);
+        maps.first().copied().unwrap_or(DAffine3::IDENTITY)
+    }
+}
+
+/// The box of a node under a map: of an intersection what those of its parts have in common, of a difference that of
+/// the first. Where nothing is left it is one point.
+fn bounds(node: &Node, operands: &[OperandWritten], map: &DAffine3) -> Box3 {
+    match node {
+        Node::Operand(k) => {
+            let operand = &operands[*k];
+            operand.unit.bounds(&(*map * operand.moved * operand.local))
+        }
+        Node::Made(operation, nodes) => {
+            let boxes = nodes.iter().map(|node| bounds(node, operands, map));
+            let whole = match operation {
+                Operation::Union => boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]),
+                Operation::Intersection => boxes.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]),
+                Operation::Difference => boxes.take(1).next(),
+            };
+            let [low, high] = whole.unwrap_or([DVec3::ZERO; 2]);
+            if low.cmple(high).all() { [low, high] } else { [0.5 * (low + high); 2] }
+        }
+    }
+}
+
+/// The surfaces of all operands, those that are one and the same with the same numbers.
+fn parts(operands: &[OperandWritten]) -> Vec<PartWritten> {
+    let [low, high] = operands
+        .iter()
+        .map(|operand| operand.unit.bounds(&(operand.moved * operand.local)))
+        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        .unwrap_or([DVec3::ZERO; 2]);
+    let unit = Scale { middle: 0.5 * (low + high), size: (high - low).max_element().max(f64::MIN_POSITIVE) };
+    let mut parts: Vec<PartWritten> = Vec::new();
+    for (k, operand) in operands.iter().enumerate() {
+        let map = operand.moved * operand.local;
+        for (at, (surface, local)) in surfaces(&operand.unit).into_iter().enumerate() {
+            let map = map * local;
+            let mut part = PartWritten { surface, map, flipped: false, joins: at > 0, operand: k };
+            if let Some((known, flipped)) =
+                parts.iter().find_map(|known| Some((known, unit.same((&known.surface, &known.map), (&surface, &map))?)))
+            {
+                (part.surface, part.map, part.flipped) = (known.surface, known.map, flipped);
+            }
+            parts.push(part);
+        }
+    }
+    parts
+}
+
+/// The surfaces of a unit shape, each by a map from the space that it is of a size of one in.
+fn surfaces(unit: &UnitShape) -> Vec<(Surface, DAffine3)> {
+    // The plane across an axis, on its positive or negative side.
+    let plane = |axis: usize, at: f64| {
+        let columns = [0, 1, 2].map(|k: usize| DVec3::AXES[(axis + 1 + k) % 3]);
+        let matrix3 = DMat3::from_cols(columns[0], columns[1], columns[2] * at.signum());
+        (Surface::Plane, DAffine3 { matrix3, translation: at * DVec3::AXES[axis] })
+    };
+    match *unit {
+        UnitShape::Cone { radii, .. } => {
+            vec![(Surface::Side { radii }, DAffine3::IDENTITY), plane(2, 1.0), plane(2, -1.0)]
+        }
+        UnitShape::Capsule { half } => vec![(Surface::Capsule { half }, DAffine3::IDENTITY)],
+        UnitShape::Cube => (0..3).flat_map(|axis| [plane(axis, 0.5), plane(axis, -0.5)]).collect(),
+        UnitShape::Sphere | UnitShape::Disk { .. } | UnitShape::Solid(_) => vec![(Surface::Ball, DAffine3::IDENTITY)],
+    }
+}
+
+/// Where a solid is and how large: surfaces are compared in parts of that.
+struct Scale {
+    middle: DVec3,
+    size: f64,
+}
+
+/// Surfaces that differ by less, in parts of a solid, are one: some roundings of what is written.
+const SAME: f64 = 1e-11;
+
+impl Scale {
+    /// Whether two surfaces are the same; `true`: seen from its other side.
+    fn same(&self, a: (&Surface, &DAffine3), b: (&Surface, &DAffine3)) -> Option<bool> {
+        match (a.0, b.0) {
+            (Surface::Plane, Surface::Plane) => {
+                let ([n, at], [other_n, other_at]) = (self.plane(a.1), self.plane(b.1));
+                let apart = (other_at - at).dot(n).abs();
+                if apart > SAME {
+                    return None;
+                }
+                let near = |n: DVec3| (n - other_n).length() <= SAME;
+                if near(n) {
+                    Some(false)
+                } else if near(-n) {
+                    Some(true)
+                } else {
+                    None
+                }
+            }
+            (Surface::Capsule { half }, Surface::Capsule { half: other }) => {
+                let apart = a.1.matrix3 - b.1.matrix3;
+                let turned = apart.to_cols_array().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                let moved = (a.1.translation - b.1.translation).length();
+                (turned.max(moved) <= SAME * self.size && (half - other).abs() <= SAME * half).then_some(false)
+            }
+            (Surface::Plane | Surface::Capsule { .. }, _) | (_, Surface::Plane | Surface::Capsule { .. }) => None,
+            _ => {
+                let (first, second) = (self.quadric(a), self.quadric(b));
+                let same = (first - second).to_cols_array().iter().all(|x| x.abs() <= SAME);
+                // Both halves of a double cone have one equation.
+                (same && self.holds_inside(a, b)).then_some(false)
+            }
+        }
+    }
+
+    /// Unit normal and a point of a plane.
+    fn plane(&self, map: &DAffine3) -> [DVec3; 2] {
+        let inverse = map.matrix3.inverse();
+        [inverse.row(2).normalize(), (map.translation - self.middle) / self.size]
+    }
+
+    /// The matrix of x^T Q x = 0, its largest entry that goes with squares made 1.
+    fn quadric(&self, (surface, map): (&Surface, &DAffine3)) -> DMat4 {
+        let (m, s) = radii(surface).map_or((0.0, 0.0), |[a, b]| (0.5 * (a + b), 0.5 * (b - a)));
+        let form = match surface {
+            Surface::Side { .. } => DMat4::from_cols(
+                DVec4::X,
+                DVec4::Y,
+                DVec4::new(0.0, 0.0, -s * s, -m * s),
+                DVec4::new(0.0, 0.0, -m * s, -m * m),
+            ),
+            _ => DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0, -1.0)),
+        };
+        let here = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(self.size)), translation: self.middle };
+        let to_object = DMat4::from(map.inverse() * here);
+        let whole = to_object.transpose() * form * to_object;
+        let linear = DMat3::from_mat4(whole).to_cols_array();
+        whole * (1.0 / linear.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs())))
+    }
+
+    /// Whether the middle of the wider end of the second lies in the first one's half.
+    fn holds_inside(&self, a: (&Surface, &DAffine3), b: (&Surface, &DAffine3)) -> bool {
+        let (Some([first, last]), Some(other)) = (radii(a.0), radii(b.0)) else { return true };
+        let end = DVec3::new(0.0, 0.0, if other[1] > other[0] { 1.0 } else { -1.0 });
+        let q = a.1.inverse().transform_point3(b.1.transform_point3(end));
+        0.5 * (first + last) + 0.5 * (last - first) * q.z > 0.0
+    }
+}
+
+fn radii(surface: &Surface) -> Option<[f64; 2]> {
+    if let Surface::Side { radii } = surface { Some(*radii) } else { None }
+}
+
+impl SolidObject {
+    /// One point per copy near what the camera looks at, in its box; of many copies of every so many, 1024 at most.
+    pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
+        let every = self.maps.len().div_ceil(1024).max(1);
+        self.maps.iter().step_by(every).map(move |map| {
+            let [low, high] = bounds(&self.node, &self.operands, map);
+            look_at.clamp(low, high)
+        })
+    }
+
+    /// Adds its copies to the shapes of the scene. `written`, where a pattern asks for it: from the coordinates that
+    /// things are written in to the world, the first the world's own.
+    pub fn build(
+        &self,
+        frame: &Frame,
+        shapes: &mut Vec<Shape>,
+        solids: &mut Solids,
+        mut written: Option<&mut Vec<DAffine3>>,
+    ) {
+        for map in &self.maps {
+            let scaled = |map: DAffine3| DAffine3 {
+                matrix3: map.matrix3 * frame.scale,
+                translation: frame.point(map.translation),
+            };
+            let first = [solids.parts.len(), solids.steps.len(), solids.operands.len()].map(|n| n as u32);
+            for operand in &self.operands {
+                let mut coordinates = 0;
+                let whole = *map * operand.moved;
+                if let Some(written) = written.as_mut().filter(|_| whole != DAffine3::IDENTITY) {
+                    coordinates = written.len() as u32;
+                    written.push(whole);
+                }
+                let placement = scaled(whole * operand.local);
+                solids.operands.push(Operand {
+                    unit: operand.unit,
+                    placement,
+                    material: operand.material,
+                    coordinates,
+                });
+            }
+            self.steps(&self.node, &|map_in: &DAffine3| scaled(*map * *map_in), first[2], solids);
+            let count = |list: usize, first: u32| [first, list as u32 - first];
+            let [low, high] = bounds(&self.node, &self.operands, map).map(|corner| frame.point(corner));
+            let unit = UnitShape::Solid(Solid {
+                parts: count(solids.parts.len(), first[0]),
+                steps: count(solids.steps.len(), first[1]),
+                operands: count(solids.operands.len(), first[2]),
+                bounds: [low.min(high), low.max(high)],
+            });
+            let material = self.operands.first().map_or(0, |operand| operand.material);
+            let (placement, object) = (DAffine3::IDENTITY, self.number);
+            shapes.push(Shape { unit, placement, material, object, coordinates: 0 });
+        }
+    }
+
+    /// Adds the parts and steps of a node. `placed`: from a map in the solid to render space.
+    fn steps(&self, node: &Node, placed: &dyn Fn(&DAffine3) -> DAffine3, first: u32, solids: &mut Solids) {
+        match node {
+            Node::Operand(k) => {
+                let operand = first + *k as u32;
+                let own = self.parts.iter().filter(|part| part.operand == *k);
+                let parts = own.map(|part| {
+                    let PartWritten { surface, map, flipped, joins, .. } = part;
+                    Part::of_surface(surface, &placed(map), *flipped, *joins, operand)
+                });
+                solids.parts.extend(parts);
+                solids.steps.push(Step::Operand(operand));
+            }
+            Node::Made(operation, nodes) => {
+                for (k, node) in nodes.iter().enumerate() {
+                    self.steps(node, placed, first, solids);
+                    if k > 0 {
+                        solids.parts.push(Part::of_operation(*operation));
+                        solids.steps.push(Step::Operation(*operation));
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Solids made of closed shapes.
+
+use super::curved::steps;
+use super::draw::once_in;
+use super::meshes::Point;
+use super::world::{World, inline};
+use scene_format::desc::{
+    Capsule, Cone, Cylinder, Difference, Intersection, Material, MaterialRef, Name, Object, Operands, PerAxis,
+    Placements, RectBox, Sphere, Transform, Union,
+};
+use scene_format::diagnostic::Spanned;
+use tracer_reference::Random;
+
+/// Adds a solid within a sphere. All of it is of one material, which some of its shapes have written themselves.
+pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let copied = once_in(random, 4);
+    let middle = if copied { [0.0; 3] } else { center };
+    let there = vec![Transform::Translate(center).into()];
+    let placements =
+        if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
+    let about = |mut steps: Vec<Spanned<Transform>>| {
+        // The middle of a solid is the origin.
+        for step in &mut steps {
+            if let Transform::Scale { about, .. } | Transform::Rotate { about, .. } | Transform::Align { about, .. } =
+                &mut step.value
+            {
+                *about = Some(Box::new(middle));
+            }
+        }
+        steps.retain(|step| !matches!(step.value, Transform::FitTo { .. }));
+        steps
+    };
+    let transform = if once_in(random, 2) { about(steps(middle, radius, random)) } else { Vec::new() };
+    let mut solid = solid(middle, radius, &material, 2, random);
+    *solid.material_mut() = inline(material);
+    *solid.transform_mut() = transform;
+    *solid.placements_mut() = placements;
+    world.desc.objects.push(solid.into());
+}
+
+/// A solid about a point, of two or three shapes.
+fn solid(middle: Point, radius: f64, material: &Material, depth: usize, random: &mut Random) -> Object {
+    let count = 2 + random.below(2);
+    let first = operand(middle, radius, material, depth, random);
+    let others = (1..count).map(|_| {
+        let beside = [0, 1, 2].map(|k: usize| middle[k] + random.between(-0.3, 0.3) * radius);
+        operand(beside, 0.7 * radius, material, depth, random)
+    });
+    let objects = Operands(std::iter::once(first).chain(others).map(Into::into).collect());
+    let (transform, placements, name, own) = (Vec::new(), Placements::One, Name::default(), MaterialRef::Default);
+    match random.below(3) {
+        0 => Object::Union(Box::new(Union { objects, material: own, transform, placements, name })),
+        1 => Object::Intersection(Box::new(Intersection { objects, material: own, transform, placements, name })),
+        _ => Object::Difference(Box::new(Difference { objects, material: own, transform, placements, name })),
+    }
+}
+
+fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random: &mut Random) -> Object {
+    let axis = random.direction();
+    let (long, wide) = (random.between(0.4, 0.7) * radius, random.between(0.3, 0.6) * radius);
+    let [from, to] = [-long, long].map(|way| [0, 1, 2].map(|k: usize| middle[k] + way * axis[k]));
+    let material_ref = if once_in(random, 3) { inline(material.clone()) } else { MaterialRef::Default };
+    let transform = if once_in(random, 3) { steps(middle, radius, random) } else { Vec::new() };
+    let (placements, name) = (Placements::One, Name::default());
+    match random.below(if depth > 0 { 6 } else { 5 }) {
+        0 => Object::Sphere(Box::new(Sphere {
+            center: middle.into(),
+            radius: (0.8 * radius).into(),
+            material: material_ref,
+            transform,
+            placements,
+            name,
+        })),
+        1 => Object::Box(Box::new(RectBox {
+            center: middle.into(),
+            size: PerAxis([0; 3].map(|_| random.between(0.5, 1.1) * radius)).into(),
+            material: material_ref,
+            transform,
+            placements,
+            name,
+        })),
+        2 => Object::Cylinder(Box::new(Cylinder {
+            from: from.into(),
+            to: to.into(),
+            radius: wide.into(),
+            caps: true,
+            material: material_ref,
+            transform,
+            placements,
+            name,
+        })),
+        3 => Object::Cone(Box::new(Cone {
+            from: from.into(),
+            to: to.into(),
+            radius: wide.into(),
+            tip_radius: if once_in(random, 2) { 0.5 * wide } else { 0.0 }.into(),
+            caps: true,
+            material: material_ref,
+            transform,
+            placements,
+            name,
+        })),
+        4 => Object::Capsule(Box::new(Capsule {
+            from: from.into(),
+            to: to.into(),
+            radius: (0.5 * wide).into(),
+            material: material_ref,
+            transform,
+            placements,
+            name,
+        })),
+        _ => solid(middle, radius, material, depth - 1, random),
+    }
+}
