@@ -116,6 +116,23 @@ fn vars_and_materials_are_given_for_its_own() {
     assert!(codes(room("left", &text.replace("\"shade\": 0.5", "\"shad\": 0.5"))).contains(&"E0406".to_owned()));
 }
 
+/// What a solid is made of has the materials of the scene that it stands in, too.
+#[test]
+fn solids_in_an_included_scene_keep_their_materials() {
+    let cup = r##"Scene(materials: { "clay": Diffuse(albedo: "#ff0000") }, objects: [
+        Difference(objects: [Box(), Union(objects: [Sphere(center: (0, 0, 0), radius: 0.4, material: "clay")])]),
+    ])"##;
+    let room = r#"Scene(background: 1, materials: { "clay": Mirror() }, objects: [
+        Sphere(center: (0, 0, 0), radius: 1, material: "clay"), Include(file: "cup.ron"),
+    ])"#;
+    let folder = folder("solids", &[("cup.ron", cup), ("room.ron", room)]);
+    let scene = load(&folder.join("room.ron")).expect("it is right").scene;
+    let inner = &scene.objects[1].value.operands().expect("a solid").0[1].value.operands().expect("a solid").0[0];
+    let MaterialRef::Named { name, .. } = inner.value.material() else { panic!("a name") };
+    let named = scene.materials.iter().find(|named| named.name.value == *name).expect("a material of this name");
+    assert!(matches!(named.material, Material::Diffuse(_)), "{name}: {:?}", named.material);
+}
+
 #[test]
 fn names_of_the_file_itself_win_and_of_two_files_those_of_the_later() {
     let text = r#"Scene(

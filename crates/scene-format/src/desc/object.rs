@@ -192,6 +192,16 @@ impl Object {
             _ => None,
         }
     }
+
+    /// The shapes that it is made of, to be changed.
+    pub(crate) fn operands_mut(&mut self) -> Option<&mut Operands> {
+        match self {
+            Object::Union(solid) => Some(&mut solid.objects),
+            Object::Intersection(solid) => Some(&mut solid.objects),
+            Object::Difference(solid) => Some(&mut solid.objects),
+            _ => None,
+        }
+    }
 }
 
 /// Objects, each followed by what it is made of.

@@ -286,9 +286,8 @@ impl Reader<'_> {
         let read = inner.take();
         let mut own: HashMap<Arc<str>, NamedMaterial> =
             read.into_iter().map(|named| (Arc::clone(&named.name.value), named)).collect();
-        for object in objects {
-            let material = object.value.material_mut();
-            let MaterialRef::Named { name, span } = material else { continue };
+        for_materials(objects, &mut |material| {
+            let MaterialRef::Named { name, span } = material else { return };
             let (name, span) = (Arc::clone(name), *span);
             let taken = names.entry(Arc::clone(&name)).or_insert_with(|| match own.remove(&name) {
                 Some(named) => MaterialRef::Named { name: self.materials.adopt(file, named), span },
@@ -296,6 +295,16 @@ impl Reader<'_> {
                 None => MaterialRef::Named { name, span },
             });
             *material = taken.clone();
+        });
+    }
+}
+
+/// The materials of objects, and of what they are made of.
+fn for_materials(objects: &mut [Spanned<Object>], change: &mut dyn FnMut(&mut MaterialRef)) {
+    for object in objects {
+        change(object.value.material_mut());
+        if let Some(operands) = object.value.operands_mut() {
+            for_materials(&mut operands.0, change);
         }
     }
 }
