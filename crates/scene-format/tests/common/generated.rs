@@ -297,7 +297,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
         let mut object = match random.below(17) {
-            16 => solid(random, material, placements, &material_ref, 2),
+            16 => solid(random, placements, 2),
             15 => Object::HeightField(Box::new(HeightField {
                 file: PathBuf::from(text(random)).into(),
                 size: [(); 3].map(|()| length(random)).into(),

@@ -5,18 +5,14 @@ use super::generated::{length, name, transforms, vector};
 use scene_format::desc::{Capsule, Difference, Intersection, MaterialRef, Object, Operands, Placements, Sphere, Union};
 
 /// A solid of closed shapes, solids among them.
-pub fn solid(
-    random: &mut Random,
-    material: MaterialRef,
-    placements: Placements,
-    material_ref: &dyn Fn(&mut Random) -> MaterialRef,
-    depth: usize,
-) -> Object {
+pub fn solid(random: &mut Random, placements: Placements, depth: usize) -> Object {
+    // Others may shine, which solids cannot.
+    let material = MaterialRef::Default;
     let count = 1 + random.below(3);
     let part = |random: &mut Random| {
-        let material = material_ref(random);
+        let material = MaterialRef::Default;
         match random.below(3) {
-            0 if depth > 0 => solid(random, material, Placements::One, material_ref, depth - 1),
+            0 if depth > 0 => solid(random, Placements::One, depth - 1),
             1 => Object::Capsule(Box::new(Capsule {
                 from: [0.0; 3].into(),
                 to: [1.0, length(random), 0.0].into(),
