@@ -12,6 +12,10 @@ use tracer_kernels::report::Stage;
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
 pub fn trace(engine: Engine<'_>, pass: Pass<'_>, techniques: &[Box<dyn Technique>], batch: &mut Batch) {
     batch.start();
+    if pass.layers.are_of_hits() {
+        // Here, for a batch may have no path at all: beside a fisheye's circle.
+        batch.layers.start(pass.layers.kept());
+    }
     engine.kernels.camera(engine.scene, pass.seed, u32::MAX, batch);
     batch.watch.lap(Stage::Camera);
     let mut number = 0;
@@ -33,7 +37,6 @@ pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch
     let Engine { scene, kernels } = engine;
     closest(engine, vertex == 0, batch);
     if vertex == 0 && pass.layers.are_of_hits() {
-        batch.layers.start(pass.layers.kept());
         kernels.first_hits(scene, pass.seed, pass.layers, batch);
         batch.watch.lap(Stage::Layers);
     }

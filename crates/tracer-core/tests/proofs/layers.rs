@@ -6,7 +6,8 @@ use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, Rectangle,
+    Acceleration, FisheyeMapping, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
+    Projection, Rectangle,
 };
 use tracer_core::{Crop, Film, Layer, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
 use tracer_reference::{FirstHit, first_hits};
@@ -37,6 +38,26 @@ fn bits(film: &Film) -> Vec<Vec<u32>> {
         images.iter().flat_map(of).map(f32::to_bits).collect()
     };
     (0..(width * height) as usize).map(pixel).collect()
+}
+
+/// Around a fisheye's circle there is no camera ray, and in the corners of a wide picture not one of a whole batch: there
+/// nothing is, for every layer, and not what the batch before has found.
+#[test]
+fn around_a_fisheye_nothing_is() {
+    let mut desc = everything();
+    desc.camera.projection = Projection::Fisheye { fov: 180.0.into(), mapping: FisheyeMapping::Equidistant };
+    (desc.image.width, desc.image.height) = (192.into(), 64.into());
+    let scene = compiled(&desc);
+    let film = |threads| render(&scene, &RenderOptions { threads, ..samples(3) }, &Unobserved);
+    let (film, other) = (film(1), film(2));
+    assert!(bits(&film) == bits(&other), "one and two threads differ");
+    for which in [Layer::Alpha, Layer::Depth, Layer::ObjectId] {
+        for (k, [value]) in layer::<1>(&film, which).into_iter().enumerate() {
+            let from_the_middle = ((k % 192) as f64 + 0.5 - 96.0).hypot((k / 192) as f64 + 0.5 - 32.0);
+            assert!(value == 0.0 || from_the_middle < 33.0, "{which:?} is {value} at pixel {k}");
+        }
+    }
+    assert!(layer::<1>(&film, Layer::Alpha).into_iter().any(|[alpha]| alpha > 0.9));
 }
 
 /// Without the lamp that is all around, so that some rays hit nothing.

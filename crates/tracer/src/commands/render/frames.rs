@@ -154,7 +154,7 @@ pub(super) fn run(
         (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
         let of_frame = numbered(&of_frame)?;
         let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
-        if args.skip_existing && of_frame.output.iter().all(is_there) {
+        if args.skip_existing && of_frame.output.iter().chain(&of_frame.report).all(is_there) {
             skipped += 1;
             continue;
         }
@@ -163,9 +163,9 @@ pub(super) fn run(
             Some(code) => ExitCode::from(code),
         };
         if let Some(signal) = interrupt::requested() {
-            let done = if code == ExitCode::from(exit::DONE) { made + 1 } else { made };
-            let rest = "the same line with --skip-existing does the rest";
-            shell.say(&format!("interrupted: {done} of {} done; {rest}", counted(all as usize, "frame")));
+            let done = made + skipped + usize::from(code == ExitCode::from(exit::DONE));
+            let all = counted(all as usize, "frame");
+            shell.say(&format!("interrupted: {done} of {all} done; {}", rest(&args)));
             return Ok(ExitCode::from(signal));
         }
         if code != ExitCode::from(exit::DONE) {
@@ -179,6 +179,21 @@ pub(super) fn run(
         shell.say(&format!("{} in {seconds:.2} s{there}", counted(made, "frame")));
     }
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// How the frames that are left are rendered, without losing what one was begun with.
+fn rest(args: &RenderArgs) -> String {
+    let mut more = Vec::new();
+    if !args.skip_existing {
+        more.push("--skip-existing".to_owned());
+    }
+    if let (Some(checkpoint), None) = (&args.checkpoint, &args.resume) {
+        more.push(format!("--resume {}", checkpoint.display()));
+    }
+    match more.is_empty() {
+        true => "the same line does the rest".to_owned(),
+        false => format!("the same line with {} does the rest", more.join(" ")),
+    }
 }
 
 /// A name with room for a number.
