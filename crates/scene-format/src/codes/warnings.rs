@@ -49,7 +49,7 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and
+    /// `Transparent` on a shape that has no inside, a disk, a plane or a cylinder without caps: light is bent there once, and
     /// never back.
     ///
     /// ```text

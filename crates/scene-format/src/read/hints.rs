@@ -91,6 +91,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
         ("frame", &["frame_current", "current_frame", "frame_number"]),
         ("center", &["centre", "position", "pos", "origin"]),
+        ("point", &["center", "centre", "position", "pos", "origin", "location", "through"]),
         ("radius", &["r", "size"]),
         ("fov", &["field_of_view", "angle", "vfov"]),
         ("focal_length", &["focal", "focallength"]),
@@ -200,7 +201,6 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
 type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
-    (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
     (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
@@ -512,6 +512,12 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "name" | "id" | "label" | "tag" => "objects, lights and materials have names; write others as a comment",
         "visible" | "hidden" | "enabled" | "hide" | "visibility" | "cast_shadow" | "cast_shadows" | "double_sided" => {
             "all that is written is seen: leave the object out, or make it a comment"
+        }
+        "y" | "d" | "height" | "offset" | "distance" | "level" | "z" if def.name == "Plane" => {
+            "where a plane is, a point of it says: `point: (0, 1, 0)`; which way it faces, its `normal`"
+        }
+        "size" | "width" | "radius" | "scale" | "extent" if def.name == "Plane" => {
+            "a `Plane` has no end; one that has is a `Rectangle(size: 20)`"
         }
         "units" | "unit" => "a scene has one unit, whichever it is: leave it out",
         _ => return None,
