@@ -484,15 +484,8 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => {}
         }
         // Numbers that do not go together are no scene, nor are curved sides that shine.
-        let curved = matches!(
-            object,
-            Object::Plane(_) | Object::Disk(_) | Object::Cylinder(_) | Object::Cone(_) | Object::Capsule(_)
-        );
-        let dull = match object.material() {
-            MaterialRef::Inline(material) => !matches!(material.value, Material::Emissive(_)),
-            MaterialRef::Named { .. } => false,
-            MaterialRef::Default => true,
-        };
+        let curved = matches!(object.kind(), "Plane" | "Disk" | "Cylinder" | "Cone" | "Capsule");
+        let dull = matches!(object.material(), MaterialRef::Inline(m) if !matches!(m.value, Material::Emissive(_)));
         if curved && !dull {
             *object.material_mut() = MaterialRef::Default;
         }
