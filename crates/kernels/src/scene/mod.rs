@@ -96,7 +96,8 @@ pub struct Scene {
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
-    /// Curved shapes that are no spheres, and behind them planes without an end. Shape k has primitive id `spheres.len() + k`.
+    /// Curved shapes that are no spheres, and behind them planes without an end. Shape k has primitive id
+    /// `spheres.len() + k`.
     pub shapes: Vec<Shape>,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,

@@ -222,13 +222,13 @@ fn it_is_a_rectangle_that_is_large_enough() {
 /// A mirror without an end shows a lamp where its image is: the receiver has the light of both.
 #[test]
 fn a_mirror_is_a_lamp_behind_it() {
-    let tilt = DQuat::from_rotation_z(0.3);
+    let tilt = DQuat::from_rotation_z(-0.3);
     let (normal, lamp) = (tilt * DVec3::X, DVec3::new(0.2, 1.1, 0.3));
     let point = DVec3::new(-1.5, 0.0, 0.0);
     let image = lamp - 2.0 * normal * normal.dot(lamp - point);
     let receiver = rectangle(0.05, diffuse([0.5; 3]), vec![]);
     let seen = |lamps: &[DVec3], mirrored: bool| {
-        let lights = lamps.iter().map(|at| light(at.to_array(), 0.15, [10.0; 3])).collect();
+        let lights = lamps.iter().map(|at| light(at.to_array(), 0.3, [10.0; 3])).collect();
         let mut objects = vec![receiver.clone()];
         if mirrored {
             objects.push(plane(
@@ -364,7 +364,8 @@ fn a_lamp_let_into_it_shines() {
     let alone = seen(vec![lamp.clone(), floor.clone()], eye, below);
     let with = seen(vec![ceiling.clone(), floor.clone(), lamp.clone()], eye, below);
     for (k, (a, b)) in alone.iter().zip(&with).enumerate() {
-        assert!((a[0] - b[0]).abs() <= 1e-4 * a[0], "pixel {k}: {b:?}, not {a:?}");
+        // The ceiling is lit from along itself, which is nothing but for rounding.
+        assert!((a[0] - b[0]).abs() <= 1e-4 * a[0] + 1e-12, "pixel {k}: {b:?}, not {a:?}");
     }
     assert!(alone.iter().filter(|c| c[0] > 0.0).count() > 900);
     let whole = seen(vec![ceiling, floor, lamp], DVec3::new(0.05, 1.4, 0.02), DVec3::new(0.0, 2.0, 0.0));

@@ -14,8 +14,8 @@ fn at(columns: &Columns, i: usize) -> [f32; 3] {
     [columns[0][i], columns[1][i], columns[2][i]]
 }
 
-/// Takes those hits of `batch.hits` that a plane is nearer than. Of planes equally far the first wins, by t before it is
-/// rounded: planes that nearly touch do not speckle.
+/// Takes those hits of `batch.hits` that a plane is nearer than. Of planes equally far the first wins, by t before it
+/// is rounded: planes that nearly touch do not speckle.
 pub fn planes_closest(planes: &PlaneTable, batch: &mut Batch) {
     let (paths, hits) = (&batch.paths, &mut batch.hits);
     for first in (0..paths.len).step_by(AT_ONCE) {
