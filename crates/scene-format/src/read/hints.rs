@@ -19,6 +19,9 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         "color" | "colour" | "albedo" | "texture" if has("material") => {
             Some("colours belong to a material: `material = { Diffuse = { albedo = .. } }`")
         }
+        "size" | "width" | "radius" | "extent" if def.name == "Plane" => {
+            Some("a `Plane` has no end; what has one is a `Rectangle`, with a `size`")
+        }
         "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
         "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
         "position" | "center" | "translate" | "translation" if has("transform") && ron => {
@@ -515,9 +518,6 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         }
         "y" | "d" | "height" | "offset" | "distance" | "level" | "z" if def.name == "Plane" => {
             "where a plane is, a point of it says: `point: (0, 1, 0)`; which way it faces, its `normal`"
-        }
-        "size" | "width" | "radius" | "scale" | "extent" if def.name == "Plane" => {
-            "a `Plane` has no end; one that has is a `Rectangle(size: 20)`"
         }
         "units" | "unit" => "a scene has one unit, whichever it is: leave it out",
         _ => return None,

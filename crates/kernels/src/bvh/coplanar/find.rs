@@ -498,8 +498,8 @@ fn what_lies_in(pairs: &[(u32, u32, f64)], faces: &[Face]) -> Vec<[u32; 3]> {
     found
 }
 
-/// A grid over the winners of a triangle or plane, some one to a cell. Each reaches a quarter of a cell beyond its box: the
-/// point where a ray meets the plane is known so well unless the ray hardly leaves it.
+/// A grid over the winners of a triangle or plane, some one to a cell. Each reaches a quarter of a cell beyond its box:
+/// the point where a ray meets the plane is known so well unless the ray hardly leaves it.
 fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
     let axes = other_axes(face.normal);
     let cells = (list.len() as f64).sqrt().ceil().min(256.0) as usize;

@@ -10,9 +10,10 @@ use crate::words::{Told, scene_struct};
 
 scene_struct! {
     /// A plane without an end, to the horizon: a floor, a wall, water. Seen against its normal, right is (0, 1, 0) x
-    /// normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for each
-    /// unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen wherever it is of
-    /// the same kind or shines. It cannot be dropped or fitted, as it has neither a lowest point nor an extent.
+    /// normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for
+    /// each unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen where
+    /// it is as opaque, or shines. It cannot be dropped or fitted, as it has neither a lowest point nor
+    /// an extent.
     pub struct Plane as "Plane", "a plane" {
         /// A point of it.
         point: Spanned<Vec3> = [0.0; 3] => Rule::point();
