@@ -263,7 +263,8 @@ fn sharing_and_guiding_change_nothing() {
         let desc = written(&format!(
             r#"Scene(
                 image: Image(width: 32, height: 32), effects: Effects(antialiasing: Box),
-                render: Render(max_bounces: 4), camera: Camera(position: (0.3, {height}, 5), look_at: (0, 0, 0), fov: 40),
+                render: Render(max_bounces: 4),
+                camera: Camera(position: (0.3, {height}, 5), look_at: (0, 0, 0), fov: 40),
                 lights: [SphereLight(center: (-2, 2.5, 2), radius: 0.6, radiance: (9, 5, 2)),
                          SphereLight(center: (2, -2.5, 2), radius: 0.6, radiance: (2, 5, 9))],
                 objects: [Plane(point: (9, 0, 3), material: {material}),
