@@ -57,6 +57,7 @@ NoiseItem = TypedDict("NoiseItem", {"Noise": "Noise"})
 ObjectItem = TypedDict("ObjectItem", {"Object": "ObjectKind"})
 OrthographicItem = TypedDict("OrthographicItem", {"Orthographic": "Orthographic"})
 PickItem = TypedDict("PickItem", {"Pick": "Pick"})
+PlaneItem = TypedDict("PlaneItem", {"Plane": "Plane"})
 PolygonItem = TypedDict("PolygonItem", {"Polygon": "Polygon"})
 RectangleItem = TypedDict("RectangleItem", {"Rectangle": "Rectangle"})
 RepeatItem = TypedDict("RepeatItem", {"Repeat": "Repeat"})
@@ -651,7 +652,7 @@ class Emissive(TypedDict, total=False):
     two_sided: Union[bool, str, PickItem]
 
 
-Object = Union["SphereItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "GroupItem", "IncludeItem"]
+Object = Union["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "GroupItem", "IncludeItem"]
 
 class _SphereRequired(TypedDict):
     center: Union[Sequence[Union[float, str]], Array, str, PickItem]
@@ -825,6 +826,25 @@ class Scatter(_ScatterRequired, total=False):
     spacing: Any
     turn: Any
     scale: Union[Sequence[Union[float, str]], Array, str, PickItem]
+
+
+class Plane(TypedDict, total=False):
+    """A plane without an end, to the horizon: a floor, a wall, water. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for each unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen where it is as opaque, or shines. It cannot be dropped or fitted, as it has neither a lowest point nor an extent.
+
+    point: A point of it. Unit: the scene's unit.
+    normal: Direction that it faces.
+    material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
+    transform: Transforms, applied first to last.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    """
+
+    point: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    material: Union[str, Material, PickItem]
+    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
+    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
 
 
 class Rectangle(TypedDict, total=False):

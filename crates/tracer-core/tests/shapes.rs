@@ -52,6 +52,7 @@ fn depth(shape: &UnitShape, q: DVec3) -> f64 {
             let side = 0.5 * (a + b) + 0.5 * (b - a) * q.z - q.truncate().length();
             if caps { side.min(1.0 - q.z.abs()) } else { -side.abs().max(q.z.abs() - 1.0) }
         }
+        UnitShape::Plane => -q.z.abs(),
         UnitShape::Capsule { half } => 1.0 - (q - DVec3::new(0.0, 0.0, q.z.clamp(-half, half))).length(),
     }
 }
@@ -233,7 +234,8 @@ fn the_tree_finds_what_brute_force_finds() {
     // Ids 5 and 6 are of spheres that hang beside the tree.
     let first_shape = 7;
     let meshes = [ball.geometry(first_shape + rows.len() as u32)];
-    let geometry = Geometry { spheres: &spheres, shapes: &rows, first_shape, meshes: &meshes, instances: &[HERE] };
+    let geometry =
+        Geometry { spheres: &spheres, shapes: &rows, first_shape, planes: &[], meshes: &meshes, instances: &[HERE] };
     let mut batch = Batch::random(800, 1.5, &mut numbers);
     batch.append(&Batch::beams(30, 1.5, &mut numbers));
     let brute = |batch: &Batch, ray: usize| {

@@ -265,6 +265,11 @@ impl Accel {
         self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
     }
 
+    /// Whether a primitive lies in a plane without an end.
+    pub fn lies_in(&self, plane: u32, primitive: u32, instance: u32) -> bool {
+        self.coplanar.as_ref().is_some_and(|coplanar| coplanar.lies_in(plane, primitive, instance))
+    }
+
     /// Whether bodies that let light through touch anywhere: then [`touching`](Self::touching) has to be asked.
     pub fn has_touching(&self) -> bool {
         self.coplanar.as_ref().is_some_and(Coplanar::has_touching)

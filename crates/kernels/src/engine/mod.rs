@@ -19,5 +19,6 @@ pub use stages::aim::AIMS_UNTIL;
 pub use stages::camera::density;
 pub use stages::deposit::deposit;
 pub use stages::light_paths::LightPass;
+pub use stages::planes::{planes_closest, planes_hide, planes_occluded};
 pub use stages::shaft::Obstacles;
 pub(crate) use stages::{cameras::depth, lights, materials::Bsdf, surface::Surface};

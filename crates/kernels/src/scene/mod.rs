@@ -13,6 +13,7 @@ mod light;
 pub mod materials;
 mod mesh;
 mod pattern;
+mod plane;
 mod shape;
 mod sphere;
 mod statistics;
@@ -32,6 +33,7 @@ pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
 pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
+pub use plane::{Plane, PlaneTable};
 pub use shape::Shape;
 pub use shape::ShapeTable;
 pub use sphere::Sphere;
@@ -94,7 +96,8 @@ pub struct Scene {
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
-    /// Curved shapes that are no spheres. Shape k has primitive id `spheres.len() + k`.
+    /// Curved shapes that are no spheres, and behind them planes without an end. Shape k has primitive id
+    /// `spheres.len() + k`.
     pub shapes: Vec<Shape>,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
@@ -158,8 +161,10 @@ impl Scene {
 pub struct Tables {
     /// Spheres.
     pub spheres: SphereTable,
-    /// Curved shapes.
+    /// Curved shapes and planes.
     pub shapes: ShapeTable,
+    /// Planes, as rays are tested with them.
+    pub planes: PlaneTable,
     /// Materials.
     pub materials: MaterialTable,
     /// Lights.

@@ -1,9 +1,9 @@
-//! Curved shapes that are no spheres (see [`crate::shapes`]).
+//! Curved shapes that are no spheres, and planes (see [`crate::shapes`]).
 
 use crate::shapes::{Row, UnitShape};
 use glam::{DAffine3, DVec3};
 
-/// A curved shape in render space.
+/// A curved shape or a plane in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// What it is in its object space.
@@ -19,7 +19,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Its exact box.
+    /// Its exact box; of planes it has no end.
     pub fn bounds(&self) -> [DVec3; 2] {
         self.unit.bounds(&self.placement)
     }

@@ -17,6 +17,7 @@
 mod capsule;
 mod cone;
 mod disk;
+mod plane;
 mod sphere;
 
 use bytemuck::{Pod, Zeroable};
@@ -46,6 +47,9 @@ pub enum UnitShape {
         /// Half the distance between its centres.
         half: f64,
     },
+    /// The plane z = 0, facing +z; x is to the right, y up, and both are its texture coordinates. Open and without an
+    /// end.
+    Plane,
 }
 
 /// Bits of the third parameter of cones.
@@ -90,6 +94,7 @@ impl UnitShape {
     const CONE: u32 = 1;
     const CAPSULE: u32 = 2;
     const SPHERE: u32 = 3;
+    const PLANE: u32 = 4;
 
     fn numbers(&self) -> (u32, [f32; 3]) {
         match *self {
@@ -100,6 +105,7 @@ impl UnitShape {
                 (Self::CONE, [radii[0] as f32, radii[1] as f32, f32::from_bits(bits)])
             }
             UnitShape::Capsule { half } => (Self::CAPSULE, [half as f32, 0.0, 0.0]),
+            UnitShape::Plane => (Self::PLANE, [0.0; 3]),
         }
     }
 
@@ -113,16 +119,23 @@ impl UnitShape {
                 (first * across - w.z).max(last * across + w.z)
             }
             UnitShape::Capsule { half } => w.length() + half * w.z.abs(),
+            UnitShape::Plane if w.truncate() == glam::DVec2::ZERO => 0.0,
+            UnitShape::Plane => f64::INFINITY,
         }
     }
 
     /// Whether it has an inside.
     pub fn is_closed(&self) -> bool {
         match self {
-            UnitShape::Disk { .. } => false,
+            UnitShape::Disk { .. } | UnitShape::Plane => false,
             UnitShape::Cone { caps, .. } => *caps,
             UnitShape::Sphere | UnitShape::Capsule { .. } => true,
         }
+    }
+
+    /// Whether it has no end: no box holds it, and no tree.
+    pub fn is_endless(&self) -> bool {
+        matches!(self, UnitShape::Plane)
     }
 
     /// The exact box of the shape under a map.
@@ -155,6 +168,7 @@ impl Row {
         let faces = match self.kind {
             UnitShape::DISK => [Some(disk::face(&self.parameters)), None],
             UnitShape::CONE => cone::faces(&self.parameters),
+            UnitShape::PLANE => [Some(plane::face()), None],
             _ => [None; 2],
         };
         let row = *self;
@@ -175,6 +189,7 @@ impl Row {
             UnitShape::DISK => disk::hit(&self.parameters, &ray, leaves),
             UnitShape::CONE => cone::hit(&self.parameters, &ray, leaves),
             UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
+            UnitShape::PLANE => plane::hit(&ray, leaves),
             _ => sphere::hit(&ray, leaves),
         }?;
         let t = t as f32;
@@ -191,6 +206,7 @@ impl Row {
             UnitShape::DISK => disk::surface(&self.parameters, q),
             UnitShape::CONE => cone::surface(&self.parameters, q),
             UnitShape::CAPSULE => capsule::surface(&self.parameters, q),
+            UnitShape::PLANE => plane::surface(q),
             _ => sphere::surface(q),
         };
         OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }
@@ -213,6 +229,19 @@ impl FlatFace {
         [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| DVec3::from(self.row.anchor) + map * DVec3::new(x, y, self.z))
     }
 
+    /// Whether it is all of a plane.
+    pub fn is_endless(&self) -> bool {
+        self.radii[1] == f64::INFINITY
+    }
+
+    /// The unit normal to the front, and n.p of all points p of its plane.
+    pub fn equation(&self) -> (DVec3, f64) {
+        let map = self.row.object_from_render();
+        let normal = (map.transpose() * DVec3::Z).normalize();
+        let point = DVec3::from(self.row.anchor) + map.inverse() * DVec3::new(0.0, 0.0, self.z);
+        (normal, normal.dot(point))
+    }
+
     /// The unit normal to the outside of the shape; `None`: it has no inside.
     pub fn outward(&self) -> Option<DVec3> {
         (self.z != 0.0).then(|| (self.row.object_from_render().transpose() * DVec3::Z * self.z).normalize())
@@ -229,7 +258,7 @@ impl FlatFace {
         let squared = at.dot(at);
         // A line along the plane has no t, and none of these holds.
         let [inner, outer] = self.radii.map(|r| r * r);
-        (inner <= squared && squared <= outer).then_some(t)
+        (inner <= squared && squared <= outer && t.is_finite()).then_some(t)
     }
 }
 

@@ -49,8 +49,8 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and
-    /// never back.
+    /// `Transparent` on a shape that has no inside, a disk, a plane or a cylinder without caps: light is bent there
+    /// once, and never back.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])

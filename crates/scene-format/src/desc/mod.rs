@@ -53,8 +53,8 @@ pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Disk, Extrude, Faces, Groups, HeightField, InlineMesh, Instances,
-    Lathe, Mesh, MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Polygon, Profile,
-    Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
+    Lathe, Mesh, MeshSource, Moved, Outline, PathPoints, PlacementList, PlacementPattern, Placements, Plane, Polygon,
+    Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

@@ -1,8 +1,8 @@
 //! Objects: what is to be seen.
 
 use super::shapes::{
-    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, HeightField, Lathe, Mesh, Placements, Polygon, RectBox, Rectangle,
-    Sphere, Torus, Tube,
+    Arrow, Capsule, Cone, Cylinder, Disk, Extrude, HeightField, Lathe, Mesh, Placements, Plane, Polygon, RectBox,
+    Rectangle, Sphere, Torus, Tube,
 };
 use super::{MaterialRef, Name, Transform, Vec3};
 use crate::codes;
@@ -146,7 +146,9 @@ macro_rules! shapes {
 shapes! {
     /// A sphere.
     Sphere(Box<Sphere>);
-    /// A flat rectangle: a floor, a wall, a picture, a square lamp.
+    /// A plane without an end: a floor to the horizon, water.
+    Plane(Box<Plane>);
+    /// A flat rectangle: a wall, a table, a picture, a square lamp.
     Rectangle(Box<Rectangle>);
     /// A box with right angles.
     Box(Box<RectBox>);

@@ -1,4 +1,4 @@
-//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see
+//! Objects with curved sides, and planes: spheres, and those that are a unit shape under an affine map (see
 //! [`tracer_kernels::shapes`]).
 
 use super::assets::Sources;
@@ -7,7 +7,7 @@ use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{
-    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3, cannot_shine,
+    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Vec3, cannot_shine,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -31,12 +31,19 @@ fn written(object: &Object) -> Option<Written> {
             let local = DAffine3 { matrix3, translation: DVec3::from(sphere.center.value) };
             Some(Written { unit: UnitShape::Sphere, local, noun: "sphere" })
         }
+        Object::Plane(plane) => Some(of_plane(plane)),
         Object::Disk(disk) => Some(of_disk(disk)),
         Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
         Object::Cone(cone) => Some(of_cone(cone)),
         Object::Capsule(capsule) => Some(of_capsule(capsule)),
         _ => None,
     }
+}
+
+fn of_plane(plane: &Plane) -> Written {
+    let [right, up, normal] = sides(DVec3::from(plane.normal.value));
+    let local = DAffine3 { matrix3: DMat3::from_cols(right, up, normal), translation: DVec3::from(plane.point.value) };
+    Written { unit: UnitShape::Plane, local, noun: "plane" }
 }
 
 fn of_disk(disk: &Disk) -> Written {
@@ -151,6 +158,12 @@ pub fn load(
     all
 }
 
+/// The unit normal of a plane, and its point that is nearest to one.
+pub(super) fn equation(map: &DAffine3, point: DVec3) -> (DVec3, DVec3) {
+    let normal = (map.matrix3.inverse().transpose() * DVec3::Z).normalize();
+    (normal, point - normal * normal.dot(point - map.translation))
+}
+
 /// Whether a map keeps all angles (up to rounding): it turns, moves and scales.
 pub(super) fn is_similar(map: &DAffine3) -> bool {
     let m = map.matrix3;
@@ -180,11 +193,17 @@ impl Curved {
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         self.maps.iter().step_by(self.maps.len().div_ceil(1024).max(1)).map(move |map| match self.ball(map) {
             Some((center, radius)) => center + (look_at - center).try_normalize().unwrap_or(DVec3::Z) * radius,
+            None if self.unit.is_endless() => equation(map, look_at).1,
             None => {
                 let [low, high] = self.unit.bounds(map);
                 look_at.clamp(low, high)
             }
         })
+    }
+
+    /// Whether it has no end.
+    pub fn is_endless(&self) -> bool {
+        self.unit.is_endless()
     }
 
     /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both
@@ -251,6 +270,9 @@ pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
         let open = match (written(&object.value), of_object(&object.value)) {
             (Some(Written { unit: unit @ UnitShape::Disk { .. }, noun, .. }), _) if !unit.is_closed() => {
                 Some((noun, "a pane of glass is a thin `Cylinder`"))
+            }
+            (Some(Written { unit: UnitShape::Plane, noun, .. }), _) => {
+                Some((noun, "water is a large and deep `Box`, a pane of glass a flat one"))
             }
             (Some(Written { unit, noun, .. }), _) if !unit.is_closed() => Some((noun, "close it: `caps: true`")),
             (_, Some(shape)) if !shape.is_closed() => Some((shape.noun(), shape.way_to_close())),

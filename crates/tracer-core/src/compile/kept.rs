@@ -140,6 +140,7 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
         [shape.lower, shape.upper].iter().for_each(|corner| add(bytemuck::cast_slice(corner)));
     }
     add(&geometry.first_shape.to_le_bytes());
+    add(bytemuck::cast_slice(geometry.planes));
     // All meshes of a scene share their positions.
     let mut positions: Option<&[[f32; 3]]> = None;
     for mesh in geometry.meshes {

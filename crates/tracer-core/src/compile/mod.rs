@@ -40,8 +40,8 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::{
-    Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, Shape, ShapeTable,
-    Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, PlaneTable, Shape,
+    ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -152,6 +152,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials, uses.len() as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
+    let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
     let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
     let written =
@@ -202,6 +203,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         tables: Tables {
             spheres: sphere_table,
             shapes: ShapeTable::new(&shapes),
+            planes: plane_table,
             materials: material_table,
             lights: light_table,
             textures: TextureTable::new(pictures, &uses),
@@ -249,9 +251,15 @@ pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
     named.into_iter().map(|path| desc.base_dir.join(path)).collect()
 }
 
-/// One point per object near what the camera looks at, on its surface or in its box.
+/// One point per object near what the camera looks at, on its surface or in its box. What has no end says nothing of
+/// where a scene is, unless there is nothing else.
 fn marks(curved: &[Curved], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
-    curved.iter().flat_map(|object| object.marks(look_at)).chain(placed.marks(look_at)).collect()
+    let of = |endless: bool| {
+        let some = curved.iter().filter(move |object| object.is_endless() == endless);
+        some.flat_map(move |object| object.marks(look_at))
+    };
+    let marks: Vec<DVec3> = of(false).chain(placed.marks(look_at)).collect();
+    if marks.is_empty() { of(true).collect() } else { marks }
 }
 
 /// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved
@@ -280,6 +288,8 @@ fn curved_and_lights(
         spheres.push(Sphere { center, radius, material: NONE, object, light: index, coordinates: 0 });
     }
     SphereTable::order(&mut spheres);
+    // Behind those that hang in the tree.
+    shapes.sort_by_key(|shape| shape.unit.is_endless());
     for (k, sphere) in spheres.iter().enumerate() {
         if let Some(Light::Sphere { sphere: index, .. }) = lights.get_mut(sphere.light as usize) {
             *index = k as u32;
@@ -299,7 +309,7 @@ fn build_tree(
     materials: &[Material],
     kept: Option<&Kept>,
 ) -> Result<Option<Arc<bvh::Accel>>, Box<Diagnostic>> {
-    if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
+    if built.instances.is_empty() && in_tree == 0 && shapes.iter().all(|shape| shape.unit.is_endless()) {
         return Ok(None);
     }
     let acceleration = self::acceleration(acceleration);

@@ -3,9 +3,9 @@
 use super::technique::{Engine, Technique, Vertex};
 use tracer_kernels::bvh::{Accel, Coherence, Hits, Occlusion};
 use tracer_kernels::engine::batch::{Batch, rays};
-use tracer_kernels::engine::deposit;
 use tracer_kernels::engine::kernels::Kernels;
 use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::{deposit, planes_closest, planes_occluded};
 use tracer_kernels::level::Level;
 use tracer_kernels::report::Stage;
 
@@ -52,6 +52,9 @@ pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch
 pub fn closest(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
     kernels.closest(scene, batch);
+    if !scene.tables.planes.is_empty() {
+        planes_closest(&scene.tables.planes, batch);
+    }
     batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_closest(accel.top_boxes(), batch);
@@ -85,6 +88,9 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
 pub fn occluded(engine: Engine<'_>, coherence: Coherence, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
     kernels.occluded(scene, batch);
+    if !scene.tables.planes.is_empty() {
+        planes_occluded(scene, batch);
+    }
     batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);

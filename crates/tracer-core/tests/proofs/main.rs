@@ -24,6 +24,7 @@ mod matrix;
 mod mattes;
 mod metals;
 mod patterns;
+mod planes;
 mod random_scenes;
 mod range;
 mod reuse;

@@ -1,8 +1,9 @@
-//! Faults in curved shapes.
+//! Faults in curved shapes and planes.
 
 use super::{Mutant, proofs, suite};
 
 const CONE: &str = "crates/kernels/src/shapes/cone.rs";
+const PLANES: &str = "crates/kernels/src/engine/stages/planes.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -54,5 +55,33 @@ pub const MUTANTS: &[Mutant] = &[
         find: "leaf.row.hit(origin, direction, leaf.ids[0] == from)",
         replace: "leaf.row.hit(origin, direction, leaf.ids[1] == from)",
         caught_by: suite("shapes", &["the_tree"]),
+    },
+    Mutant {
+        name: "rays-meet-the-plane-that-they-leave",
+        file: PLANES,
+        find: "&& paths.from_primitive[i] != plane.id",
+        replace: "&& paths.from_primitive[i] != plane.id + 1_000",
+        caught_by: proofs(&["planes::it_reaches"]),
+    },
+    Mutant {
+        name: "pixels-share-through-planes",
+        file: PLANES,
+        find: "let mut beyond = sides[usize::from(height < 0.0)];",
+        replace: "let mut beyond = sides[usize::from(height < 0.0)] & 0;",
+        caught_by: proofs(&["planes::sharing"]),
+    },
+    Mutant {
+        name: "planes-throw-no-shadow",
+        file: PLANES,
+        find: "t < f64::from(shadows.t_max[i]) && other",
+        replace: "t < f64::from(-shadows.t_max[i]) && other",
+        caught_by: proofs(&["planes::planes_as"]),
+    },
+    Mutant {
+        name: "planes-hide-lamps-in-them",
+        file: PLANES,
+        find: "primitive != NONE && scene.accel",
+        replace: "primitive == NONE && scene.accel",
+        caught_by: proofs(&["planes::a_lamp"]),
     },
 ];

@@ -10,6 +10,7 @@ pub mod lights;
 pub mod materials;
 pub mod patterns;
 pub mod photons;
+pub mod planes;
 pub mod points;
 pub mod reach;
 pub mod shade;
