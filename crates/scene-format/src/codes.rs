@@ -422,13 +422,6 @@ codes! {
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses,
-    /// arrows and meshes can.
-    ///
-    /// ```text
-    /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
-    /// ```
-    NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a
     /// `Polygon` do not lie in one plane, or its sides cross. Points that repeat the last one are left out before that.
     ///

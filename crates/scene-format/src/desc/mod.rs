@@ -47,7 +47,7 @@ pub use materials::{
     Transparent,
 };
 pub use name::Name;
-pub use object::{Faulty, Object, cannot_shine};
+pub use object::{Faulty, Object};
 pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
