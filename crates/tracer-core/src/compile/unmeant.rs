@@ -172,7 +172,7 @@ fn disks_turned_away(desc: &SceneDesc, placed: &Placed, curved: &[Curved], diagn
             let normal = (map.matrix3.inverse().transpose() * DVec3::Z).normalize_or_zero();
             let center = map.translation;
             // In front by more than rounding.
-            let least = 1e-6 * (map.matrix3.x_axis.length() + map.matrix3.y_axis.length() + center.length());
+            let least = 1e-9 * (map.matrix3.x_axis.length() + map.matrix3.y_axis.length() + center.length());
             let in_front = |p: DVec3| normal.dot(p - center) > least;
             let far = center + normal * 1e12;
             let flat = (0..polygonal_count).flat_map(|other| placed.marks_of(other, far));

@@ -193,7 +193,12 @@ impl Lamp {
         }
         let mut distance = t;
         if let Some(normal) = self.flat_normal(&way) {
-            distance -= self.offset / direction.dot(normal).abs();
+            let cos = direction.dot(normal).abs();
+            // A point in its plane sees nothing of it. Of very large ones the offset may be beyond the point.
+            if t * cos <= 1e-3 * self.offset {
+                return None;
+            }
+            distance -= (self.offset / cos).min(0.01 * t);
         }
         let inverse_pdf = self.growth * length * length * length / density;
         (distance > 0.0).then_some(Towards { direction, distance, inverse_pdf })
