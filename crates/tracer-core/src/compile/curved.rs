@@ -196,10 +196,9 @@ impl Curved {
         self.maps.iter().map(radiance).collect()
     }
 
-    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance for a sphere and says
-    /// its index; those of shapes are added to `lamps`, in the order of the shapes.
-    /// `written`, where a pattern asks for it: from the coordinates that things are written in to the world, the first
-    /// the world's own.
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance for a sphere and
+    /// says its index; those of shapes are added to `lamps`, in the order of the shapes. `written`, where a pattern
+    /// asks for it: from the coordinates that things are written in to the world, the first the world's own.
     pub fn build(
         &self,
         frame: &Frame,

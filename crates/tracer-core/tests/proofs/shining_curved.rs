@@ -126,8 +126,8 @@ fn spot(lamp: Object, floor: f64, camera: [f64; 3], samples: u32) -> (f64, f64) 
     (mean, error)
 }
 
-/// Irradiance right under the middle of a disk of radius r at height h, of radiance one: pi r^2 / (r^2 + h^2) (Howell: A
-/// Catalog of Radiation Heat Transfer Configuration Factors, B-13); with a hole the difference of two.
+/// Irradiance right under the middle of a disk of radius r at height h, of radiance one: pi r^2 / (r^2 + h^2) (Howell:
+/// A Catalog of Radiation Heat Transfer Configuration Factors, B-13); with a hole the difference of two.
 #[test]
 fn light_under_a_disk() {
     let cases = [(0.5, 0.0), (2.0, 0.0), (2.0, 1.5), (0.05, 0.0), (1e-4, 0.0), (20.0, 0.0)];
@@ -190,8 +190,8 @@ fn ngon(center: Vec3, normal: Vec3, radius: f64, count: u32, material: Material)
     }))
 }
 
-/// A disk is a polygon of very many corners; a sphere that a map squeezes by nothing to speak of is a sphere; a cylinder
-/// is a cone.
+/// A disk is a polygon of very many corners; a sphere that a map squeezes by nothing to speak of is a sphere; a
+/// cylinder is a cone.
 #[test]
 fn lamps_that_are_the_same() {
     let at = [0.3, 1.6, 0.0];

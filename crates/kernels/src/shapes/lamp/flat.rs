@@ -1,9 +1,9 @@
-//! Disks across the z axis that shine, caps among them: a half-line of the plane from the point below (or above) the one
-//! that sees it, then a point of what the disk covers of that.
+//! Disks across the z axis that shine, caps among them: a half-line of the plane from the point below (or above) the
+//! one that sees it, then a point of what the disk covers of that.
 //!
 //! Half-lines are chosen by their angle, points of one by solid angle: with h the height above the plane and s the way
-//! along it, dw = h s ds dx / (s^2 + h^2)^(3/2), whose integral is w(s) = 1 - h / sqrt(s^2 + h^2). So what is near is not
-//! chosen too seldom, and one over the density is never more than 2 pi.
+//! along it, dw = h s ds dx / (s^2 + h^2)^(3/2), whose integral is w(s) = 1 - h / sqrt(s^2 + h^2). So what is near is
+//! not chosen too seldom, and one over the density is never more than 2 pi.
 
 use super::Way;
 use glam::{DVec2, DVec3};

@@ -1,15 +1,15 @@
 //! Curved shapes that shine: points and directions towards them, and from them.
 //!
 //! All is reckoned in the shape's own space, which is its object space with the z axis of cones made as long as it is
-//! beside the others: a cylinder's map to render space keeps angles then, but where a transform squeezes it. A direction
-//! of own space with density p has in render space the density p / (|det M| |M^-1 w|^3), w the unit direction there. So
-//! an ellipsoid is seen as a ball is, whatever its form.
+//! beside the others: a cylinder's map to render space keeps angles then, but where a transform squeezes it. A
+//! direction of own space with density p has in render space the density p / (|det M| |M^-1 w|^3), w the unit direction
+//! there. So an ellipsoid is seen as a ball is, whatever its form.
 //!
 //! From within a closed shape all directions meet it, and are as likely as each other. From outside a part is chosen,
 //! by about the solid angle that it covers: what is seen of a side from its front or its back ([`side`]), a ball
-//! ([`round`]), a disk or cap ([`flat`]). A capsule is two balls and a side that overlap: all that could have taken a direction
-//! count. What a part's direction meets is found as rays find it; where that is another part, which hides it, the
-//! sample is nothing.
+//! ([`round`]), a disk or cap ([`flat`]). A capsule is two balls and a side that overlap: all that could have taken a
+//! direction count. What a part's direction meets is found as rays find it; where that is another part, which hides it,
+//! the sample is nothing.
 //!
 //! One scalar function in `f64` for all lanes, as hits are.
 

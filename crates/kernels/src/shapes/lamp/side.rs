@@ -3,11 +3,11 @@
 //! A tangent plane of a cone passes through its apex, so of each line either all is seen or nothing: with R the radius
 //! at the height of the point o, and r the distance of o from the axis, the line that lies x round from o is seen from
 //! its front where r cos x > R. Lines are chosen by the angle under which the circle of radius R is seen at that
-//! height, so that what is near is not chosen too seldom; above the apex, where there is no circle, by x alone. Points of
-//! a line are chosen by the solid angle of the strip that it stands for: with D the distance of o from the line, t the
-//! way along it from the point that is nearest to o, and R(t) = f + k t the radius there, the density goes with R(t) D^2
-//! / (D^2 + t^2)^(3/2), whose integral is G(t) = (f t - k D^2) / sqrt(D^2 + t^2). Of a cylinder all together is uniform
-//! in the solid angle of what is seen at a height.
+//! height, so that what is near is not chosen too seldom; above the apex, where there is no circle, by x alone. Points
+//! of a line are chosen by the solid angle of the strip that it stands for: with D the distance of o from the line, t
+//! the way along it from the point that is nearest to o, and R(t) = f + k t the radius there, the density goes with
+//! R(t) D^2 / (D^2 + t^2)^(3/2), whose integral is G(t) = (f t - k D^2) / sqrt(D^2 + t^2). Of a cylinder all together
+//! is uniform in the solid angle of what is seen at a height.
 
 use super::Way;
 use glam::{DVec2, DVec3};

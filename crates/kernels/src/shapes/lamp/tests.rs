@@ -170,9 +170,9 @@ fn solid_angles() {
     near(mean(&capsule, DVec3::new(0.5, 0.0, 0.0)), 4.0 * 0.2f64.asin(), "capsule");
 }
 
-/// Points where light starts are uniform in true area, once they are weighted: all of it is there, the normals of closed
-/// ones cancel out, and by the divergence theorem they tell the volume. What is told of a normal is what is told of the
-/// point.
+/// Points where light starts are uniform in true area, once they are weighted: all of it is there, the normals of
+/// closed ones cancel out, and by the divergence theorem they tell the volume. What is told of a normal is what is told
+/// of the point.
 #[test]
 fn starts_have_their_density() {
     let mut random = Random::new(7);
