@@ -40,6 +40,7 @@ impl<F: Lanes> Numbers<F> {
 
 /// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of
 /// light paths radiance, and `pdf` their density per area and solid angle over the cosine.
+// Long: one way of starting for each kind of light, which share their numbers.
 #[inline(always)]
 pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
     let c = F::splat;
