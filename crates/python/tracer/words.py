@@ -640,10 +640,10 @@ class Conductor(TypedDict, total=False):
 Metal = Literal["Silver", "Gold", "Copper", "Aluminum", "Iron", "Chromium", "Nickel", "Titanium", "Brass", "Platinum", "Steel"]
 
 class Emissive(TypedDict, total=False):
-    """A surface that shines and reflects nothing: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses, arrows and meshes with it are lights. How much it shines is said by exactly one of `radiance` and `power`.
+    """A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by exactly one of `radiance` and `power`.
 
     radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
-    power: Power of each copy: L = P / (pi A), A the area that shines (both sides where `two_sided`). Unit: W.
+    power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Unit: W.
     two_sided: Whether it shines to both sides; else only to the normal's: outwards.
     """
 

@@ -422,11 +422,10 @@ codes! {
     /// Scene(background: 1, objects: [Disk(radius: 1, inner_radius: 1)])
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses,
-    /// arrows and meshes can.
+    /// `Emissive` on a `Plane`, which has no end: nor would its light have one. All other shapes can shine.
     ///
     /// ```text
-    /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
+    /// Scene(objects: [Plane(material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a

@@ -24,7 +24,7 @@ pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;
-pub use light::{FlatLight, Light};
+pub use light::{CurvedLight, CurvedRow, FlatLight, Light};
 pub use materials::{Albedo, Material};
 pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub use mesh::InstanceTable;
@@ -101,7 +101,7 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
-    /// Lights: the spheres, then the others.
+    /// Lights: the spheres, then the other curved ones, then the flat ones.
     pub lights: Vec<Light>,
     /// Meshes, each once.
     pub meshes: Vec<Mesh>,

@@ -12,6 +12,8 @@ pub struct Shape {
     pub placement: DAffine3,
     /// Index into `Scene::materials`.
     pub material: u32,
+    /// Its light in `Scene::lights`, or [`NONE`](super::NONE).
+    pub light: u32,
     /// Its object's place in the scene.
     pub object: u32,
     /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.
@@ -45,14 +47,19 @@ pub struct ShapeTable {
     pub rows: Vec<Row>,
     /// Their materials.
     pub material: Vec<u32>,
+    /// Their lights + 1, or 0; empty where none shines.
+    pub light: Vec<u32>,
 }
 
 impl ShapeTable {
     /// Of the shapes, in their order.
     pub fn new(shapes: &[Shape]) -> Self {
+        let shines = shapes.iter().any(|shape| shape.light != super::NONE);
+        let lights = shapes.iter().filter(|_| shines).map(|shape| shape.light.wrapping_add(1));
         ShapeTable {
             rows: shapes.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect(),
             material: shapes.iter().map(|shape| shape.material).collect(),
+            light: lights.collect(),
         }
     }
 }

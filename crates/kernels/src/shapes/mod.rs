@@ -17,11 +17,13 @@
 mod capsule;
 mod cone;
 mod disk;
+mod lamp;
 mod plane;
 mod sphere;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
+pub use lamp::{Lamp, Start, Towards};
 
 /// A unit shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,20 +182,25 @@ impl Row {
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
     #[inline(never)]
     pub fn hit(&self, origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
+        let [origin, direction] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
+        let t = self.meet(origin, direction, leaves)? as f32;
+        (t > 0.0 && t < f32::INFINITY).then_some(t)
+    }
+
+    /// As [`Row::hit`], before it is rounded.
+    #[inline(always)]
+    fn meet(&self, origin: DVec3, d: DVec3, leaves: bool) -> Option<f64> {
         let map = self.object_from_render();
-        let d = DVec3::from(direction.map(f64::from));
-        let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.anchor);
+        let from_anchor = origin - DVec3::from(self.anchor);
         let t0 = if leaves { 0.0 } else { -(from_anchor.dot(d) / d.dot(d)) };
         let ray = ObjectRay { o: map * (from_anchor + t0 * d), d: map * d, t0 };
-        let t = match self.kind {
+        match self.kind {
             UnitShape::DISK => disk::hit(&self.parameters, &ray, leaves),
             UnitShape::CONE => cone::hit(&self.parameters, &ray, leaves),
             UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
             UnitShape::PLANE => plane::hit(&ray, leaves),
             _ => sphere::hit(&ray, leaves),
-        }?;
-        let t = t as f32;
-        (t > 0.0 && t < f32::INFINITY).then_some(t)
+        }
     }
 
     /// The surface at a point of render space near the shape: point and outward unit normal in render space, texture

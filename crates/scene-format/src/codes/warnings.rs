@@ -96,8 +96,8 @@ codes! {
     /// )
     /// ```
     FAR_VIEW "W0314" "a view so far that single precision shows";
-    /// A `Rectangle` shines to one side, to which there is nothing: no object, and not the camera. All of its light is
-    /// lost. Turn it round, or let it shine to both sides.
+    /// A `Rectangle` or a `Disk` shines to one side, to which there is nothing: no object, and not the camera. All of
+    /// its light is lost. Turn it round, or let it shine to both sides.
     ///
     /// ```text
     /// Scene(

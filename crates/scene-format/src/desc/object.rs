@@ -32,9 +32,6 @@ pub(crate) trait ShapeWords: Told + Faulty {
     /// What several of them are called where they are counted.
     const MANY: &'static str;
 
-    /// Whether it may have the material `Emissive`.
-    const SHINES: bool = true;
-
     /// The file that it is made of, if it is.
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         None
@@ -43,7 +40,6 @@ pub(crate) trait ShapeWords: Told + Faulty {
 
 impl<T: ShapeWords> ShapeWords for Box<T> {
     const MANY: &'static str = T::MANY;
-    const SHINES: bool = T::SHINES;
 
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         T::named_file(self)
@@ -60,11 +56,11 @@ pub(crate) fn no_length(from: &Spanned<Vec3>, to: &Spanned<Vec3>, noun: &str, sp
     })
 }
 
-/// The diagnostic of a thing whose form cannot shine, with its article: `a cone`, `an ellipsoid`.
+/// The diagnostic of a thing without an end that is to shine, with its article.
 pub fn cannot_shine(what: &str, at: Span) -> Diagnostic {
     Diagnostic::error(codes::NO_LIGHT, at, format!("{what} cannot shine"))
-        .expected("`Emissive` on a sphere, or on a shape with flat sides or of triangles")
-        .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open")
+        .expected("`Emissive` on a shape that ends somewhere: light of all of a plane would have no end either")
+        .hint("take a large `Rectangle` instead, or light from all directions: `background`")
 }
 
 /// The choice between shapes, one line each, and what is the same for all of them.
@@ -128,11 +124,6 @@ macro_rules! shapes {
             /// What is wrong with its numbers: [`Faulty::faults`].
             pub fn faults(&self, span: Span) -> Vec<Diagnostic> {
                 match self { $( Object::$Kind(shape) => Faulty::faults(shape, span), )+ }
-            }
-
-            /// Whether it may have the material `Emissive`, whatever its transforms.
-            pub(crate) fn shines(&self) -> bool {
-                match self { $( Object::$Kind(_) => <$inner as ShapeWords>::SHINES, )+ }
             }
 
             /// The file that its shape is made of, if it is.

@@ -11,7 +11,7 @@ use scene_format::desc::{
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
-use tracer_kernels::scene::{Frame, NONE, Shape, Sphere};
+use tracer_kernels::scene::{CurvedLight, Frame, NONE, Shape, Sphere};
 use tracer_kernels::shapes::UnitShape;
 use tracer_mesh::shapes::of_object;
 
@@ -143,15 +143,13 @@ pub fn load(
         let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
-        if emissive.is_some() && (unit != UnitShape::Sphere || !maps.iter().all(is_similar)) {
+        if emissive.is_some() && unit.is_endless() {
             let span = match object.value.material() {
                 MaterialRef::Inline(material) => material.span,
                 MaterialRef::Named { span, .. } => *span,
                 MaterialRef::Default => object.span,
             };
-            let what = if unit == UnitShape::Sphere { "an ellipsoid" } else { noun };
-            let article = if unit == UnitShape::Sphere { "" } else { "a " };
-            diagnostics.push(cannot_shine(&format!("{article}{what}"), span));
+            diagnostics.push(cannot_shine(&format!("a {noun}"), span));
         }
         all.push(Curved { number, unit, maps, local, material, emissive, plain });
     }
@@ -206,32 +204,36 @@ impl Curved {
         self.unit.is_endless()
     }
 
-    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both
-    /// sides where it has two.
+    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A the true area of a
+    /// copy, of both sides where it has two.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let Some(emissive) = &self.emissive else { return Vec::new() };
         let pi = std::f64::consts::PI;
         let sides = if emissive.two_sided { 2.0 } else { 1.0 };
+        let of_amount = match emissive.amount.value {
+            Amount::Radiance(l) => l,
+            Amount::Power(_) => [0.0; 3],
+        };
         let radiance = |map: &DAffine3| {
-            let radius = self.ball(map).map_or(0.0, |(_, radius)| radius);
-            let area = 4.0 * pi * radius * radius * sides;
-            match emissive.amount.value {
-                Amount::Radiance(l) => l,
-                Amount::Power(p) => p.map(|x| x / (pi * area)),
-            }
+            let Amount::Power(power) = emissive.amount.value else { return of_amount };
+            let area = match self.ball(map) {
+                Some((_, radius)) => 4.0 * pi * radius * radius,
+                None => self.unit.area(map),
+            };
+            power.map(|x| x / (pi * area * sides))
         };
         self.maps.iter().map(radiance).collect()
     }
 
-    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index.
-    /// `written`, where a pattern asks for it: from the coordinates that things are written in to the world, the first
-    /// the world's own.
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance for a sphere and
+    /// says its index; those of shapes are added to `lamps`, in the order of the shapes. `written`, where a pattern
+    /// asks for it: from the coordinates that things are written in to the world, the first the world's own.
     pub fn build(
         &self,
         frame: &Frame,
         light: &mut dyn FnMut([f64; 3], bool) -> u32,
         spheres: &mut Vec<Sphere>,
-        shapes: &mut Vec<Shape>,
+        (shapes, lamps): (&mut Vec<Shape>, &mut Vec<CurvedLight>),
         mut written: Option<&mut Vec<DAffine3>>,
     ) {
         let radiances = self.radiances();
@@ -243,15 +245,21 @@ impl Curved {
                 written.push(*map * from_written);
             }
             let (material, object) = (self.material, self.number);
+            let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
             if let Some((center, radius)) = self.ball(map) {
-                let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
                 let light = radiances.get(copy).map_or(NONE, |&radiance| light(radiance, two_sided));
                 let (center, radius) = (frame.point(center), frame.length(radius));
                 spheres.push(Sphere { center, radius, material, object, light, coordinates });
             } else {
                 let placement =
                     DAffine3 { matrix3: map.matrix3 * frame.scale, translation: frame.point(map.translation) };
-                shapes.push(Shape { unit: self.unit, placement, material, object, coordinates });
+                let (unit, shape) = (self.unit, shapes.len() as u32);
+                let mut light = NONE;
+                if let Some(&radiance) = radiances.get(copy) {
+                    light = lamps.len() as u32;
+                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided });
+                }
+                shapes.push(Shape { unit, placement, material, light, object, coordinates });
             }
         }
     }

@@ -40,8 +40,8 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::{
-    Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, PlaneTable, Shape,
-    ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
+    PlaneTable, Shape, ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
@@ -277,9 +277,9 @@ fn curved_and_lights(
         lights.len() as u32 - 1
     };
     let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
-    let mut shapes = Vec::new();
+    let (mut shapes, mut lamps) = (Vec::new(), Vec::new());
     for object in curved {
-        object.build(frame, &mut shine, &mut spheres, &mut shapes, written.as_deref_mut());
+        object.build(frame, &mut shine, &mut spheres, (&mut shapes, &mut lamps), written.as_deref_mut());
     }
     for (object, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
@@ -295,6 +295,13 @@ fn curved_and_lights(
             *index = k as u32;
         }
     }
+    // Behind those of the spheres.
+    let first = lights.len() as u32;
+    for shape in shapes.iter_mut().filter(|shape| shape.light != NONE) {
+        shape.light += first;
+    }
+    let in_unit = |lamp: CurvedLight| CurvedLight { radiance: lamp.radiance.map(|x| x / radiance_unit), ..lamp };
+    lights.extend(lamps.into_iter().map(|lamp| Light::Curved(in_unit(lamp))));
     (spheres, shapes, lights)
 }
 

@@ -34,6 +34,7 @@ mod seams;
 mod sequence;
 mod shared_roulette;
 mod shining;
+mod shining_curved;
 mod support;
 mod surfaces;
 mod textures;

@@ -1,9 +1,10 @@
 //! Faults in curved shapes and planes.
 
-use super::{Mutant, proofs, suite};
+use super::{Mutant, kernel_units, proofs, suite};
 
 const CONE: &str = "crates/kernels/src/shapes/cone.rs";
 const PLANES: &str = "crates/kernels/src/engine/stages/planes.rs";
+const LAMP: &str = "crates/kernels/src/shapes/lamp/mod.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -83,5 +84,40 @@ pub const MUTANTS: &[Mutant] = &[
         find: "primitive != NONE && scene.accel",
         replace: "primitive == NONE && scene.accel",
         caught_by: proofs(&["planes::a_lamp"]),
+    },
+    Mutant {
+        name: "squeezed-lamps-keep-their-densities",
+        file: LAMP,
+        find: "let inverse_pdf = self.growth * length * length * length / density;",
+        replace: "let inverse_pdf = self.growth / (density + 0.0 * length);",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "open-lamps-show-through-themselves",
+        file: LAMP,
+        find: "if hidden || !(density",
+        replace: "if hidden && density > 1e9 || !(density",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "light-starts-uniform-in-the-lamps-own-space",
+        file: LAMP,
+        find: "own * area::growth(&self.map, n) / area",
+        replace: "own * area::growth(&self.map, n).signum() / area",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "closed-lamps-shine-inwards",
+        file: LAMP,
+        find: "if self.two_sided { 1.0 } else { 0.0 }",
+        replace: "1.0",
+        caught_by: proofs(&["shining_curved::within"]),
+    },
+    Mutant {
+        name: "lamps-in-shapes-are-sampled-past-their-holes",
+        file: "crates/kernels/src/shapes/lamp/flat.rs",
+        find: "from = self.hole[1];",
+        replace: "from = self.hole[0];",
+        caught_by: kernel_units(&["shapes::lamp"]),
     },
 ];

@@ -102,8 +102,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
             let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
-            let met =
-                LightHit { distance: F::load(&batch.hits.t[i..]), cos: direction.dot(s.ng).abs(), front: s.outside };
+            let (distance, cos) = (F::load(&batch.hits.t[i..]), direction.dot(s.ng).abs());
+            let met = LightHit { direction, distance, cos, front: s.outside, lanes: emits };
             let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal }, &met);
             let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             if let Some((light_paths, plan)) = pass.light_paths
@@ -198,7 +198,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let (u, v) = of_choice;
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = on_light;
-            let l = lights::sample(&tables.lights, &choice, s.start, u, v);
+            let l = lights::sample(&tables.lights, &choice, s.start, u, v, lit_here);
             let cos_i = s.ns.dot(l.wi);
             let lit = lit_here & bsdf.reaches(cos_i) & zero.lt(l.distance);
             if lit.any() {

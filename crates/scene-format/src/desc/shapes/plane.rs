@@ -38,7 +38,6 @@ impl Told for Plane {
 
 impl ShapeWords for Plane {
     const MANY: &'static str = "planes";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Plane {
