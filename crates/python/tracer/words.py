@@ -23,6 +23,7 @@ else:
     File = Any
 
 AlignItem = TypedDict("AlignItem", {"Align": "Align"})
+AmbientOcclusionItem = TypedDict("AmbientOcclusionItem", {"AmbientOcclusion": "AmbientOcclusion"})
 ArrowItem = TypedDict("ArrowItem", {"Arrow": "Arrow"})
 BlackmanHarrisItem = TypedDict("BlackmanHarrisItem", {"BlackmanHarris": "BlackmanHarris"})
 BlinnPhongItem = TypedDict("BlinnPhongItem", {"BlinnPhong": "BlinnPhong"})
@@ -203,7 +204,7 @@ class Render(TypedDict, total=False):
     max_bounces: Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces, and one more to a light.
     seed: Seed of all random choices.
     acceleration: What finds the hits; the picture is the same, byte for byte.
-    integrator: With or without what saves noise.
+    integrator: What the picture is of, and with or without what saves noise.
     reuse: Whether the pixels of a block share what they find.
     caustics: How light comes over mirrors and glass to diffuse surfaces.
     indirect: How light comes to second vertices over further surfaces.
@@ -227,7 +228,16 @@ class Render(TypedDict, total=False):
 
 Acceleration = Any
 
-Integrator = Literal["Full", "Path"]
+Integrator = Union[Literal["Full", "Path", "Direct"], "AmbientOcclusionItem"]
+
+class AmbientOcclusion(TypedDict, total=False):
+    """No light at all: how much of the half space above each surface that the camera sees is free, weighted by the cosine. 1 is free, 0 all closed; where nothing is seen it is 0. Materials and lights do not matter, glass and lamps are in the way like all else.
+
+    distance: What is further off than this does not count. `None`: everything counts. Unit: the scene's unit.
+    """
+
+    distance: Any
+
 
 Reuse = Any
 
@@ -315,7 +325,7 @@ class Output(TypedDict, total=False):
     marks: Dict[str, Union[Sequence[Union[float, str]], Array, str]]
 
 
-Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha"]
+Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves"]
 
 Matte = Literal["Objects", "Materials"]
 

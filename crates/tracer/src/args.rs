@@ -5,6 +5,7 @@ mod denoise;
 mod farm;
 mod fmt;
 mod golden;
+mod inspect;
 mod merge;
 mod preview;
 mod render;
@@ -14,9 +15,10 @@ pub use denoise::DenoiseArgs;
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
+pub use inspect::{InspectArgs, InspectForm};
 pub use merge::MergeArgs;
 pub use preview::{PreviewArgs, TerminalName};
-pub use render::{Frames, RenderArgs};
+pub use render::{Frames, IntegratorName, RenderArgs};
 
 use crate::commands::Template;
 use crate::write::Bits;
@@ -28,7 +30,7 @@ use std::time::Duration;
 use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
-More: bench-acceleration, bench-figures, lsp, schema, completions, man
+More: inspect, bench-acceleration, bench-figures, lsp, schema, completions, man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100
@@ -87,6 +89,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Keep pictures what they are: run, accept, new
     Golden(GoldenArgs),
+    /// Tell how one sample of a pixel came about
+    Inspect(Box<InspectArgs>),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings

@@ -13,6 +13,7 @@ pub mod frames;
 pub mod help;
 pub mod interrupt;
 pub mod lanes;
+pub mod layer_view;
 pub mod loading;
 pub mod memory;
 pub mod merge_report;

@@ -221,7 +221,7 @@ impl Transport {
             switch("clamp", limit, film.clamp.is_some(), Estimate::Biased, costs.clamp),
         ];
         Transport {
-            integrator: format!("{:?}", asked.integrator),
+            integrator: asked.integrator.to_string(),
             reuse: film.reuse,
             caustics: film.caustics,
             estimate: switches.iter().map(|switch| switch.estimate).fold(Estimate::Unbiased, Estimate::max),

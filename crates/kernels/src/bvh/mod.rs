@@ -89,6 +89,23 @@ pub struct Rays<'a> {
     pub from_instance: &'a [u32],
 }
 
+impl<'a> Rays<'a> {
+    /// One of them alone.
+    pub fn only(&self, ray: usize) -> Rays<'a> {
+        let of = ray..ray + 1;
+        Rays {
+            ox: &self.ox[of.clone()],
+            oy: &self.oy[of.clone()],
+            oz: &self.oz[of.clone()],
+            dx: &self.dx[of.clone()],
+            dy: &self.dy[of.clone()],
+            dz: &self.dz[of.clone()],
+            from_primitive: &self.from_primitive[of.clone()],
+            from_instance: &self.from_instance[of],
+        }
+    }
+}
+
 /// The closest hits of a batch, updated in place.
 pub struct Hits<'a> {
     /// In: the limit, or a hit found earlier. Out: the closest hit's t, or what it was.

@@ -58,6 +58,20 @@ pub enum Sharing {
     Always,
 }
 
+/// What is rendered of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// All light.
+    Paths,
+    /// Light that comes straight to what the camera sees, also in mirrors and through glass.
+    Direct,
+    /// How much is free of what lies above each surface.
+    AmbientOcclusion {
+        /// What is further off does not count; in render space, may be infinite.
+        distance: f32,
+    },
+}
+
 /// A compiled scene.
 pub struct Scene {
     /// Where render space lies in the person's world.
@@ -72,6 +86,8 @@ pub struct Scene {
     pub max_bounces: u32,
     /// Seed of all random choices, unless the caller says otherwise.
     pub seed: u32,
+    /// What the picture is of.
+    pub integrator: Integrator,
     /// Whether the pixels of a block share what they find, unless the caller says otherwise.
     pub reuse: Sharing,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says

@@ -120,6 +120,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("points", &["vertices", "positions", "verts", "corners", "outline", "profile"]),
         ("faces", &["indices", "triangles", "polygons"]),
         ("inner_radius", &["innerradius", "inner", "hole"]),
+        ("distance", &["max_distance", "maxdistance", "radius", "range", "ao_distance"]),
         ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
         ("caps", &["cap", "closed", "capped"]),
         ("from", &["p0", "start", "base_point", "bottom"]),
@@ -175,6 +176,14 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Object", &["local", "generated", "objectspace", "object_space"]),
         ("Uv", &["texcoord", "texturecoordinates", "uvmapping", "mapping"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
+        (
+            "Path",
+            &["pathtracer", "path_tracer", "pathtracing", "path_tracing", "volpath", "simplepath", "unidirectional"],
+        ),
+        ("Direct", &["directlighting", "direct_lighting", "directlight", "direct_light", "whitted"]),
+        ("AmbientOcclusion", &["ao", "occlusion"]),
+        ("PathLength", &["bounces", "path_depth", "raydepth", "ray_depth", "segments"]),
+        ("Nodes", &["traversal", "cost", "heatmap", "boxes"]),
     ];
     let lower = name.to_ascii_lowercase();
     let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, others, _)| (kind, others));

@@ -539,7 +539,13 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             noise: (random.below(2) == 0).then(|| number(random, 0.001, 0.9).into()),
             time: (random.below(2) == 0).then(|| length(random).into()),
             acceleration: *random.pick(&[Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None]),
-            integrator: *random.pick(&[Integrator::Full, Integrator::Path]),
+            integrator: match random.below(5) {
+                0 => Integrator::Path,
+                1 => Integrator::Direct,
+                2 => Integrator::AmbientOcclusion { distance: None },
+                3 => Integrator::AmbientOcclusion { distance: Some(2.5.into()) },
+                _ => Integrator::Full,
+            },
             ..Render::default()
         },
         effects: Effects {

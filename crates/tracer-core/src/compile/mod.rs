@@ -38,11 +38,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
-use tracer_kernels::bvh;
 use tracer_kernels::scene::{
     CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
     PlaneTable, Shape, ShapeTable, Sharing, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
+use tracer_kernels::{bvh, scene};
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
 #[derive(Debug, thiserror::Error)]
@@ -90,6 +90,18 @@ pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileEr
         kept.sweep();
     }
     compiled
+}
+
+/// What is rendered.
+fn integrator(words: &Integrator, frame: &Frame) -> scene::Integrator {
+    match words {
+        Integrator::Full | Integrator::Path => scene::Integrator::Paths,
+        Integrator::Direct => scene::Integrator::Direct,
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.as_ref().map_or(f64::INFINITY, |distance| frame.length(distance.value));
+            scene::Integrator::AmbientOcclusion { distance: distance as f32 }
+        }
+    }
 }
 
 fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, CompileError> {
@@ -165,6 +177,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let accel = build_tree(desc.render.acceleration, &spheres, sphere_table.in_tree, &shapes, &built, &materials, kept)
         .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
+    let integrator = integrator(&desc.render.integrator, &frame);
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
@@ -186,6 +199,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
+        integrator,
         reuse: match desc.render.reuse {
             Reuse::Blocks if full && is_dark => Sharing::Always,
             Reuse::Blocks if full => Sharing::Indoors,

@@ -18,6 +18,8 @@ mod curved;
 mod environment;
 mod figures;
 mod glints;
+mod inspect;
+mod integrators;
 mod layers;
 mod marks;
 mod matrix;

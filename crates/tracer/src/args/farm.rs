@@ -1,6 +1,9 @@
 //! The words of `tracer farm`.
 
-use super::{DenoiseArgs, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, size};
+use super::{
+    DenoiseArgs, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer,
+    size,
+};
 use crate::write::Bits;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -108,6 +111,9 @@ pub struct FarmSlurmArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
+    /// What to render: full, path, direct or ambient_occlusion
+    #[arg(long, value_enum, value_name = "NAME", hide_possible_values = true)]
+    pub integrator: Option<IntegratorName>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
@@ -129,6 +135,7 @@ impl FarmSlurmArgs {
             exposure: self.exposure,
             layers: self.layers.clone(),
             denoise: self.denoise,
+            integrator: self.integrator,
             every: self.every,
             ..RenderArgs::default()
         }

@@ -33,7 +33,7 @@ pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[St
     notes.push((WHOLE.to_owned(), hash_of_film(desc)));
     let render = &desc.render;
     let settings = [
-        ("integrator", format!("{:?}", render.integrator)),
+        ("integrator", render.integrator.to_string()),
         ("reuse", format!("{:?}", render.reuse)),
         ("caustics", format!("{:?}", render.caustics)),
         ("max_bounces", render.max_bounces.value.to_string()),

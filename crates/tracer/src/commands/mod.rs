@@ -13,6 +13,7 @@ mod fix;
 mod fmt;
 pub mod golden;
 mod info;
+mod inspect;
 mod lsp;
 mod man;
 pub(crate) mod merge;
@@ -42,6 +43,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Preview(args) => preview::run(args, shell),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
+        Command::Inspect(args) => inspect::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),

@@ -3,13 +3,14 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 18] = [
+pub const COMMANDS: [&str; 19] = [
     "render",
     "preview",
     "merge",
     "farm",
     "check",
     "info",
+    "inspect",
     "convert",
     "fmt",
     "new",

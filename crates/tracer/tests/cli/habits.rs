@@ -17,6 +17,8 @@ fn printing() -> Vec<Vec<&'static str>> {
         vec!["info", "scene.ron"],
         vec!["info", "scene.ron", "--json"],
         vec!["info", "scene.ron", "--resolved"],
+        vec!["inspect", "scene.ron", "--pixel", "20,12"],
+        vec!["inspect", "scene.ron", "--pixel", "20,12", "--format", "json"],
         vec!["convert", "scene.ron"],
         vec!["fmt", "scene.ron", "--check"],
         vec!["new", "-"],

@@ -15,6 +15,8 @@ mod goals;
 mod golden;
 mod habits;
 mod height_field;
+mod inspect;
+mod integrators;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(unix)]
@@ -25,6 +27,7 @@ mod parts;
 mod render;
 mod report;
 mod support;
+mod teaching;
 #[cfg(unix)]
 mod terminal;
 mod tutorial;

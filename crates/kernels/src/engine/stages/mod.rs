@@ -1,6 +1,7 @@
 //! The stages of a bounce, each a function over lanes from arrays to arrays.
 
 pub mod aim;
+pub mod ambient;
 pub mod camera;
 pub mod cameras;
 pub mod deposit;

@@ -47,6 +47,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
+    let direct = pass.task == Task::Direct;
 
     let (paths, next, shadows) = (&batch.paths, &mut batch.next, &mut batch.shadows);
     let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
@@ -124,6 +125,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
         let mut surfaces = hit & !lamp;
+        if direct {
+            // What a rough surface has scattered sees lights only.
+            surfaces = surfaces & !has(slot, path::OWN);
+        }
         if !scatters || !surfaces.any() {
             continue;
         }
@@ -182,7 +187,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         let lit_here = rough & valid;
         // Diffuse surfaces go on at the last vertex only to see a background.
-        let goes_on = if last && !open { !bsdf.diffuse } else { valid };
+        let goes_on = if (last || direct) && !open { !bsdf.diffuse } else { valid };
         let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
@@ -360,7 +365,7 @@ fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
 
 /// 1 / (1 + (b / a)^2) of the ratio b / a.
 #[inline(always)]
-fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
+pub fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
 }
 

@@ -34,6 +34,10 @@ pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
 }
 
 impl Technique for Reuse {
+    fn name(&self) -> &'static str {
+        "sharing"
+    }
+
     fn tell<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.reuse = true;
     }

@@ -165,7 +165,7 @@ mod tests {
     use clap::{CommandFactory, Parser};
 
     /// Options of `render` that are none of the farm's, or not handed on as they are, and why.
-    const OWN: [(&str, &str); 14] = [
+    const OWN: [(&str, &str); 15] = [
         ("format", "pictures are files"),
         ("noise", "parts end at their samples"),
         ("time", "parts end at their samples"),
@@ -178,12 +178,13 @@ mod tests {
         ("open", "nobody looks at a node's screen"),
         ("frames", "a farm renders one picture"),
         ("skip-existing", "a farm renders one picture"),
+        ("show", "parts are no pictures"),
         ("quiet", "a part's log is all that tells of it"),
         ("diagnostics", "faults are told before parts are submitted"),
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 15] = [
+    const HANDED_ON: [(&str, &[&str], bool); 16] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),
@@ -194,6 +195,7 @@ mod tests {
         ("exposure", &["--exposure", "1.5"], true),
         ("layers", &["--layers", "depth,albedo"], true),
         ("denoise", &["--denoise=on"], true),
+        ("integrator", &["--integrator", "direct"], true),
         ("every", &["--every", "5s"], false),
         ("set", &["--set", "camera.fov=40"], true),
         ("camera", &["--camera", "a"], true),
