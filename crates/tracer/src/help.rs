@@ -17,7 +17,7 @@ const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{option
 const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 /// The commands that a screen of help names in its line "More" alone.
-const MORE: [&str; 6] = ["bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
+const MORE: [&str; 7] = ["repro", "bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
 
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
@@ -43,6 +43,7 @@ pub fn command() -> Command {
                         "crop",
                         "layers",
                         "denoise",
+                        "no_metadata",
                     ]
                     .into_iter()
                     .chain(["pause", "program"])
@@ -68,6 +69,7 @@ pub fn command() -> Command {
                 "frame",
                 "skip_existing",
                 "report",
+                "no_metadata",
             ]
             .into_iter()
             .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))

@@ -118,6 +118,9 @@ impl FarmSlurmArgs {
     pub fn as_render(&self) -> RenderArgs {
         // Whatever else is an option of `render`: the tests of `commands/farm/scripts.rs` see that it is handed on.
         RenderArgs {
+    /// The picture tells nothing: no program, no scene
+    #[arg(long)]
+    pub no_metadata: bool,
             scene: self.scene.clone(),
             output: self.output.clone(),
             bits: self.bits,
@@ -137,6 +140,7 @@ impl FarmSlurmArgs {
 
 const STATUS_EXAMPLES: &str = "\
 Examples:
+            no_metadata: self.no_metadata,
   tracer farm status scene.farm
   tracer farm status 4711 --json
 

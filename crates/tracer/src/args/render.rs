@@ -11,7 +11,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --camera, --frame, --crop, --layers, --report and more.";
+`tracer man render` has --crop, --layers, --report, --no-metadata and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Default, Args)]
@@ -73,6 +73,9 @@ pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
+    /// Pictures tell nothing: no program, no scene, no command
+    #[arg(long)]
+    pub no_metadata: bool,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

@@ -11,6 +11,7 @@ mod explain;
 mod farm;
 mod fix;
 mod fmt;
+mod from_picture;
 pub mod golden;
 mod info;
 mod lsp;
@@ -19,6 +20,7 @@ pub(crate) mod merge;
 mod new;
 mod preview;
 mod render;
+mod repro;
 mod scenes;
 mod schema;
 
@@ -45,6 +47,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Convert(args) => convert::run(args, shell),
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),
+        Command::Repro(args) => repro::run(args, shell),
         Command::Compare(args) => compare::run(args),
         Command::Golden(args) => golden::run(&args.command, shell),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),

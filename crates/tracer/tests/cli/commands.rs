@@ -3,7 +3,7 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 18] = [
+pub const COMMANDS: [&str; 19] = [
     "render",
     "preview",
     "merge",
@@ -13,6 +13,7 @@ pub const COMMANDS: [&str; 18] = [
     "convert",
     "fmt",
     "new",
+    "repro",
     "compare",
     "golden",
     "bench-acceleration",

@@ -24,6 +24,7 @@ mod mattes;
 mod parts;
 mod render;
 mod report;
+mod repro;
 mod support;
 #[cfg(unix)]
 mod terminal;

@@ -88,6 +88,7 @@ fn merge_words(args: &FarmSlurmArgs, record: &Record) -> Vec<String> {
         words.extend(["--bits".to_owned(), bits.to_owned()]);
     }
     words.extend(args.denoise.words());
+    words.extend(args.no_metadata.then(|| "--no-metadata".to_owned()));
     words
 }
 
@@ -183,7 +184,7 @@ mod tests {
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 15] = [
+    const HANDED_ON: [(&str, &[&str], bool); 16] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),
@@ -194,6 +195,7 @@ mod tests {
         ("exposure", &["--exposure", "1.5"], true),
         ("layers", &["--layers", "depth,albedo"], true),
         ("denoise", &["--denoise=on"], true),
+        ("no-metadata", &["--no-metadata"], true),
         ("every", &["--every", "5s"], false),
         ("set", &["--set", "camera.fov=40"], true),
         ("camera", &["--camera", "a"], true),

@@ -2,6 +2,7 @@
 
 use super::one;
 use crate::args::{self, RenderArgs};
+use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, load};
 use crate::shell::{Shell, counted};
@@ -19,6 +20,7 @@ use tracer_core::Kept;
 #[derive(Default)]
 pub(super) struct Frames {
     pub kept: Kept,
+    pub hashes: Hashes,
     /// The texts of the scene as the first frame was made of them.
     sources: OnceCell<Vec<Source>>,
 }
