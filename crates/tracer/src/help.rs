@@ -46,7 +46,7 @@ pub fn command() -> Command {
                         "no_metadata",
                     ]
                     .into_iter()
-                    .chain(["pause", "program"])
+                    .chain(["pause", "program", "retries"])
                     .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
                 })
         })

@@ -108,7 +108,7 @@ pub enum Frames {
     Range(u32, u32),
 }
 
-fn frames(text: &str) -> Result<Frames, String> {
+pub(super) fn frames(text: &str) -> Result<Frames, String> {
     if text == "all" {
         return Ok(Frames::All);
     }

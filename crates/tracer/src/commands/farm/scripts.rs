@@ -177,8 +177,8 @@ mod tests {
         ("report", "of what one process did"),
         ("stats", "of what one process did"),
         ("open", "nobody looks at a node's screen"),
-        ("frames", "a farm renders one picture"),
-        ("skip-existing", "a farm renders one picture"),
+        ("frames", "each frame has a farm of its own"),
+        ("skip-existing", "a farm that is done stays done"),
         ("quiet", "a part's log is all that tells of it"),
         ("diagnostics", "faults are told before parts are submitted"),
     ];

@@ -138,13 +138,7 @@ pub(super) fn run(
         args.format = None;
     }
     for path in files(&mut args) {
-        if is_dash(path) || path.to_str().and_then(|name| with_number(name, 0)).is_none() {
-            return Err(Failure::wrong(format!(
-                "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
-                path.display(),
-                example(path).display()
-            )));
-        }
+        expect_number(path)?;
     }
     interrupt::listen(*shell)?;
     let (first, last) = range(&args, frames, shell)?;
@@ -183,6 +177,26 @@ pub(super) fn run(
     Ok(ExitCode::from(exit::DONE))
 }
 
+/// The same path with a frame's number in place of `####`, if it has that.
+pub fn of_frame(path: &Path, frame: u32) -> PathBuf {
+    path.to_str().and_then(|name| with_number(name, frame)).map_or_else(|| path.to_owned(), PathBuf::from)
+}
+
+/// Sees that each frame has a file of its own.
+///
+/// # Errors
+/// When there is no `####` in the name.
+pub fn expect_number(path: &Path) -> Result<(), Failure> {
+    if !is_dash(path) && path.to_str().and_then(|name| with_number(name, 0)).is_some() {
+        return Ok(());
+    }
+    Err(Failure::wrong(format!(
+        "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
+        path.display(),
+        example(path).display()
+    )))
+}
+
 /// A name with room for a number.
 fn example(path: &Path) -> PathBuf {
     if is_dash(path) {
@@ -196,7 +210,10 @@ fn example(path: &Path) -> PathBuf {
 }
 
 /// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
-fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
+///
+/// # Errors
+/// A frame is wrong.
+pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
     let mut scene = args.scene.clone();
     if let args::Frames::Range(first, _) = frames {
         scene.frame = Some(first);

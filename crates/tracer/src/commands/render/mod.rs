@@ -1,7 +1,7 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
 mod empty;
-mod frames;
+pub(super) mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
