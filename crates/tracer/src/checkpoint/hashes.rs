@@ -22,8 +22,11 @@ type Stamp = (u64, Option<SystemTime>);
 pub struct Hashing(Result<JoinHandle<Option<Vec<Note>>>, Option<Vec<Note>>>);
 
 impl Hashes {
-    /// Begins with these files of a scene in this folder.
-    pub fn begin(&self, files: &[PathBuf], folder: &Path) -> Hashing {
+    /// Begins with these files of a scene in this folder; where no other thread is wanted, it ends with them, too.
+    pub fn begin(&self, files: &[PathBuf], folder: &Path, threads: Option<u16>) -> Hashing {
+        if threads == Some(1) {
+            return Hashing(Err(self.notes(files, folder)));
+        }
         let (known, files, folder) = (self.clone(), files.to_vec(), folder.to_owned());
         let again = (files.clone(), folder.clone());
         let work = move || known.notes(&files, &folder);
@@ -38,6 +41,12 @@ impl Hashes {
     }
 
     fn of(&self, file: &Path) -> Option<String> {
+        // What fails once, on a disk far away, is tried again.
+        const TRIES: usize = 3;
+        (0..TRIES).find_map(|_| self.tried(file))
+    }
+
+    fn tried(&self, file: &Path) -> Option<String> {
         let meta = fs::metadata(file).ok()?;
         let stamp = (meta.len(), meta.modified().ok());
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -51,13 +60,13 @@ impl Hashes {
 }
 
 impl Hashing {
-    /// A note for each file, and that these are all; nothing where one could not be read any more.
-    pub fn end(self) -> Vec<Note> {
+    /// A note for each file, and that these are all; `None` where one could not be read any more.
+    pub fn end(self) -> Option<Vec<Note>> {
         let notes = match self.0 {
             Ok(thread) => thread.join().unwrap_or_default(),
             Err(notes) => notes,
         };
-        notes.map_or_else(Vec::new, |mut notes| {
+        notes.map(|mut notes| {
             notes.push(files_are_told());
             notes
         })

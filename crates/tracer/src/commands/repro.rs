@@ -44,11 +44,10 @@ pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> 
         .map_err(|error| told_load(with_faults_of_files(error, &folder), DiagnosticsForm::Text, shell))?;
     let scene = compile(&desc, DiagnosticsForm::Text, None, &shell.without_warnings())?;
     spare_files(args, &scene.files)?;
-    let Some(files) =
-        Hashes::default().begin(&scene.files, &folder).end().split_last().map(|(_, files)| files.to_vec())
-    else {
+    let Some(mut files) = Hashes::default().begin(&scene.files, &folder, args.threads).end() else {
         return Err(Failure::could_not("a file of the scene cannot be read any more"));
     };
+    files.retain(|(name, _)| name.starts_with("file:"));
     let mut reasons = changed(&record, &files, &text);
     if !reasons.is_empty() && args.output.is_none() {
         return Err(not_again(&shown.to_string(), &reasons, "; -o FILE renders it as it is now"));

@@ -120,7 +120,16 @@ pub(super) fn hashing(
     let is_wanted = args.report.is_some() || !args.no_metadata;
     let are_there = notes.iter().any(|(name, _)| *name == checkpoint::files_are_told().0);
     let hashes = frames.map_or_else(Hashes::default, |frames| frames.hashes.clone());
-    (is_wanted && !are_there).then(|| hashes.begin(&scene.files, &desc.base_dir))
+    (is_wanted && !are_there).then(|| hashes.begin(&scene.files, &desc.base_dir, args.threads))
+}
+
+/// The hashes that were begun; that there are none is said.
+pub(super) fn hashed(hashing: Option<Hashing>, shell: &Shell) -> Vec<Note> {
+    let Some(hashing) = hashing else { return Vec::new() };
+    hashing.end().unwrap_or_else(|| {
+        shell.say("warning: a file of the scene cannot be read again, so it is not told what the files held");
+        Vec::new()
+    })
 }
 
 /// What pictures tell of themselves, if they may.

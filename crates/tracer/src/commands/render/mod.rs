@@ -10,7 +10,7 @@ pub(super) mod repeat;
 pub(super) mod rescue;
 
 use crate::args::RenderArgs;
-use crate::checkpoint::{Checkpoints, Extent, Hashing, assets_hash, part_told};
+use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
@@ -126,7 +126,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let denoised = denoised.flatten();
     let developed = clock.lap();
 
-    notes.extend(hashing.map_or_else(Vec::new, Hashing::end));
+    notes.extend(kept::hashed(hashing, shell));
     let provenance = kept::provenance(args, notes, &film, denoised.is_some());
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
