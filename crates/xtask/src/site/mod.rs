@@ -65,6 +65,8 @@ src = \"src\"
 [build]
 build-dir = \"book\"
 create-missing = false
+# One of them renames README.md, to which pages lead.
+use-default-preprocessors = false
 
 [output.html]
 no-section-label = true
