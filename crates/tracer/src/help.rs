@@ -17,7 +17,8 @@ const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{option
 const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 /// The commands that a screen of help names in its line "More" alone.
-const MORE: [&str; 7] = ["inspect", "bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
+const MORE: [&str; 8] =
+    ["inspect", "repro", "bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
 
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
@@ -44,9 +45,10 @@ pub fn command() -> Command {
                         "layers",
                         "denoise",
                         "integrator",
+                        "no_metadata",
                     ]
                     .into_iter()
-                    .chain(["pause", "program"])
+                    .chain(["pause", "program", "retries"])
                     .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
                 })
         })
@@ -71,6 +73,7 @@ pub fn command() -> Command {
                 "report",
                 "integrator",
                 "show",
+                "no_metadata",
             ]
             .into_iter()
             .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))

@@ -49,6 +49,7 @@ pub fn main() -> ExitCode {
     let quiet = match &cli.command {
         Command::Render(args) => args.quiet,
         Command::Merge(args) => args.quiet,
+        Command::Repro(args) => args.quiet,
         _ => false,
     };
     let verbosity = match (quiet, cli.verbose) {

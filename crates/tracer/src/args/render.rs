@@ -12,7 +12,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --camera, --frame, --crop, --layers, --report and more.";
+`tracer man render` has --crop, --layers, --report, --no-metadata and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Default, Args)]
@@ -81,6 +81,9 @@ pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
+    /// Pictures tell nothing: no program, no scene, no command
+    #[arg(long)]
+    pub no_metadata: bool,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -153,7 +156,7 @@ pub enum Frames {
     Range(u32, u32),
 }
 
-fn frames(text: &str) -> Result<Frames, String> {
+pub(super) fn frames(text: &str) -> Result<Frames, String> {
     if text == "all" {
         return Ok(Frames::All);
     }

@@ -11,6 +11,7 @@ mod explain;
 mod farm;
 mod fix;
 mod fmt;
+mod from_picture;
 pub mod golden;
 mod info;
 mod inspect;
@@ -20,6 +21,7 @@ pub(crate) mod merge;
 mod new;
 mod preview;
 mod render;
+mod repro;
 mod scenes;
 mod schema;
 
@@ -47,6 +49,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Convert(args) => convert::run(args, shell),
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),
+        Command::Repro(args) => repro::run(args, shell),
         Command::Compare(args) => compare::run(args),
         Command::Golden(args) => golden::run(&args.command, shell),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),

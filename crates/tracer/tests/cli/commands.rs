@@ -14,6 +14,7 @@ pub const COMMANDS: [&str; 19] = [
     "convert",
     "fmt",
     "new",
+    "repro",
     "compare",
     "golden",
     "bench-acceleration",

@@ -26,6 +26,7 @@ mod mattes;
 mod parts;
 mod render;
 mod report;
+mod repro;
 mod support;
 mod teaching;
 #[cfg(unix)]

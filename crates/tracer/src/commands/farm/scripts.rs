@@ -88,6 +88,7 @@ fn merge_words(args: &FarmSlurmArgs, record: &Record) -> Vec<String> {
         words.extend(["--bits".to_owned(), bits.to_owned()]);
     }
     words.extend(args.denoise.words());
+    words.extend(args.no_metadata.then(|| "--no-metadata".to_owned()));
     words
 }
 
@@ -176,8 +177,8 @@ mod tests {
         ("report", "of what one process did"),
         ("stats", "of what one process did"),
         ("open", "nobody looks at a node's screen"),
-        ("frames", "a farm renders one picture"),
-        ("skip-existing", "a farm renders one picture"),
+        ("frames", "each frame has a farm of its own"),
+        ("skip-existing", "a farm that is done stays done"),
         ("show", "parts are no pictures"),
         ("quiet", "a part's log is all that tells of it"),
         ("diagnostics", "faults are told before parts are submitted"),
@@ -196,6 +197,7 @@ mod tests {
         ("layers", &["--layers", "depth,albedo"], true),
         ("denoise", &["--denoise=on"], true),
         ("integrator", &["--integrator", "direct"], true),
+        ("no-metadata", &["--no-metadata"], true),
         ("every", &["--every", "5s"], false),
         ("set", &["--set", "camera.fov=40"], true),
         ("camera", &["--camera", "a"], true),

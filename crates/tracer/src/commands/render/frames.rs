@@ -2,6 +2,7 @@
 
 use super::one;
 use crate::args::{self, RenderArgs};
+use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, load};
 use crate::shell::{Shell, counted};
@@ -19,6 +20,7 @@ use tracer_core::Kept;
 #[derive(Default)]
 pub(super) struct Frames {
     pub kept: Kept,
+    pub hashes: Hashes,
     /// The texts of the scene as the first frame was made of them.
     sources: OnceCell<Vec<Source>>,
 }
@@ -136,13 +138,7 @@ pub(super) fn run(
         args.format = None;
     }
     for path in files(&mut args) {
-        if is_dash(path) || path.to_str().and_then(|name| with_number(name, 0)).is_none() {
-            return Err(Failure::wrong(format!(
-                "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
-                path.display(),
-                example(path).display()
-            )));
-        }
+        expect_number(path)?;
     }
     interrupt::listen(*shell)?;
     let (first, last) = range(&args, frames, shell)?;
@@ -196,6 +192,26 @@ fn rest(args: &RenderArgs) -> String {
     }
 }
 
+/// The same path with a frame's number in place of `####`, if it has that.
+pub fn of_frame(path: &Path, frame: u32) -> PathBuf {
+    path.to_str().and_then(|name| with_number(name, frame)).map_or_else(|| path.to_owned(), PathBuf::from)
+}
+
+/// Sees that each frame has a file of its own.
+///
+/// # Errors
+/// When there is no `####` in the name.
+pub fn expect_number(path: &Path) -> Result<(), Failure> {
+    if !is_dash(path) && path.to_str().and_then(|name| with_number(name, 0)).is_some() {
+        return Ok(());
+    }
+    Err(Failure::wrong(format!(
+        "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
+        path.display(),
+        example(path).display()
+    )))
+}
+
 /// A name with room for a number.
 fn example(path: &Path) -> PathBuf {
     if is_dash(path) {
@@ -209,7 +225,10 @@ fn example(path: &Path) -> PathBuf {
 }
 
 /// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
-fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
+///
+/// # Errors
+/// A frame is wrong.
+pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
     let mut scene = args.scene.clone();
     if let args::Frames::Range(first, _) = frames {
         scene.frame = Some(first);

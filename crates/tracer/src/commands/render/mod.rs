@@ -1,7 +1,7 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
 mod empty;
-mod frames;
+pub(super) mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
@@ -11,7 +11,7 @@ pub(super) mod repeat;
 pub(super) mod rescue;
 
 use crate::args::{IntegratorName, RenderArgs};
-use crate::checkpoint::{Checkpoints, Extent, part_told, provenance};
+use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told, provenance};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
@@ -91,6 +91,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
     let extent = Extent::Film(crop, part);
     let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
+    let hashing = kept::hashing(args, notes, &scene, &desc, frames);
     let compiled = clock.lap();
 
     if frames.is_none() {
@@ -147,7 +148,8 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let denoised = denoised.flatten();
     let developed = clock.lap();
 
-    let provenance = provenance(notes, &film, denoised.is_some());
+    notes.extend(kept::hashed(hashing, shell));
+    let provenance = kept::provenance(args, notes, &film, denoised.is_some());
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -171,6 +173,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let mut report =
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     if let Some(report) = &mut report {
+        report.scene.assets = assets_hash(notes);
         report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
         let layers = written_layers.names().map(str::to_owned);
         (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised);
@@ -334,7 +337,7 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
+pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
@@ -392,6 +395,7 @@ fn report(
         scene: SceneReport {
             file: desc.sources.first().map(|source| source.name.clone()).unwrap_or_default(),
             hash: scene_format::hash_hex(desc),
+            assets: None,
         },
         picture: PictureReport {
             width: film.size()[0],

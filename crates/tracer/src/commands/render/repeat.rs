@@ -72,5 +72,6 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
         option("--split", super::parts::split_name(split.into()).to_owned());
     }
     words.extend(denoise);
+    words.extend(args.no_metadata.then(|| "--no-metadata".to_owned()));
     words
 }

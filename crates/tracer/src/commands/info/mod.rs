@@ -1,4 +1,6 @@
-//! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint.
+//! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint; what a picture tells of itself.
+
+mod picture;
 
 use crate::args::InfoArgs;
 use crate::checkpoint::{self, is_film};
@@ -18,6 +20,9 @@ use tracer_core::{Crop, FilmError, SavedFilm, Scene};
 pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     if !is_dash(&args.scene.scene) && is_film(&args.scene.scene) {
         return of_checkpoint(args);
+    }
+    if let Some(told) = picture::told(&args.scene.scene)? {
+        return picture::of_picture(args, &told);
     }
     let desc = load(&args.scene, shell)?;
     let text = if args.resolved {
