@@ -25,11 +25,10 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(channels));
     let comments = [provenance.scene_name.as_str(), &provenance.settings_line()].join(": ");
-    let mut attributes = LayerAttributes {
-        software_name: Some(text(Provenance::SOFTWARE)),
-        comments: Some(text(&comments)),
-        ..LayerAttributes::default()
-    };
+    let mut attributes = LayerAttributes::default();
+    if !provenance.is_hidden {
+        (attributes.software_name, attributes.comments) = (Some(text(Provenance::SOFTWARE)), Some(text(&comments)));
+    }
     if let Some(scene) = provenance.embedded_scene() {
         // The only one of its map: the order of several would change from run to run, and the bytes with it.
         attributes.other.insert(text("scene"), AttributeValue::Text(text(scene)));
@@ -51,10 +50,13 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
         .to_unbuffered(&mut bytes)
         .map_err(|error| WriteError::Encode { encoding: Encoding::Exr.name(), message: error.to_string() })?;
     let bytes = bytes.into_inner();
-    if image.mattes.attributes.is_empty() {
+    let record = provenance.embedded_record();
+    let mut added = image.mattes.attributes.clone();
+    added.extend(record.map(|record| (Provenance::RECORD.to_owned(), record.to_owned())));
+    if added.is_empty() {
         return Ok(bytes);
     }
-    with_attributes(&bytes, &image.mattes.attributes).ok_or_else(|| WriteError::Encode {
+    with_attributes(&bytes, &added).ok_or_else(|| WriteError::Encode {
         encoding: Encoding::Exr.name(),
         message: "the names of the objects and materials are too long".to_owned(),
     })

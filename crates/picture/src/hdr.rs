@@ -12,7 +12,9 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Vec<u8> {
         bytes.extend(text.bytes().map(|byte| if byte.is_ascii_control() { b' ' } else { byte }));
         bytes.push(b'\n');
     };
-    line(&format!("SOFTWARE={}", Provenance::SOFTWARE));
+    if !provenance.is_hidden {
+        line(&format!("SOFTWARE={}", Provenance::SOFTWARE));
+    }
     if !provenance.scene_name.is_empty() {
         line(&format!("# scene {}", provenance.scene_name));
     }

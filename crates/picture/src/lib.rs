@@ -23,7 +23,8 @@
 //! ```
 //!
 //! EXR, HDR and PFM hold linear exposed radiance; PNG holds display values, rounded to the nearest code value. The
-//! bytes depend on the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine.
+//! bytes depend on the picture and its [`Provenance`] only: no dates, no paths, nothing of the machine. [`told()`]
+//! reads what a file tells of itself.
 #![forbid(unsafe_code)]
 
 mod encoding;
@@ -33,11 +34,13 @@ mod hdr;
 mod pfm;
 mod png;
 mod provenance;
+mod told;
 mod whole_file;
 
 pub use encoding::{Bits, Encoding, UnknownEncoding};
 pub use error::{WriteError, advice};
 pub use provenance::{Provenance, Setting};
+pub use told::{Told, ToldError, told, told_in};
 pub use whole_file::{
     forget_unfinished, is_one_file, leads_to_same, probe, real_place, remember_unfinished, remove_unfinished, save,
     spare, try_remove_unfinished,
@@ -92,6 +95,8 @@ pub fn encode(image: &Image, encoding: Encoding, provenance: &Provenance) -> Res
     if numbers == 0 || image.linear.len() != numbers || image.display.len() != numbers {
         return Err(WriteError::Picture { width: image.width, height: image.height });
     }
+    let hidden = Provenance::hidden();
+    let provenance = if provenance.is_hidden { &hidden } else { provenance };
     match encoding {
         Encoding::Png(bits) => png::encode(image, bits, provenance),
         Encoding::Exr => exr::encode(image, provenance),

@@ -57,6 +57,9 @@ fn code_value(x: f32, max: f64) -> u16 {
 
 /// Keywords are PNG's own where it has one.
 fn text(provenance: &Provenance) -> Result<Vec<ITXtChunk>, EncodingError> {
+    if provenance.is_hidden {
+        return Ok(Vec::new());
+    }
     let mut chunks = vec![ITXtChunk::new("Software", Provenance::SOFTWARE)];
     if !provenance.scene_name.is_empty() {
         chunks.push(ITXtChunk::new("Source", provenance.scene_name.as_str()));
@@ -64,9 +67,11 @@ fn text(provenance: &Provenance) -> Result<Vec<ITXtChunk>, EncodingError> {
     if !provenance.settings.is_empty() {
         chunks.push(ITXtChunk::new("Comment", provenance.settings_line()));
     }
-    if let Some(scene) = provenance.embedded_scene() {
-        // NUL would end the chunk's text in some readers; no scene that loads holds one outside of comments.
-        let mut chunk = ITXtChunk::new("Scene", scene.replace('\0', "\u{fffd}"));
+    // NUL would end the chunk's text in some readers; no scene that loads holds one outside of comments.
+    let scene = provenance.embedded_scene().map(|scene| ("Scene", scene.replace('\0', "\u{fffd}")));
+    let record = provenance.embedded_record().map(|record| (Provenance::RECORD, record.to_owned()));
+    for (keyword, text) in scene.into_iter().chain(record) {
+        let mut chunk = ITXtChunk::new(keyword, text);
         chunk.compressed = true;
         chunk.compress_text()?;
         chunks.push(chunk);

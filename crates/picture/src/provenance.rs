@@ -19,11 +19,26 @@ pub struct Provenance {
     pub scene_text: String,
     /// Seed, samples, size and whatever else the picture depends on beside the scene file.
     pub settings: Vec<Setting>,
+    /// The same for programs, one line: what it takes to make the picture again. PNG and EXR hold it.
+    pub record: String,
+    /// Nothing of it is told, nor the program: the file is the picture alone.
+    pub is_hidden: bool,
 }
 
 impl Provenance {
+    /// A picture that tells nothing of itself.
+    pub fn hidden() -> Self {
+        Provenance { is_hidden: true, ..Provenance::default() }
+    }
+
     /// Longer scene files are named but not put into the picture (256 KiB).
     pub const MAX_SCENE_BYTES: usize = 1 << 18;
+
+    /// Longer records are left out (1 MiB).
+    pub const MAX_RECORD_BYTES: usize = 1 << 20;
+
+    /// Keyword and attribute of the record.
+    pub const RECORD: &str = "tracer";
 
     /// Name and version of this program.
     pub const SOFTWARE: &str = concat!("tracer ", env!("CARGO_PKG_VERSION"));
@@ -37,5 +52,11 @@ impl Provenance {
     pub fn embedded_scene(&self) -> Option<&str> {
         let length = self.scene_text.len();
         (length > 0 && length <= Self::MAX_SCENE_BYTES).then_some(&self.scene_text)
+    }
+
+    /// The record, unless there is none or it is too long.
+    pub fn embedded_record(&self) -> Option<&str> {
+        let length = self.record.len();
+        (length > 0 && length <= Self::MAX_RECORD_BYTES).then_some(&self.record)
     }
 }

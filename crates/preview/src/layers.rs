@@ -63,7 +63,7 @@ pub fn noise(film: &Film) -> LayerImage {
     LayerImage { name: "noise", channels: &["Y"], values: pixels().map(of).collect() }
 }
 
-/// A layer's numbers as bytes for a canvas.
+/// A layer's numbers as bytes for a canvas: red, green, blue, opaque.
 pub fn colours(image: &LayerImage, exposure: f64) -> Vec<u8> {
     let count = image.channels.len().max(1);
     let pixels = image.values.chunks_exact(count);
@@ -81,6 +81,10 @@ pub fn colours(image: &LayerImage, exposure: f64) -> Vec<u8> {
         "object_id" | "material_id" => bytes(pixels, |p| of_number(p[0] as u32)),
         "uv" => bytes(pixels, |p| [f64::from(p[0]).rem_euclid(1.0), f64::from(p[1]).rem_euclid(1.0), 0.0]),
         "noise" => bytes(pixels, |p| heat(libm::log10(f64::from(p[0]).max(1e-3)) / 3.0 + 1.0)),
+        "path_length" | "nodes" | "leaves" => {
+            let [(low, high), ..] = ranges(image, count);
+            bytes(pixels, |p| heat((f64::from(p[0]) - low) / (high - low).max(f64::MIN_POSITIVE)))
+        }
         // Near is bright.
         "depth" => {
             let [(low, high), ..] = ranges(image, count);

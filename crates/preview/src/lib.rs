@@ -33,5 +33,6 @@ mod watch;
 mod work;
 
 pub use editor::Editor;
+pub use layers::colours as layer_colours;
 pub use options::{Host, Kind, Listen, Options};
 pub use server::{Preview, StartError};

@@ -108,6 +108,7 @@ fn provenance(image: &Image, seed: u32, samples: u32, desc: &SceneDesc) -> Prove
             setting("samples", samples.to_string()),
             setting("seed", seed.to_string()),
         ],
+        ..Provenance::default()
     }
 }
 

@@ -58,26 +58,42 @@ pub struct Picture {
     pub variance: Vec<DVec3>,
 }
 
+/// A scene whose pixels are asked for one by one.
+pub struct Reference<'a>(Tracer<'a>);
+
+impl<'a> Reference<'a> {
+    /// Of a scene.
+    pub fn new(scene: &'a Scene, smoothing: Smoothing) -> Self {
+        Reference(Tracer { scene, world: World::new(scene), materials: Materials::new(scene), smoothing })
+    }
+
+    /// Mean radiance of a pixel over this many independent samples, at least two, and the variance of that mean.
+    pub fn pixel(&self, [x, y]: [u32; 2], samples: u32, seed: u64) -> [DVec3; 2] {
+        let Reference(tracer) = self;
+        let scene = tracer.scene;
+        let n = f64::from(samples);
+        let mut random = Random::new(seed ^ (u64::from(y) << 32 | u64::from(x)) << 16);
+        let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
+        for _ in 0..samples {
+            let ray = camera::ray(&scene.camera, scene.size, [x, y], &mut random);
+            let radiance = ray.map_or(DVec3::ZERO, |ray| tracer.radiance(ray, 0, &mut random));
+            sum += radiance;
+            squares += radiance * radiance;
+        }
+        let mean = sum / n;
+        [mean, (squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0)]
+    }
+}
+
 /// Renders the scene with this many independent samples per pixel, at least two.
 pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> Picture {
-    let tracer = Tracer { scene, world: World::new(scene), materials: Materials::new(scene), smoothing };
+    let reference = Reference::new(scene, smoothing);
     let [width, height] = scene.size;
     let mut picture = Picture { size: scene.size, mean: Vec::new(), variance: Vec::new() };
-    let n = f64::from(samples);
-    for y in 0..height {
-        for x in 0..width {
-            let mut random = Random::new(seed ^ (u64::from(y) << 32 | u64::from(x)) << 16);
-            let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
-            for _ in 0..samples {
-                let ray = camera::ray(&scene.camera, scene.size, [x, y], &mut random);
-                let radiance = ray.map_or(DVec3::ZERO, |ray| tracer.radiance(ray, 0, &mut random));
-                sum += radiance;
-                squares += radiance * radiance;
-            }
-            let mean = sum / n;
-            picture.mean.push(mean);
-            picture.variance.push((squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0));
-        }
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let [mean, variance] = reference.pixel([x, y], samples, seed);
+        picture.mean.push(mean);
+        picture.variance.push(variance);
     }
     picture
 }

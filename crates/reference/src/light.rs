@@ -1,4 +1,7 @@
-//! Directions to lights: to spheres uniform in the solid angle that they cover, to flat ones uniform in their area.
+//! Directions to lights: to spheres uniform in the solid angle that they cover, to flat ones uniform in their area, to
+//! other curved ones uniform in the area of their parts before they were brought to where they are.
+
+mod curved;
 
 use crate::random::{Random, about, polar};
 use glam::DVec3;
@@ -25,6 +28,7 @@ pub fn sample(scene: &Scene, from: DVec3, random: &mut Random) -> DVec3 {
             let axis = (sphere.center - from).try_normalize().unwrap_or(DVec3::Z);
             return about(axis, polar(z, v));
         }
+        Light::Curved(light) => curved::point(light, [random.number(), u, v]),
         Light::Parallelogram(flat) => at(flat, u, v),
         // Turk 1990: the root gives small slices of it as much as large ones.
         Light::Triangle(flat) => at(flat, (1.0 - v) * u.sqrt(), v * u.sqrt()),
@@ -36,6 +40,7 @@ pub fn sample(scene: &Scene, from: DVec3, random: &mut Random) -> DVec3 {
 pub fn density(scene: &Scene, from: DVec3, direction: DVec3) -> f64 {
     let each = scene.lights.iter().map(|light| match light {
         Light::Sphere { sphere, .. } => of_sphere(&scene.spheres[*sphere as usize], from, direction),
+        Light::Curved(light) => curved::density(light, from, direction),
         Light::Parallelogram(flat) => of_flat(flat, 1.0, |u, v| u <= 1.0 && v <= 1.0, from, direction),
         Light::Triangle(flat) => of_flat(flat, 0.5, |u, v| u + v <= 1.0, from, direction),
     });

@@ -32,6 +32,7 @@ fn pieces(unit: &UnitShape) -> (Vec<Sheet>, Vec<Flat>) {
         UnitShape::Sphere => {
             (vec![Sheet { squares: [1.0; 3], linear: 0.0, constant: -1.0, between: everywhere }], Vec::new())
         }
+        UnitShape::Plane => (Vec::new(), vec![Flat { height: 0.0, normal: 1.0, radii: [0.0, f64::INFINITY] }]),
         UnitShape::Disk { inner } => (Vec::new(), vec![Flat { height: 0.0, normal: 1.0, radii: [inner, 1.0] }]),
         UnitShape::Cone { radii: [first, last], caps, .. } => {
             let (m, s) = ((first + last) / 2.0, (last - first) / 2.0);
@@ -159,6 +160,7 @@ fn uv(unit: &UnitShape, q: DVec3, flat: Option<(f64, f64)>) -> [f64; 2] {
             let (right, up) = if upright { (q.x, -q.y) } else { (-q.x, q.y) };
             [(right / radius + 1.0) / 2.0, (up / radius + 1.0) / 2.0]
         }
+        (UnitShape::Plane, _) => [q.x, q.y],
         (_, Some((_, radius))) => [(q.x / radius + 1.0) / 2.0, (q.y / radius + 1.0) / 2.0],
         (UnitShape::Capsule { half }, None) => {
             let along = if q.z > half {

@@ -5,7 +5,7 @@ use crate::Ray;
 use crate::shapes::{self, NEAREST};
 use crate::surface::Surface;
 use glam::DVec3;
-use tracer_core::scene::{Shape, Solids, Step};
+use tracer_core::scene::{NONE, Shape, Solids, Step};
 use tracer_core::shapes::csg::Operation;
 use tracer_core::shapes::{Solid, UnitShape};
 
@@ -23,6 +23,7 @@ fn operands<'a>(solids: &'a Solids, solid: &Solid) -> impl Iterator<Item = (u32,
                 unit: operand.unit,
                 placement: operand.placement,
                 material: operand.material,
+                light: NONE,
                 object: 0,
                 coordinates: operand.coordinates,
             },
@@ -39,7 +40,7 @@ fn contains(unit: &UnitShape, q: DVec3) -> bool {
             q.z.abs() < 1.0 && q.truncate().length() < a + (b - a) * (q.z + 1.0) / 2.0
         }
         UnitShape::Capsule { half } => q.distance(DVec3::new(0.0, 0.0, q.z.clamp(-half, half))) < 1.0,
-        UnitShape::Disk { .. } | UnitShape::Solid(_) => false,
+        UnitShape::Disk { .. } | UnitShape::Plane | UnitShape::Solid(_) => false,
     }
 }
 

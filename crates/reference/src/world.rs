@@ -95,7 +95,7 @@ impl World {
     pub fn light_of(&self, hit: &Hit) -> Option<usize> {
         let light = match hit.shape {
             Shape::Sphere(k) => self.spheres[k].light,
-            Shape::Curved(_) => NONE,
+            Shape::Curved(k) => self.curved[k].light,
             Shape::Triangle(k) => self.triangles[k].light,
         };
         (light != NONE).then_some(light as usize)

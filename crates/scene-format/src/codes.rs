@@ -246,7 +246,7 @@ codes! {
     RESERVED_WORD "E0210" "a word that is kept for later versions";
     /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How far these
     /// reach is known when all meshes in them have been read; drop or fit the objects in it, or move it by `Translate`
-    /// and scale it by `Scale`.
+    /// and scale it by `Scale`. A `Plane` has no lowest point and no extent, ever.
     ///
     /// ```ron
     /// Scene(
@@ -254,7 +254,7 @@ codes! {
     ///     objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])],
     /// )
     /// ```
-    GROUP_DROP "E0211" "a group that is dropped or fitted";
+    GROUP_DROP "E0211" "a group or plane that is dropped or fitted";
     /// A field stands beside another one that leaves it nothing to say: a `fov` where a panorama shows all directions.
     ///
     /// ```ron
@@ -430,11 +430,11 @@ codes! {
     /// Scene(background: 1, objects: [Difference(objects: [Box(size: 2), Torus(radius: 1, tube_radius: 0.4)])])
     /// ```
     NO_OPERAND "E0543" "a shape that cannot be part of a solid";
-    /// `Emissive` on a shape that cannot shine: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes, toruses,
-    /// arrows and meshes can.
+    /// `Emissive` on a `Plane`, which has no end: nor would its light have one. Or on a `Union`, an `Intersection`, a
+    /// `Difference` or a shape in one: nobody knows how much of its surface is left. All other shapes can shine.
     ///
     /// ```text
-    /// Scene(objects: [Cone(radius: 1, material: Emissive(radiance: 5))])
+    /// Scene(objects: [Plane(material: Emissive(radiance: 5))])
     /// ```
     NO_LIGHT "E0544" "a shape that cannot shine";
     /// The rings of an `Extrude` meet themselves or each other, a hole is not within the first ring, or the points of a

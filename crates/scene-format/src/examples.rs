@@ -85,7 +85,7 @@ pub(crate) const CHOICES: [&EnumDef; 32] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 110] = [
+const SNIPPETS: [(&str, &str, &str); 116] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -118,6 +118,10 @@ const SNIPPETS: [(&str, &str, &str); 110] = [
     ("Layer", "MaterialId", "layers: [MaterialId]"),
     ("Layer", "Variance", "layers: [Variance]"),
     ("Layer", "Alpha", "layers: [Alpha]"),
+    ("Layer", "Noise", "layers: [Noise]"),
+    ("Layer", "PathLength", "layers: [PathLength]"),
+    ("Layer", "Nodes", "layers: [Nodes]"),
+    ("Layer", "Leaves", "layers: [Leaves]"),
     ("Matte", "Objects", "cryptomatte: [Objects]"),
     ("Matte", "Materials", "cryptomatte: [Materials]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
@@ -125,6 +129,8 @@ const SNIPPETS: [(&str, &str, &str); 110] = [
     ("Acceleration", "None", "acceleration: None"),
     ("Integrator", "Full", "integrator: Full"),
     ("Integrator", "Path", "integrator: Path"),
+    ("Integrator", "Direct", "integrator: Direct"),
+    ("Integrator", "AmbientOcclusion", "integrator: AmbientOcclusion(distance: 2)"),
     ("Reuse", "Blocks", "reuse: Blocks"),
     ("Reuse", "None", "reuse: None"),
     ("Caustics", "Photons", "caustics: Photons"),

@@ -56,7 +56,7 @@ JSON; kinds without
 `null` is `\"None\"`.
 - Angles are in degrees, lengths in the scene's own unit, paths relative to the scene file.
 - Comments: `//` and `/* */` in RON, `#` in TOML, none in JSON.
-- The words `repeat`, `keyframes`, `for` and `let` are kept for later versions.
+- No field is called `repeat`, `keyframes`, `for` or `let`: these words are kept for later versions.
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`. An object or a light with a `name` that no other has \
 is found by it,

@@ -62,6 +62,7 @@ of_words![
     Mapping,
     Object,
     Sphere,
+    Plane,
     Rectangle,
     RectBox,
     Disk,

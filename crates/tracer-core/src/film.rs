@@ -446,6 +446,13 @@ impl Film {
         [r * self.unit, g * self.unit, b * self.unit]
     }
 
+    /// What of [`Film::radiance`] light paths brought.
+    pub(crate) fn of_light_paths(&self, x: u32, y: u32) -> [f64; 3] {
+        let (tile, pixel) = self.place(x, y);
+        let count = self.light_count();
+        tile.splats.as_ref().map_or([0.0; 3], |splats| splats.sums.mean(pixel, count).map(|x| x * self.unit))
+    }
+
     /// Mean radiance that clamping took from a pixel: with [`Film::radiance`] it sums to what the pixel has without
     /// clamping, but for the rounding of that sum. Black where nothing was taken.
     pub fn taken(&self, x: u32, y: u32) -> [f64; 3] {
@@ -494,6 +501,15 @@ impl Film {
         let passes = f64::from(self.light_count().max(1));
         let of_light = splats / (passes * passes);
         (of_samples + of_light) * self.unit * self.unit
+    }
+
+    /// The standard error of a pixel relative to its own luminance, as [`Film::variance`] has it; zero where it is
+    /// black.
+    pub fn noise(&self, x: u32, y: u32) -> f64 {
+        // In the sums' own unit: squares of the scene's might leave the range of numbers.
+        let (variance, mean) =
+            (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)) / self.unit);
+        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
     /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of

@@ -48,13 +48,17 @@ pub mod texture;
 pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
 pub use denoise::{DENOISE_REACH, DenoiseError, Denoised, GUIDES, denoise, lacks as denoise_lacks};
-pub use develop::{Backdrop, Image, Look, develop, develop_denoised, srgb_decode, srgb_encode};
+pub use develop::{Backdrop, Image, Look, develop, develop_denoised, develop_radiance, srgb_decode, srgb_encode};
+pub use engine::{
+    Brought, Ended, Inspection, LightOf, MetTold, PathTold, Roulette, SampledTold, Scattering, Shared, Told,
+    VertexTold, Whole, inspect,
+};
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};
 pub use marks::{MarkSeen, marks};
-pub use mattes::{MatteImage, Mattes, mattes_kept};
+pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};
 pub use scene::{CompileTimes, Scene, film_layers, layer_set, layer_word};
 pub use tracer_denoise::Told as DenoiseTold;
 pub use tracer_kernels::layers::{Layer, LayerSet};

@@ -103,8 +103,15 @@ fn the_first_wins_wherever_it_is() {
         let instances: Vec<InstanceGeometry> = (0..tiles.len())
             .map(|k| InstanceGeometry { mesh: k as u32, placement: is_instance(k).then(|| rows(&map)) })
             .collect();
-        let geometry =
-            Geometry { spheres: &[], shapes: &[], first_shape: 0, parts: &[], meshes: &meshes, instances: &instances };
+        let geometry = Geometry {
+            spheres: &[],
+            shapes: &[],
+            first_shape: 0,
+            parts: &[],
+            planes: &[],
+            meshes: &meshes,
+            instances: &instances,
+        };
         for (height, aside) in [(1.0, 0.5), (0.05, 3.0), (0.01, 3.0), (100.0, 50.0)] {
             let (batch, points) = rays(&map, height, aside, &mut random);
             // A line is off by 32 units in the last place of the largest coordinate, and along the plane by that over
@@ -147,6 +154,7 @@ fn what_is_apart_stays_apart() {
                 shapes: &[],
                 first_shape: 0,
                 parts: &[],
+                planes: &[],
                 meshes: &meshes,
                 instances: &instances,
             };
@@ -178,14 +186,30 @@ fn rays_to_what_loses_are_blocked_and_those_to_what_wins_are_not() {
         let meshes: Vec<_> = (0u32..).zip(&world).map(|(k, mesh)| mesh.geometry(4 * k)).collect();
         let instances: Vec<_> = (0..4).map(|mesh| InstanceGeometry { mesh, placement: None }).collect();
         let accel = build(
-            &Geometry { spheres: &[], shapes: &[], first_shape: 0, parts: &[], meshes: &meshes, instances: &instances },
+            &Geometry {
+                spheres: &[],
+                shapes: &[],
+                first_shape: 0,
+                parts: &[],
+                planes: &[],
+                meshes: &meshes,
+                instances: &instances,
+            },
             MODES[2],
         );
         let (batch, points) = rays(&map, 0.5, 1.0, &mut random);
         let found = hits(accel, &batch);
         // To each triangle of each tile that the ray passes.
         let accel = build(
-            &Geometry { spheres: &[], shapes: &[], first_shape: 0, parts: &[], meshes: &meshes, instances: &instances },
+            &Geometry {
+                spheres: &[],
+                shapes: &[],
+                first_shape: 0,
+                parts: &[],
+                planes: &[],
+                meshes: &meshes,
+                instances: &instances,
+            },
             MODES[2],
         );
         for (k, tile) in tiles.iter().enumerate() {

@@ -53,6 +53,7 @@ fn depth(shape: &UnitShape, q: DVec3) -> f64 {
             let side = 0.5 * (a + b) + 0.5 * (b - a) * q.z - q.truncate().length();
             if caps { side.min(1.0 - q.z.abs()) } else { -side.abs().max(q.z.abs() - 1.0) }
         }
+        UnitShape::Plane => -q.z.abs(),
         UnitShape::Capsule { half } => 1.0 - (q - DVec3::new(0.0, 0.0, q.z.clamp(-half, half))).length(),
         UnitShape::Cube => 0.5 - q.abs().max_element(),
         UnitShape::Solid(_) => panic!("see solids.rs"),
@@ -219,7 +220,7 @@ fn the_tree_finds_what_brute_force_finds() {
     let placed = |random: &mut Random, unit: UnitShape| {
         let mut placement = map(random, 0.3);
         placement.translation = random.cube();
-        Shape { unit, placement, material: 0, object: 0, coordinates: 0 }
+        Shape { unit, placement, material: 0, light: NONE, object: 0, coordinates: 0 }
     };
     let shapes: Vec<Shape> = (0..90).map(|k| placed(&mut random, SHAPES[k % SHAPES.len()])).collect();
     let geometry_of = |shape: &Shape| {
@@ -237,8 +238,15 @@ fn the_tree_finds_what_brute_force_finds() {
     // Ids 5 and 6 are of spheres that hang beside the tree.
     let first_shape = 7;
     let meshes = [ball.geometry(first_shape + rows.len() as u32)];
-    let geometry =
-        Geometry { spheres: &spheres, shapes: &rows, first_shape, parts: &[], meshes: &meshes, instances: &[HERE] };
+    let geometry = Geometry {
+        spheres: &spheres,
+        shapes: &rows,
+        first_shape,
+        parts: &[],
+        planes: &[],
+        meshes: &meshes,
+        instances: &[HERE],
+    };
     let mut batch = Batch::random(800, 1.5, &mut numbers);
     batch.append(&Batch::beams(30, 1.5, &mut numbers));
     let brute = |batch: &Batch, ray: usize| {

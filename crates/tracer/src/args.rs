@@ -5,18 +5,22 @@ mod denoise;
 mod farm;
 mod fmt;
 mod golden;
+mod inspect;
 mod merge;
 mod preview;
 mod render;
+mod repro;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use denoise::DenoiseArgs;
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
+pub use inspect::{InspectArgs, InspectForm};
 pub use merge::MergeArgs;
 pub use preview::{PreviewArgs, TerminalName};
-pub use render::{Frames, RenderArgs};
+pub use render::{Frames, IntegratorName, RenderArgs};
+pub use repro::ReproArgs;
 
 use crate::commands::Template;
 use crate::write::Bits;
@@ -28,7 +32,7 @@ use std::time::Duration;
 use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
-More: bench-acceleration, bench-figures, lsp, schema, completions, man
+More: inspect, repro, bench-acceleration, bench-figures, lsp, schema, completions, man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100
@@ -75,7 +79,7 @@ pub enum Command {
     Preview(PreviewArgs),
     /// Find everything that is wrong with a scene
     Check(CheckArgs),
-    /// Tell what is in a scene or a checkpoint
+    /// Tell what is in a scene, a picture or a checkpoint
     Info(InfoArgs),
     /// Translate a scene between RON, TOML and JSON
     Convert(ConvertArgs),
@@ -83,10 +87,14 @@ pub enum Command {
     Fmt(FmtArgs),
     /// Start a small scene that renders well
     New(NewArgs),
+    /// Make a picture again, and see that it is the same
+    Repro(ReproArgs),
     /// Measure how two pictures differ
     Compare(CompareArgs),
     /// Keep pictures what they are: run, accept, new
     Golden(GoldenArgs),
+    /// Tell how one sample of a pixel came about
+    Inspect(Box<InspectArgs>),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings
@@ -274,8 +282,10 @@ impl CheckArgs {
 
 const INFO_EXAMPLES: &str = "\
 Examples:
-  tracer info scenes/fig4.ron
-  tracer info scene.toml --resolved";
+  tracer info scene.toml --resolved
+  tracer info fig4.png
+
+Of a picture it tells what made it; `tracer repro` makes it again.";
 
 /// `tracer info`
 #[derive(Debug, Args)]
@@ -323,8 +333,11 @@ pub struct ConvertArgs {
 
 const NEW_EXAMPLES: &str = "\
 Examples:
-  tracer new ball.ron
-  tracer new room.toml --template room";
+  tracer new room.toml --template room
+  tracer new again.ron --from fig4.png
+
+With --from it is the scene as it was rendered: what options had set is in
+it, comments are not; with --as-written both are as they were.";
 
 /// `tracer new`
 #[derive(Debug, Args)]
@@ -335,6 +348,12 @@ pub struct NewArgs {
     /// What to start from: ball, materials or room
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Ball, hide_possible_values = true)]
     pub template: Template,
+    /// The scene that a picture was rendered of, instead
+    #[arg(long, value_name = "PICTURE", conflicts_with = "template")]
+    pub from: Option<PathBuf>,
+    /// The text as it was, without what options had set
+    #[arg(long, requires = "from")]
+    pub as_written: bool,
     /// Replace a file that is there
     #[arg(long)]
     pub force: bool,

@@ -10,6 +10,11 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
+/// A text from a file that anybody may have made, as it can be shown: a terminal would take other signs for orders.
+pub fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -21,6 +26,7 @@ mod tests {
         assert_eq!(quoted(""), "''");
         assert_eq!(quoted("a b"), "'a b'");
         assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(printable("a\x1b[2J\n\u{9b}é"), "a\u{fffd}[2J\u{fffd}\u{fffd}é");
         assert_eq!(quoted("objects[2].radius=3"), "'objects[2].radius=3'");
     }
 }

@@ -17,7 +17,8 @@ const TEMPLATE: &str = "{about}\n{usage-heading} {usage}\n{positionals}\n{option
 const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcommands}\n{options}{after-help}";
 
 /// The commands that a screen of help names in its line "More" alone.
-const MORE: [&str; 6] = ["bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
+const MORE: [&str; 8] =
+    ["inspect", "repro", "bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
 
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
@@ -43,9 +44,11 @@ pub fn command() -> Command {
                         "crop",
                         "layers",
                         "denoise",
+                        "integrator",
+                        "no_metadata",
                     ]
                     .into_iter()
-                    .chain(["pause", "program"])
+                    .chain(["pause", "program", "retries"])
                     .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
                 })
         })
@@ -68,6 +71,9 @@ pub fn command() -> Command {
                 "frame",
                 "skip_existing",
                 "report",
+                "integrator",
+                "show",
+                "no_metadata",
             ]
             .into_iter()
             .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
@@ -108,6 +114,7 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
             "--set camera.fov=40, for any field of the scene"
         }
         "--verbose-level" | "--log-level" | "--debug" => "--verbose",
+        "--pixel-debug" | "--debug-pixel" | "--pixelmaterial" => "`tracer inspect SCENE --pixel 12,34`",
         "--view" | "--cam" => "--camera NAME",
         "--animation" | "--anim" | "--frame-range" | "--frame-start" | "--frame-end" => {
             "--frames 0-47 -o shot_####.png"

@@ -13,6 +13,7 @@ pub mod frames;
 pub mod help;
 pub mod interrupt;
 pub mod lanes;
+pub mod layer_view;
 pub mod loading;
 pub mod memory;
 pub mod merge_report;
@@ -48,6 +49,7 @@ pub fn main() -> ExitCode {
     let quiet = match &cli.command {
         Command::Render(args) => args.quiet,
         Command::Merge(args) => args.quiet,
+        Command::Repro(args) => args.quiet,
         _ => false,
     };
     let verbosity = match (quiet, cli.verbose) {

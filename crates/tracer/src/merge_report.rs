@@ -1,6 +1,6 @@
 //! The report of a merged picture as JSON; `docs/scale.md` is its documentation.
 
-use crate::checkpoint::note;
+use crate::checkpoint::{assets_hash, note};
 use crate::denoising::DenoiseReport;
 use crate::memory;
 use crate::report::{ClampedReport, FileReport, Noise, SceneReport};
@@ -134,7 +134,7 @@ impl MergeReport {
             report_version: crate::report::VERSION,
             tracer_version: env!("CARGO_PKG_VERSION"),
             command,
-            scene: SceneReport { file, hash },
+            scene: SceneReport { file, hash, assets: assets_hash(&head.notes) },
             picture: MergedPicture {
                 width: film.size()[0],
                 height: film.size()[1],

@@ -58,6 +58,8 @@ pub struct SceneReport {
     pub file: String,
     /// SHA-256 over what the scene says after all options; not how it is written.
     pub hash: String,
+    /// SHA-256 over the contents of all files that it names; null where it names none, or one could not be read again.
+    pub assets: Option<String>,
 }
 
 /// The picture.
@@ -221,7 +223,7 @@ impl Transport {
             switch("clamp", limit, film.clamp.is_some(), Estimate::Biased, costs.clamp),
         ];
         Transport {
-            integrator: format!("{:?}", asked.integrator),
+            integrator: asked.integrator.to_string(),
             reuse: film.reuse,
             caustics: film.caustics,
             estimate: switches.iter().map(|switch| switch.estimate).fold(Estimate::Unbiased, Estimate::max),

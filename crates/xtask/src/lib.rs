@@ -1,6 +1,6 @@
 //! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`],
-//! [`sweeps`] and [`mod@denoise`] its pictures, [`layers`] its source, [`prove`] all that takes longer. [`cat`] and
-//! [`gallery`] are pure functions from nothing to files: no randomness, no network.
+//! [`sweeps`] and [`mod@denoise`] its pictures, [`layers`] its source, [`site`] its manual, [`prove`] all that takes
+//! longer. [`cat`] and [`gallery`] are pure functions from nothing to files: no randomness, no network.
 
 #![forbid(unsafe_code)]
 
@@ -13,6 +13,7 @@ pub mod mutants;
 pub mod noise;
 pub mod picture;
 pub mod prove;
+pub mod site;
 pub mod sweeps;
 pub mod truth;
 

@@ -59,6 +59,8 @@ enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Makes the manual as a site (target/site/book), with a picture for every entry of the reference.
+    Site,
     /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
     ///
     /// The truth is the plain path tracer, or another scene that must look the same. Failing scenes are made smaller
@@ -156,6 +158,7 @@ fn main() -> anyhow::Result<()> {
             return Ok(());
         }
         Command::Prove { names, all, .. } => return xtask::prove::run(&root, &xtask::prove::chosen(&names, all)?),
+        Command::Site => return xtask::site::run(&root.canonicalize()?).map(drop),
         Command::Sweeps { steps, pictures, samples, size, name } => {
             let options = xtask::sweeps::Options { steps, pictures, samples, size, name, only: 0..steps };
             let jumps = xtask::sweeps::run(&options)?;

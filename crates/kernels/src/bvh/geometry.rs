@@ -16,10 +16,13 @@ pub struct Geometry<'a> {
     pub spheres: &'a [SphereGeometry],
     /// Curved shapes of other kinds; shape `i` is primitive `first_shape + i`.
     pub shapes: &'a [ShapeGeometry],
-    /// The id of shape 0, not below the number of spheres; anything where there are none.
+    /// The id of shape 0, not below the number of spheres; anything where there are neither shapes nor planes.
     pub first_shape: u32,
     /// The parts of all shapes that are made of several.
     pub parts: &'a [Part],
+    /// Planes without an end, which hang in no tree: the tree knows of them what lies in them. Plane `i` is primitive
+    /// `first_shape + shapes.len() + i`.
+    pub planes: &'a [Row],
     /// Every mesh once, however often it is placed.
     pub meshes: &'a [MeshGeometry<'a>],
     /// Where the meshes stand. A mesh without an instance is not in the scene.

@@ -89,6 +89,23 @@ pub struct Rays<'a> {
     pub from_instance: &'a [u32],
 }
 
+impl<'a> Rays<'a> {
+    /// One of them alone.
+    pub fn only(&self, ray: usize) -> Rays<'a> {
+        let of = ray..ray + 1;
+        Rays {
+            ox: &self.ox[of.clone()],
+            oy: &self.oy[of.clone()],
+            oz: &self.oz[of.clone()],
+            dx: &self.dx[of.clone()],
+            dy: &self.dy[of.clone()],
+            dz: &self.dz[of.clone()],
+            from_primitive: &self.from_primitive[of.clone()],
+            from_instance: &self.from_instance[of],
+        }
+    }
+}
+
 /// The closest hits of a batch, updated in place.
 pub struct Hits<'a> {
     /// In: the limit, or a hit found earlier. Out: the closest hit's t, or what it was.
@@ -265,6 +282,11 @@ impl Accel {
     /// where none has any.
     pub fn coplanar_shape_offsets(&self) -> Option<&[f32]> {
         self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
+    }
+
+    /// Whether a primitive lies in a plane without an end.
+    pub fn lies_in(&self, plane: u32, primitive: u32, instance: u32) -> bool {
+        self.coplanar.as_ref().is_some_and(|coplanar| coplanar.lies_in(plane, primitive, instance))
     }
 
     /// Whether bodies that let light through touch anywhere: then [`touching`](Self::touching) has to be asked.

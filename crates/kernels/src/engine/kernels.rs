@@ -7,7 +7,7 @@ use super::guide::plan::Plan;
 use super::pass::{Pass, PhotonPass};
 use super::stages::light_paths::LightPass;
 use super::stages::shaft::Obstacles;
-use super::stages::{aim, camera, first_hits, light_paths, photons, reach, shade, share, spheres};
+use super::stages::{aim, ambient, camera, first_hits, light_paths, photons, reach, shade, share, spheres};
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
 #[cfg(target_arch = "x86_64")]
@@ -24,6 +24,7 @@ pub struct Kernels {
     closest: unsafe fn(&Scene, &mut Batch),
     first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
+    ambient: unsafe fn(&Scene, u32, f32, &mut Batch),
     occluded: unsafe fn(&Scene, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
@@ -55,6 +56,10 @@ macro_rules! kernels {
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
                 shade::shade::<$lanes>(scene, pass, vertex, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn ambient_entry(scene: &Scene, seed: u32, distance: f32, batch: &mut Batch) {
+                ambient::ambient::<$lanes>(scene, seed, distance, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn occluded_entry(scene: &Scene, batch: &mut Batch) {
@@ -99,6 +104,7 @@ macro_rules! kernels {
                 closest: closest_entry,
                 first_hits: first_hits_entry,
                 shade: shade_entry,
+                ambient: ambient_entry,
                 occluded: occluded_entry,
                 reach_closest: reach_closest_entry,
                 reach_occluded: reach_occluded_entry,
@@ -171,6 +177,11 @@ impl Kernels {
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.shade)(scene, pass, vertex, batch) }
+    }
+    /// Rays of this length from what camera rays have hit, for ambient occlusion.
+    pub fn ambient(&self, scene: &Scene, seed: u32, distance: f32, batch: &mut Batch) {
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
+        unsafe { (self.ambient)(scene, seed, distance, batch) }
     }
     /// Which shadow rays the spheres block.
     pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {

@@ -13,11 +13,14 @@ pub mod pass;
 pub mod pool;
 #[cfg_attr(test, allow(dead_code))]
 mod stages;
+pub mod told;
 pub mod watch;
 
 pub use stages::aim::AIMS_UNTIL;
 pub use stages::camera::density;
 pub use stages::deposit::deposit;
 pub use stages::light_paths::LightPass;
+pub use stages::planes::{planes_closest, planes_hide, planes_occluded};
+pub use stages::shade::ROULETTE_FROM;
 pub use stages::shaft::Obstacles;
 pub(crate) use stages::{cameras::depth, lights, materials::Bsdf, surface::Surface};

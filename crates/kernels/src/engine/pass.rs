@@ -10,6 +10,8 @@ use crate::layers::LayerSet;
 pub enum Task {
     /// The picture.
     Picture,
+    /// Direct light: a path that a rough surface has scattered sees lights and the background, no more.
+    Direct,
     /// Glint chains: they end at all but mirrors and glass (`techniques::glints`).
     Chains,
 }

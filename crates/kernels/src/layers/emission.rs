@@ -20,7 +20,8 @@ impl PictureLayer for Emission {
             return [zero, zero, zero];
         }
         let light = F::U::select(lamp, s.light - F::U::splat(1), F::U::splat(0));
-        let met = LightHit { distance: hit.t, cos: hit.direction.dot(s.ng).abs(), front: s.outside };
+        let cos = hit.direction.dot(s.ng).abs();
+        let met = LightHit { direction: hit.direction, distance: hit.t, cos, front: s.outside, lanes: lamp };
         let shines = radiance(&hit.scene.tables.lights, light, &met);
         [F::select(lamp, shines.0, zero), F::select(lamp, shines.1, zero), F::select(lamp, shines.2, zero)]
     }

@@ -10,9 +10,13 @@ mod albedo;
 mod alpha;
 mod depth;
 mod emission;
+mod leaves;
 mod material_id;
+mod nodes;
+mod noise;
 mod normal;
 mod object_id;
+mod path_length;
 mod position;
 mod samples;
 mod uv;
@@ -34,8 +38,21 @@ pub enum Pixel {
     /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive, instance and body
     /// ([`Surface::body`]); zero where that hits nothing.
     Nearest(fn(&Scene, u32, u32, u32) -> u32),
+    /// Not of what camera rays hit: the mean of what is counted while the rays of a sample are traced; of one channel.
+    Counted(Count),
     /// Not of what camera rays hit: a number that the film has of each pixel.
     OfFilm(FilmNumber),
+}
+
+/// What is counted of the rays of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// Rays of paths, without those that only ask whether a light is seen.
+    Rays,
+    /// Nodes of the tree, each of up to eight boxes, that all its rays ask.
+    Nodes,
+    /// Leaves of the tree, each of up to four primitives, that all its rays ask.
+    Leaves,
 }
 
 /// A number that the film has of each pixel, in the person's units.
@@ -43,6 +60,8 @@ pub enum Pixel {
 pub enum FilmNumber {
     /// Its variance (`tracer_core::Film::variance`).
     Variance,
+    /// Its standard error relative to its luminance.
+    Noise,
 }
 
 /// How the numbers of a layer in render space become the person's: by a factor and an offset.
@@ -185,6 +204,14 @@ layers! {
     Variance: variance::Variance,
     /// See [`alpha`].
     Alpha: alpha::Alpha,
+    /// See [`noise`].
+    Noise: noise::Noise,
+    /// See [`path_length`].
+    PathLength: path_length::PathLength,
+    /// See [`nodes`].
+    Nodes: nodes::Nodes,
+    /// See [`leaves`].
+    Leaves: leaves::Leaves,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.
@@ -240,13 +267,27 @@ impl LayerSet {
         for layer in self.iter() {
             let Definition { channels, pixel, uv, .. } = definition(layer);
             match pixel {
-                Pixel::Mean | Pixel::MeanOfHits(_) => kept.sums += channels.len(),
+                Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) => kept.sums += channels.len(),
                 Pixel::Nearest(_) => kept.nearest += 1,
                 Pixel::OfFilm(_) => {}
             }
             kept.uv |= uv;
         }
         kept
+    }
+
+    /// What is counted for them, and in which column of [`LayerSamples::sums`].
+    pub fn counted(self) -> impl Iterator<Item = (usize, Count)> {
+        let mut next = 0;
+        self.iter().filter_map(move |layer| {
+            let Definition { channels, pixel, .. } = definition(layer);
+            let column = next;
+            match pixel {
+                Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) => next += channels.len(),
+                Pixel::Nearest(_) | Pixel::OfFilm(_) => {}
+            }
+            if let Pixel::Counted(count) = pixel { Some((column, count)) } else { None }
+        })
     }
 
     /// Whether camera rays have to be looked at for them.

@@ -10,7 +10,8 @@ pub struct LayerSamples {
     pub sums: Vec<Box<[f32; PATHS]>>,
     /// A column for each of those that go by the nearest sample; zero where nothing is hit.
     pub nearest: Vec<Box<[u32; PATHS]>>,
-    /// For these: the square of the sample's distance from its pixel's centre, in pixels.
+    /// For these: the square of the sample's distance from its pixel's centre, in pixels; infinite where there is no
+    /// camera ray.
     pub distance2: Vec<f32>,
     /// Per item: the slots whose ray hit something, a bit each.
     pub hits: [u64; ITEMS],
@@ -24,7 +25,8 @@ impl LayerSamples {
         self.sums.iter_mut().for_each(|column| column.fill(0.0));
         self.nearest.resize_with(kept.nearest, || Box::new([0; PATHS]));
         self.nearest.iter_mut().for_each(|column| column.fill(0));
-        self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, 0.0);
+        self.distance2.clear();
+        self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, f32::INFINITY);
     }
 
     /// What there are columns for.

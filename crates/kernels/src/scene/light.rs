@@ -2,7 +2,9 @@
 
 use super::table::Table;
 use super::{Environment, Sphere};
-use glam::DVec3;
+use crate::shapes::{Lamp, UnitShape};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
 
 /// A light. What it shines it shines in all directions alike from each of its points, and it reflects nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +18,8 @@ pub enum Light {
         /// It shines inwards, too.
         two_sided: bool,
     },
+    /// A curved shape of `Scene::shapes`.
+    Curved(CurvedLight),
     /// A parallelogram of two triangles: all p = corner + u edges\[0\] + v edges\[1\], u and v from 0 to 1.
     Parallelogram(FlatLight),
     /// A triangle: the same with u + v at most 1.
@@ -35,6 +39,29 @@ pub struct FlatLight {
     pub two_sided: bool,
 }
 
+/// A curved shape that shines, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvedLight {
+    /// Index into `Scene::shapes`.
+    pub shape: u32,
+    /// What it is in its object space.
+    pub unit: UnitShape,
+    /// From there to render space.
+    pub placement: DAffine3,
+    /// Radiance per channel, in `Scene::radiance_unit`.
+    pub radiance: [f64; 3],
+    /// It shines inwards, or to the other side, too.
+    pub two_sided: bool,
+}
+
+impl CurvedLight {
+    /// Unit normal of the only side that all of it shines to, if there is one.
+    fn normal(&self) -> Option<DVec3> {
+        let is_flat = matches!(self.unit, UnitShape::Disk { .. }) && !self.two_sided;
+        is_flat.then(|| (self.placement.matrix3.inverse().transpose() * DVec3::Z).normalize_or_zero())
+    }
+}
+
 impl FlatLight {
     /// Unit normal of the side that it shines to; zero where it has no area.
     pub fn normal(&self) -> DVec3 {
@@ -47,6 +74,7 @@ impl Light {
     pub fn radiance(&self) -> [f64; 3] {
         match self {
             Light::Sphere { radiance, .. } => *radiance,
+            Light::Curved(curved) => curved.radiance,
             Light::Parallelogram(flat) | Light::Triangle(flat) => flat.radiance,
         }
     }
@@ -55,6 +83,7 @@ impl Light {
     pub fn two_sided(&self) -> bool {
         match self {
             Light::Sphere { two_sided, .. } => *two_sided,
+            Light::Curved(curved) => curved.two_sided,
             Light::Parallelogram(flat) | Light::Triangle(flat) => flat.two_sided,
         }
     }
@@ -62,8 +91,22 @@ impl Light {
     /// A flat light.
     pub fn flat(&self) -> Option<&FlatLight> {
         match self {
-            Light::Sphere { .. } => None,
+            Light::Sphere { .. } | Light::Curved(_) => None,
             Light::Parallelogram(flat) | Light::Triangle(flat) => Some(flat),
+        }
+    }
+
+    /// A curved one that is no sphere.
+    pub fn curved(&self) -> Option<&CurvedLight> {
+        if let Light::Curved(curved) = self { Some(curved) } else { None }
+    }
+
+    /// The only side that it shines to, where that is one for all of it.
+    pub fn normal(&self) -> Option<DVec3> {
+        match self {
+            Light::Sphere { .. } => None,
+            Light::Curved(curved) => curved.normal(),
+            Light::Parallelogram(flat) | Light::Triangle(flat) => (!flat.two_sided).then(|| flat.normal()),
         }
     }
 
@@ -75,6 +118,7 @@ impl Light {
                 let radius = spheres.get(*sphere as usize).map_or(0.0, |s| s.radius);
                 4.0 * std::f64::consts::PI * radius * radius
             }
+            Light::Curved(curved) => curved.unit.area(&curved.placement),
             Light::Parallelogram(flat) => spanned(flat),
             Light::Triangle(flat) => 0.5 * spanned(flat),
         }
@@ -86,6 +130,7 @@ impl Light {
             Light::Sphere { sphere, .. } => {
                 return spheres.get(*sphere as usize).map_or((DVec3::ZERO, 0.0), |s| (s.center, s.radius));
             }
+            Light::Curved(curved) => return (curved.placement.translation, curved.unit.radius(&curved.placement)),
             Light::Parallelogram(FlatLight { corner, edges: [a, b], .. }) => {
                 ([*corner, *corner + *a, *corner + *b, *corner + *a + *b], 4)
             }
@@ -99,7 +144,20 @@ impl Light {
     }
 }
 
-/// Lights as look-up tables, and the tree by which one of them is chosen. Spheres come first.
+/// A curved light as the engine reads it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvedRow {
+    /// How it is sampled.
+    pub lamp: Lamp,
+    /// Radiance.
+    pub radiance: [f32; 3],
+    /// Its primitive id.
+    pub primitive: u32,
+    /// It shines inwards, or to the other side, too.
+    pub two_sided: bool,
+}
+
+/// Lights as look-up tables, and the tree by which one of them is chosen. Spheres come first, then the curved ones.
 pub struct LightTable {
     /// Number of lights.
     pub len: u32,
@@ -108,7 +166,11 @@ pub struct LightTable {
     /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it
     /// shines inwards, else 0.
     pub rows: Table<9>,
-    /// Of the others, at least one row.
+    /// The curved ones.
+    pub curved: Arc<[CurvedRow]>,
+    /// Number of spheres and curved ones.
+    pub first_flat: u32,
+    /// Of the flat ones, at least one row.
     pub flat: Table<{ LightTable::FLAT }>,
     /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius
     /// and power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and
@@ -140,10 +202,15 @@ impl Emitter {
         let radiance = light.radiance().iter().sum::<f64>();
         let power = match light {
             Light::Sphere { .. } => radius * radius * radiance,
-            Light::Parallelogram(_) | Light::Triangle(_) => light.area(spheres) / std::f64::consts::PI * radiance,
+            // What a closed one shows is a quarter of its surface, on average.
+            Light::Curved(curved) if !matches!(curved.unit, UnitShape::Disk { .. }) => {
+                0.25 * light.area(spheres) / std::f64::consts::PI * radiance
+            }
+            Light::Curved(_) | Light::Parallelogram(_) | Light::Triangle(_) => {
+                light.area(spheres) / std::f64::consts::PI * radiance
+            }
         };
-        let normal = light.flat().filter(|flat| !flat.two_sided).map(FlatLight::normal);
-        Emitter { center, radius, power, normal }
+        Emitter { center, radius, power, normal: light.normal() }
     }
 }
 
@@ -155,8 +222,10 @@ impl LightTable {
     pub const TRIANGLE: u32 = 1;
     /// Bit of a light with two sides.
     pub const TWO_SIDED: u32 = 2;
-    /// Bit of a light that is no sphere.
+    /// Bit of a flat light.
     pub const PLANE: u32 = 4;
+    /// Bit of a curved light that is no sphere.
+    pub const CURVED: u32 = 8;
     /// Numbers of a node.
     pub const STRIDE: u32 = 12;
     /// Where a node holds what it is: see [`LightTable::tree`].
@@ -168,7 +237,7 @@ impl LightTable {
     /// Marks a node that is a light.
     pub const LEAF: u32 = 1 << 31;
 
-    /// Of lights among which the spheres come first.
+    /// Of lights among which the spheres come first, then the curved ones.
     pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Environment>) -> Self {
         let emitters: Vec<Emitter> = lights.iter().map(|light| Emitter::new(light, spheres)).collect();
         let rows = lights.iter().filter_map(|light| {
@@ -183,6 +252,13 @@ impl LightTable {
             let triangle = if matches!(light, Light::Triangle(_)) { Self::TRIANGLE } else { 0 };
             Some(Self::flat_row(flat, light.area(spheres), triangle))
         });
+        let curved = lights.iter().filter_map(Light::curved).map(|curved| CurvedRow {
+            lamp: Lamp::new(&curved.unit, &curved.placement, curved.two_sided),
+            radiance: curved.radiance.map(|x| x as f32),
+            primitive: spheres.len() as u32 + curved.shape,
+            two_sided: curved.two_sided,
+        });
+        let curved: Arc<[CurvedRow]> = curved.collect();
         let pad = |mut v: Vec<u32>| {
             v.resize(v.len().max(16), 0);
             v
@@ -193,11 +269,13 @@ impl LightTable {
             builder.tree.resize(Self::STRIDE as usize, 0.0);
             builder.node(0, &mut order, 0, 0);
         }
-        let sphere_count = lights.iter().filter(|light| light.flat().is_none()).count();
+        let sphere_count = lights.iter().filter(|light| matches!(light, Light::Sphere { .. })).count();
         LightTable {
             len: emitters.len() as u32,
             spheres: sphere_count as u32,
             rows: Table::new(rows),
+            first_flat: (sphere_count + curved.len()) as u32,
+            curved,
             flat: Table::new(flat),
             depth: builder.depth,
             trail: pad(builder.trail),
@@ -219,8 +297,20 @@ impl LightTable {
 
     /// Whether there are lights other than spheres.
     #[inline(always)]
-    pub fn has_flat(&self) -> bool {
+    pub fn has_others(&self) -> bool {
         self.spheres < self.len
+    }
+
+    /// Whether there are flat ones.
+    #[inline(always)]
+    pub fn has_flat(&self) -> bool {
+        self.first_flat < self.len
+    }
+
+    /// Whether there are curved ones that are no spheres.
+    #[inline(always)]
+    pub fn has_curved(&self) -> bool {
+        self.spheres < self.first_flat
     }
 
     fn flat_row(flat: &FlatLight, area: f64, triangle: u32) -> [f32; Self::FLAT] {

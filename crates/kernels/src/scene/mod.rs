@@ -13,6 +13,7 @@ mod light;
 pub mod materials;
 mod mesh;
 mod pattern;
+mod plane;
 mod shape;
 mod sphere;
 mod statistics;
@@ -23,7 +24,7 @@ pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;
-pub use light::{FlatLight, Light};
+pub use light::{CurvedLight, CurvedRow, FlatLight, Light};
 pub use materials::{Albedo, Material};
 pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub use mesh::InstanceTable;
@@ -32,6 +33,7 @@ pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
 pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
+pub use plane::{Plane, PlaneTable};
 pub use shape::{Operand, Shape, Solids, Step};
 pub use shape::{OperandRow, ShapeTable};
 pub use sphere::Sphere;
@@ -56,6 +58,20 @@ pub enum Sharing {
     Always,
 }
 
+/// What is rendered of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// All light.
+    Paths,
+    /// Light that comes straight to what the camera sees, also in mirrors and through glass.
+    Direct,
+    /// How much is free of what lies above each surface.
+    AmbientOcclusion {
+        /// What is further off does not count; in render space, may be infinite.
+        distance: f32,
+    },
+}
+
 /// A compiled scene.
 pub struct Scene {
     /// Where render space lies in the person's world.
@@ -70,6 +86,8 @@ pub struct Scene {
     pub max_bounces: u32,
     /// Seed of all random choices, unless the caller says otherwise.
     pub seed: u32,
+    /// What the picture is of.
+    pub integrator: Integrator,
     /// Whether the pixels of a block share what they find, unless the caller says otherwise.
     pub reuse: Sharing,
     /// Whether photons carry the light that reaches diffuse surfaces over mirrors and glass, unless the caller says
@@ -94,13 +112,14 @@ pub struct Scene {
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
     pub spheres: Vec<Sphere>,
-    /// Curved shapes that are no spheres. Shape k has primitive id `spheres.len() + k`.
+    /// Curved shapes that are no spheres, and behind them planes without an end. Shape k has primitive id
+    /// `spheres.len() + k`.
     pub shapes: Vec<Shape>,
     /// What those of them are made of that are made of several.
     pub solids: Solids,
     /// Materials; surfaces name them by index.
     pub materials: Vec<Material>,
-    /// Lights: the spheres, then the others.
+    /// Lights: the spheres, then the other curved ones, then the flat ones.
     pub lights: Vec<Light>,
     /// Meshes, each once.
     pub meshes: Vec<Mesh>,
@@ -160,8 +179,10 @@ impl Scene {
 pub struct Tables {
     /// Spheres.
     pub spheres: SphereTable,
-    /// Curved shapes.
+    /// Curved shapes and planes.
     pub shapes: ShapeTable,
+    /// Planes, as rays are tested with them.
+    pub planes: PlaneTable,
     /// Materials.
     pub materials: MaterialTable,
     /// Lights.

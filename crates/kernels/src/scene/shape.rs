@@ -1,10 +1,10 @@
-//! Curved shapes that are no spheres (see [`crate::shapes`]).
+//! Curved shapes that are no spheres, and planes (see [`crate::shapes`]).
 
 use crate::shapes::csg::{Operation, Part};
 use crate::shapes::{Row, UnitShape};
 use glam::{DAffine3, DVec3};
 
-/// A curved shape in render space.
+/// A curved shape or a plane in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// What it is in its object space.
@@ -13,6 +13,8 @@ pub struct Shape {
     pub placement: DAffine3,
     /// Index into `Scene::materials`.
     pub material: u32,
+    /// Its light in `Scene::lights`, or [`NONE`](super::NONE).
+    pub light: u32,
     /// Its object's place in the scene.
     pub object: u32,
     /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.
@@ -20,7 +22,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Its exact box.
+    /// Its exact box; of planes it has no end.
     pub fn bounds(&self) -> [DVec3; 2] {
         self.unit.bounds(&self.placement)
     }
@@ -87,6 +89,8 @@ pub struct ShapeTable {
     pub rows: Vec<Row>,
     /// Their materials.
     pub material: Vec<u32>,
+    /// Their lights + 1, or 0; empty where none shines.
+    pub light: Vec<u32>,
     /// The parts of all solids.
     pub parts: Vec<Part>,
     /// Their operands.
@@ -102,12 +106,15 @@ impl ShapeTable {
             row: Row::new(&operand.unit, &operand.placement),
             material: operand.material,
         };
+        let shines = shapes.iter().any(|shape| shape.light != super::NONE);
+        let lights = shapes.iter().filter(|_| shines).map(|shape| shape.light.wrapping_add(1));
         ShapeTable {
             parts: solids.parts.clone(),
             operands: solids.operands.iter().map(of).collect(),
             first_body,
             rows: shapes.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect(),
             material: shapes.iter().map(|shape| shape.material).collect(),
+            light: lights.collect(),
         }
     }
 }

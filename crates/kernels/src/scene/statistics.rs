@@ -11,6 +11,8 @@ pub struct Statistics {
     pub spheres: u64,
     /// Other curved shapes, ellipsoids among them.
     pub shapes: u64,
+    /// Planes without an end.
+    pub planes: u64,
     /// Lights.
     pub lights: u64,
     /// Meshes, each counted once.
@@ -31,8 +33,8 @@ pub struct Statistics {
     pub texture_bytes: u64,
     /// The tree; `None` when there are no meshes and few spheres.
     pub tree: Option<AccelStats>,
-    /// The box around all spheres and meshes, in the person's world.
-    pub bounds: WorldBounds,
+    /// The box around all that has an end, in the person's world; `None` where nothing has.
+    pub bounds: Option<WorldBounds>,
 }
 
 /// A box in the person's world.
@@ -59,7 +61,8 @@ impl Scene {
             + size_of_val(&t.material[..]);
         Statistics {
             spheres: self.spheres.len() as u64,
-            shapes: self.shapes.len() as u64,
+            shapes: (self.shapes.len() - self.tables.planes.rows.len()) as u64,
+            planes: self.tables.planes.rows.len() as u64,
             lights: self.lights.len() as u64,
             meshes: self.meshes.len() as u64,
             instances: self.instances.len() as u64,
@@ -74,13 +77,14 @@ impl Scene {
         }
     }
 
-    fn bounds(&self) -> WorldBounds {
+    fn bounds(&self) -> Option<WorldBounds> {
         let mut all = Bounds::EMPTY;
         for sphere in &self.spheres {
             all.add(sphere.center - DVec3::splat(sphere.radius));
             all.add(sphere.center + DVec3::splat(sphere.radius));
         }
-        for [low, high] in self.shapes.iter().map(super::Shape::bounds) {
+        let bounded = self.shapes.iter().filter(|shape| !shape.unit.is_endless());
+        for [low, high] in bounded.map(super::Shape::bounds) {
             all.add(low);
             all.add(high);
         }
@@ -102,7 +106,7 @@ impl Scene {
             }
         }
         let world = |p: DVec3| (p / self.frame.scale + self.frame.centre).to_array();
-        WorldBounds { min: world(all.min), max: world(all.max) }
+        (all.min.x <= all.max.x).then(|| WorldBounds { min: world(all.min), max: world(all.max) })
     }
 
     fn mesh_bounds(&self, mesh: &super::Mesh) -> Bounds {

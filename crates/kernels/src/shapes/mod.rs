@@ -19,10 +19,13 @@ mod cone;
 pub mod csg;
 mod cube;
 mod disk;
+mod lamp;
+mod plane;
 mod sphere;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
+pub use lamp::{Lamp, Start, Towards};
 
 /// A unit shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,9 @@ pub enum UnitShape {
         /// Half the distance between its centres.
         half: f64,
     },
+    /// The plane z = 0, facing +z; x is to the right, y up, and both are its texture coordinates. Open and without an
+    /// end.
+    Plane,
     /// About the origin, of side 1: a box that is an operand. Boxes by themselves are triangles.
     Cube,
     /// Made of others, in render space: a range of the parts of all solids. Its own map is not asked.
@@ -111,6 +117,7 @@ impl UnitShape {
     const SPHERE: u32 = 3;
     const CUBE: u32 = 4;
     const SOLID: u32 = 5;
+    const PLANE: u32 = 6;
 
     fn numbers(&self) -> (u32, [f32; 3]) {
         match *self {
@@ -125,6 +132,7 @@ impl UnitShape {
             UnitShape::Solid(Solid { parts: [first, count], .. }) => {
                 (Self::SOLID, [f32::from_bits(first), f32::from_bits(count), 0.0])
             }
+            UnitShape::Plane => (Self::PLANE, [0.0; 3]),
         }
     }
 
@@ -140,16 +148,23 @@ impl UnitShape {
             UnitShape::Capsule { half } => w.length() + half * w.z.abs(),
             UnitShape::Cube => 0.5 * w.abs().element_sum(),
             UnitShape::Solid(Solid { bounds: [low, high], .. }) => (w * low).max(w * high).element_sum(),
+            UnitShape::Plane if w.truncate() == glam::DVec2::ZERO => 0.0,
+            UnitShape::Plane => f64::INFINITY,
         }
     }
 
     /// Whether it has an inside.
     pub fn is_closed(&self) -> bool {
         match self {
-            UnitShape::Disk { .. } => false,
+            UnitShape::Disk { .. } | UnitShape::Plane => false,
             UnitShape::Cone { caps, .. } => *caps,
             UnitShape::Sphere | UnitShape::Capsule { .. } | UnitShape::Cube | UnitShape::Solid(_) => true,
         }
+    }
+
+    /// Whether it has no end: no box holds it, and no tree.
+    pub fn is_endless(&self) -> bool {
+        matches!(self, UnitShape::Plane)
     }
 
     /// The exact box of the shape under a map.
@@ -182,6 +197,7 @@ impl Row {
         let faces = match self.kind {
             UnitShape::DISK => [Some(disk::face(&self.parameters)), None],
             UnitShape::CONE => cone::faces(&self.parameters),
+            UnitShape::PLANE => [Some(plane::face()), None],
             _ => [None; 2],
         };
         let row = *self;
@@ -198,25 +214,30 @@ impl Row {
     // Once, for plain instructions: inlined it would stand in every kernel beside the triangles.
     #[inline(never)]
     pub fn hit_among(&self, parts: &[csg::Part], origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
-        if self.kind == UnitShape::SOLID {
-            let [o, d] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
-            let t = csg::hit(self.parts(parts), o, d, leaves)? as f32;
-            return (t > 0.0 && t < f32::INFINITY).then_some(t);
-        }
+        let [origin, direction] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
+        let t = match self.kind {
+            UnitShape::SOLID => csg::hit(self.parts(parts), origin, direction, leaves),
+            _ => self.meet(origin, direction, leaves),
+        };
+        let t = t? as f32;
+        (t > 0.0 && t < f32::INFINITY).then_some(t)
+    }
+
+    /// Where the ray meets it, before that is rounded; a solid is not met.
+    #[inline(always)]
+    fn meet(&self, origin: DVec3, d: DVec3, leaves: bool) -> Option<f64> {
         let map = self.object_from_render();
-        let d = DVec3::from(direction.map(f64::from));
-        let from_anchor = DVec3::from(origin.map(f64::from)) - DVec3::from(self.anchor);
+        let from_anchor = origin - DVec3::from(self.anchor);
         let t0 = if leaves { 0.0 } else { -(from_anchor.dot(d) / d.dot(d)) };
         let ray = ObjectRay { o: map * (from_anchor + t0 * d), d: map * d, t0 };
-        let t = match self.kind {
+        match self.kind {
             UnitShape::DISK => disk::hit(&self.parameters, &ray, leaves),
             UnitShape::CONE => cone::hit(&self.parameters, &ray, leaves),
             UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
             UnitShape::CUBE => cube::hit(&ray, leaves),
+            UnitShape::PLANE => plane::hit(&ray, leaves),
             _ => sphere::hit(&ray, leaves),
-        }?;
-        let t = t as f32;
-        (t > 0.0 && t < f32::INFINITY).then_some(t)
+        }
     }
 
     /// Of the parts of all solids its own, where it is a solid.
@@ -243,6 +264,7 @@ impl Row {
             UnitShape::CONE => cone::surface(&self.parameters, q),
             UnitShape::CAPSULE => capsule::surface(&self.parameters, q),
             UnitShape::CUBE => cube::surface(q),
+            UnitShape::PLANE => plane::surface(q),
             _ => sphere::surface(q),
         };
         OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }
@@ -265,6 +287,19 @@ impl FlatFace {
         [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| DVec3::from(self.row.anchor) + map * DVec3::new(x, y, self.z))
     }
 
+    /// Whether it is all of a plane.
+    pub fn is_endless(&self) -> bool {
+        self.radii[1] == f64::INFINITY
+    }
+
+    /// The unit normal to the front, and n.p of all points p of its plane.
+    pub fn equation(&self) -> (DVec3, f64) {
+        let map = self.row.object_from_render();
+        let normal = (map.transpose() * DVec3::Z).normalize();
+        let point = DVec3::from(self.row.anchor) + map.inverse() * DVec3::new(0.0, 0.0, self.z);
+        (normal, normal.dot(point))
+    }
+
     /// The unit normal to the outside of the shape; `None`: it has no inside.
     pub fn outward(&self) -> Option<DVec3> {
         (self.z != 0.0).then(|| (self.row.object_from_render().transpose() * DVec3::Z * self.z).normalize())
@@ -281,7 +316,7 @@ impl FlatFace {
         let squared = at.dot(at);
         // A line along the plane has no t, and none of these holds.
         let [inner, outer] = self.radii.map(|r| r * r);
-        (inner <= squared && squared <= outer).then_some(t)
+        (inner <= squared && squared <= outer && t.is_finite()).then_some(t)
     }
 }
 

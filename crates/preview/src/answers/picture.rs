@@ -85,8 +85,10 @@ const NOISE: &str = "noise";
 
 /// The layers that the page offers.
 pub fn layer_names() -> impl Iterator<Item = &'static str> {
-    // What the variance of a few samples is tells nothing; that of the picture is its noise.
-    let shown = LayerSet::all().iter().filter(|layer| *layer != Layer::Variance);
+    // What the variance of a few samples is tells nothing; that of the picture is its noise. To count what rays ask of
+    // the tree takes too long while somebody waits.
+    let left_out = |layer: &Layer| matches!(layer, Layer::Variance | Layer::Noise | Layer::Nodes | Layer::Leaves);
+    let shown = LayerSet::all().iter().filter(|layer| !left_out(layer));
     shown.collect::<LayerSet>().names().chain([NOISE]).collect::<Vec<_>>().into_iter()
 }
 

@@ -86,7 +86,7 @@ export class Inspector {
     const rows = [["pixel", `${pixel.x}, ${pixel.y}`], ["linear RGB", numbers(pixel.radiance)]];
     rows.push(["object", pixel.object ? pixel.object.name : "none"]);
     if (pixel.material) rows.push(["material", pixel.material.name]);
-    const said = new Set(["object_id", "material_id", "variance"]);
+    const said = new Set(["object_id", "material_id", "variance", "noise"]);
     for (const layer of pixel.layers) {
       if (!said.has(layer.name)) rows.push([layer.name.replace("_", " "), numbers(layer.values)]);
     }

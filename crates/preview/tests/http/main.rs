@@ -5,6 +5,8 @@ mod guard;
 mod saves;
 mod support;
 
+use scene_format::{Override, Syntax};
+use std::path::Path;
 use support::{SCENE, Sandbox, stage_of};
 use tracer_core::{RenderOptions, Unobserved, compile, develop, render};
 
@@ -32,6 +34,53 @@ fn the_page_shows_the_bytes_that_a_png_has() {
     // The noise is measured beside the rendering.
     sandbox.until(|state| state["frame"]["noise"].as_f64().is_some_and(|noise| noise > 0.0));
 }
+
+/// `--camera` and `--frame` choose what is shown, as they do in a rendering, and stay chosen when the scene is saved.
+#[test]
+fn the_camera_and_the_frame_that_are_asked_for_are_shown() {
+    let text = SCENE
+        .replace("camera: Camera(position: (0, 0, 5), look_at: (0, 0, 0), fov: 40), // the eye", CAMERAS)
+        .replace("center: (0, 0, 0)", "center: (\"=time\", 0, 0)");
+    let expected = |sets: &[Override]| {
+        let scene =
+            scene_format::load_str("scene.ron", &text, Syntax::Ron, Path::new(""), sets).expect("it is right").scene;
+        let scene = compile(&scene).expect("the scene compiles");
+        let image = develop(&render(&scene, &RenderOptions::default(), &Unobserved), &scene.look);
+        image.display.iter().map(|x| (f64::from(*x) * 255.0 + 0.5) as u8).collect::<Vec<u8>>()
+    };
+    let shown =
+        |sandbox: &Sandbox| -> Vec<u8> { sandbox.pixels().chunks(4).flat_map(|pixel| pixel[..3].to_vec()).collect() };
+    let asked = [
+        vec![],
+        vec![Override::camera("above")],
+        vec![Override::frame(3)],
+        vec![Override::camera("above"), Override::frame(3)],
+    ];
+    let mut pictures = Vec::new();
+    for sets in asked {
+        let sandbox = Sandbox::with(&text, |options| options.overrides = sets.clone());
+        let state = sandbox.done_after(0);
+        assert_eq!(shown(&sandbox), expected(&sets), "{sets:?}");
+        sandbox.write("scene.ron", format!("// saved\n{text}"));
+        sandbox.done_after(stage_of(&state));
+        assert_eq!(shown(&sandbox), expected(&sets), "{sets:?}, saved");
+        pictures.push(expected(&sets));
+    }
+    // Each is another picture, so that none could stand for another.
+    pictures.sort();
+    pictures.dedup();
+    assert_eq!(pictures.len(), 4);
+    let sandbox = Sandbox::with(&text, |options| options.overrides = vec![Override::camera("below")]);
+    let state = sandbox.until(|state| state["phase"] == "wrong");
+    assert!(state["told"].to_string().contains("below"), "{state:#}");
+}
+
+/// Two cameras, and time that goes a unit in a second of four frames.
+const CAMERAS: &str = "camera: \"front\", cameras: {
+        \"front\": Camera(position: (0, 0, 5), look_at: (0, 0, 0), fov: 40),
+        \"above\": Camera(position: (0, 4, 1), look_at: (0, 0, 0), fov: 40),
+    },
+    animation: Animation(frames: 8, fps: 4),";
 
 #[test]
 fn pictures_are_saved_in_the_look_of_the_page() {

@@ -49,8 +49,8 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk or a cylinder without caps: light is bent there once, and
-    /// never back.
+    /// `Transparent` on a shape that has no inside, a disk, a plane or a cylinder without caps: light is bent there
+    /// once, and never back.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
@@ -96,8 +96,8 @@ codes! {
     /// )
     /// ```
     FAR_VIEW "W0314" "a view so far that single precision shows";
-    /// A `Rectangle` shines to one side, to which there is nothing: no object, and not the camera. All of its light is
-    /// lost. Turn it round, or let it shine to both sides.
+    /// A `Rectangle` or a `Disk` shines to one side, to which there is nothing: no object, and not the camera. All of
+    /// its light is lost. Turn it round, or let it shine to both sides.
     ///
     /// ```text
     /// Scene(

@@ -47,15 +47,15 @@ pub use materials::{
     Transparent,
 };
 pub use name::Name;
-pub use object::{Faulty, Object, cannot_shine, with_operands};
+pub use object::{Faulty, Object, cannot_shine, solid_cannot_shine, with_operands};
 pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField, InlineMesh,
     Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, PathPoints, PlacementList,
-    PlacementPattern, Placements, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube, Turning,
-    Union, Within, no_extent,
+    PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube,
+    Turning, Union, Within, no_extent,
 };
 pub use textures::{
     Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,

@@ -2,7 +2,7 @@
 
 use super::shapes::{
     Arrow, Capsule, Cone, Cylinder, Difference, Disk, Extrude, HeightField, Intersection, Lathe, Mesh, Operands,
-    Placements, Polygon, RectBox, Rectangle, Sphere, Torus, Tube, Union,
+    Placements, Plane, Polygon, RectBox, Rectangle, Sphere, Torus, Tube, Union,
 };
 use super::{MaterialRef, Name, Transform, Vec3};
 use crate::codes;
@@ -32,9 +32,6 @@ pub(crate) trait ShapeWords: Told + Faulty {
     /// What several of them are called where they are counted.
     const MANY: &'static str;
 
-    /// Whether it may have the material `Emissive`.
-    const SHINES: bool = true;
-
     /// The file that it is made of, if it is.
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         None
@@ -43,7 +40,6 @@ pub(crate) trait ShapeWords: Told + Faulty {
 
 impl<T: ShapeWords> ShapeWords for Box<T> {
     const MANY: &'static str = T::MANY;
-    const SHINES: bool = T::SHINES;
 
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         T::named_file(self)
@@ -60,11 +56,18 @@ pub(crate) fn no_length(from: &Spanned<Vec3>, to: &Spanned<Vec3>, noun: &str, sp
     })
 }
 
-/// The diagnostic of a thing whose form cannot shine, with its article: `a cone`, `an ellipsoid`.
+/// The diagnostic of a thing without an end that is to shine, with its article.
 pub fn cannot_shine(what: &str, at: Span) -> Diagnostic {
     Diagnostic::error(codes::NO_LIGHT, at, format!("{what} cannot shine"))
-        .expected("`Emissive` on a sphere, or on a shape with flat sides or of triangles")
-        .hint("put a luminous `Sphere` or `Rectangle` in its place, or inside it where it is open")
+        .expected("`Emissive` on a shape that ends somewhere: light of all of a plane would have no end either")
+        .hint("take a large `Rectangle` instead, or light from all directions: `background`")
+}
+
+/// The diagnostic of a solid, or of a part of one, that is to shine, with its article.
+pub fn solid_cannot_shine(what: &str, at: Span) -> Diagnostic {
+    Diagnostic::error(codes::NO_LIGHT, at, format!("{what} cannot shine"))
+        .expected("`Emissive` on a shape that stands by itself: of one in a solid nobody knows how much is left")
+        .hint("let the lamp be an object of its own, beside the solid or in a hollow of it")
 }
 
 /// The choice between shapes, one line each, and what is the same for all of them.
@@ -130,11 +133,6 @@ macro_rules! shapes {
                 match self { $( Object::$Kind(shape) => Faulty::faults(shape, span), )+ }
             }
 
-            /// Whether it may have the material `Emissive`, whatever its transforms.
-            pub(crate) fn shines(&self) -> bool {
-                match self { $( Object::$Kind(_) => <$inner as ShapeWords>::SHINES, )+ }
-            }
-
             /// The file that its shape is made of, if it is.
             pub fn file(&self) -> Option<&Spanned<Arc<Path>>> {
                 match self { $( Object::$Kind(shape) => ShapeWords::named_file(shape), )+ }
@@ -146,7 +144,9 @@ macro_rules! shapes {
 shapes! {
     /// A sphere.
     Sphere(Box<Sphere>);
-    /// A flat rectangle: a floor, a wall, a picture, a square lamp.
+    /// A plane without an end: a floor to the horizon, water.
+    Plane(Box<Plane>);
+    /// A flat rectangle: a wall, a table, a picture, a square lamp.
     Rectangle(Box<Rectangle>);
     /// A box with right angles.
     Box(Box<RectBox>);

@@ -102,6 +102,18 @@ scene_words! {
         /// The share of the pixel's samples that hit something, mirrors and glass included: 0 where the background is
         /// seen, between at edges.
         Alpha,
+        /// The standard error of the pixel relative to its own luminance, were its samples independent: 0.1 is ten per
+        /// cent. Zero below two samples and where the picture is black.
+        Noise,
+        /// Rays that a sample's paths are made of, the mean over the samples: one from the camera, one for each surface
+        /// that scatters, both ways at glass, aimed ones. Shadow rays are not among them.
+        PathLength,
+        /// What a sample costs in the tree: nodes of up to eight boxes that its rays ask, shadow rays too, the mean
+        /// over the samples. 0 where there is no tree.
+        Nodes,
+        /// What a sample costs at the tree's leaves: those of up to four triangles or spheres that its rays ask, shadow
+        /// rays too, the mean over the samples. 0 where there is no tree.
+        Leaves,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Spanned;
 use crate::schema::Rule;
-use crate::words::{scene_struct, scene_words};
+use crate::words::{scene_enum, scene_struct, scene_words};
 
 scene_struct! {
     /// Size of the picture in pixels.
@@ -26,7 +26,7 @@ scene_struct! {
         seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);
         /// What finds the hits; the picture is the same, byte for byte.
         acceleration: Acceleration = Acceleration::Bvh;
-        /// With or without what saves noise.
+        /// What the picture is of, and with or without what saves noise.
         integrator: Integrator = Integrator::Full;
         /// Whether the pixels of a block share what they find.
         reuse: Reuse = Reuse::Blocks;
@@ -63,14 +63,26 @@ scene_words! {
     }
 }
 
-scene_words! {
-    /// With or without what saves noise.
+scene_enum! {
+    /// What the picture is of, and with or without what saves noise.
     pub enum Integrator, "integrator" {
         /// Path tracing with all that `reuse` and `caustics` say. Right on average, too.
-        Full,
+        Full;
         /// The plain path tracer, whatever `reuse` and `caustics` say: every pixel for itself, no ray guided; right on
         /// average with any number of samples, unless `clamp` is written.
-        Path,
+        Path;
+        /// Direct light alone: what lights and background send straight to the surfaces that the camera sees, also in
+        /// mirrors and through glass (up to `max_bounces`). No surface lights another one, and mirrors and glass throw
+        /// no light on any. As `Path`, every pixel for itself. Without mirrors and glass it is the picture of `Path`
+        /// with `max_bounces: 0`.
+        Direct;
+        /// No light at all: how much of the half space above each surface that the camera sees is free, weighted by the
+        /// cosine. 1 is free, 0 all closed; where nothing is seen it is 0. Materials and lights do not matter, glass
+        /// and lamps are in the way like all else.
+        AmbientOcclusion as "ambient occlusion" {
+            /// What is further off than this does not count. `None`: everything counts.
+            distance: Option<Spanned<f64>> = None => Rule::length("a distance");
+        };
     }
 }
 
@@ -109,6 +121,21 @@ scene_words! {
         Map,
         /// By the paths themselves: right on average.
         Paths,
+    }
+}
+
+/// As scenes have it.
+impl std::fmt::Display for Integrator {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Integrator::Full => f.write_str("Full"),
+            Integrator::Path => f.write_str("Path"),
+            Integrator::Direct => f.write_str("Direct"),
+            Integrator::AmbientOcclusion { distance: None } => f.write_str("AmbientOcclusion"),
+            Integrator::AmbientOcclusion { distance: Some(distance) } => {
+                write!(f, "AmbientOcclusion(distance: {})", distance.value)
+            }
+        }
     }
 }
 

@@ -96,7 +96,7 @@ functions! {
         [v @ (Value::Pair(_) | Value::Triple(_))] => Some(Value::Number(v.numbers().len() as f64)),
         _ => None,
     };
-    "keyframes" "keyframes(t, t0, value0, t1, value1, ..)" |a| match a {
+    "keyframes" "keyframes(t, t0, value0, t1, value1, ..), t0 < t1 < .., values of one type" |a| match a {
         [Value::Number(t), keys @ ..] => keyframes(*t, keys),
         _ => None,
     };

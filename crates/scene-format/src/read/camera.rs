@@ -176,7 +176,7 @@ impl Reader<'_> {
         let names: Vec<&str> = own.iter().map(|named| &*named.name.value).collect();
         let message = format!("the scene has {} cameras and does not say which one is meant", own.len());
         let fault = Diagnostic::error(codes::UNKNOWN_CAMERA, first.name.span, message);
-        let hint = format!("write the name at `camera`, or choose by `--camera`: {}", shortened(names[0]));
+        let hint = format!("write the name at `camera`, or choose by `tracer render --camera {}`", shortened(names[0]));
         self.report(fault.expected("a name from `cameras` at `camera`").hint(hint));
     }
 

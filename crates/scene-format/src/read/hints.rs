@@ -19,6 +19,9 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         "color" | "colour" | "albedo" | "texture" if has("material") => {
             Some("colours belong to a material: `material = { Diffuse = { albedo = .. } }`")
         }
+        "size" | "width" | "radius" | "extent" if def.name == "Plane" => {
+            Some("a `Plane` has no end; what has one is a `Rectangle`, with a `size`")
+        }
         "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
         "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
         "position" | "center" | "translate" | "translation" if has("transform") && ron => {
@@ -91,6 +94,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
         ("frame", &["frame_current", "current_frame", "frame_number"]),
         ("center", &["centre", "position", "pos", "origin"]),
+        ("point", &["center", "centre", "position", "pos", "origin", "location", "through"]),
         ("radius", &["r", "size"]),
         ("fov", &["field_of_view", "angle", "vfov"]),
         ("focal_length", &["focal", "focallength"]),
@@ -116,6 +120,7 @@ pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static st
         ("points", &["vertices", "positions", "verts", "corners", "outline", "profile"]),
         ("faces", &["indices", "triangles", "polygons"]),
         ("inner_radius", &["innerradius", "inner", "hole"]),
+        ("distance", &["max_distance", "maxdistance", "radius", "range", "ao_distance"]),
         ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
         ("caps", &["cap", "closed", "capped"]),
         ("from", &["p0", "start", "base_point", "bottom"]),
@@ -171,6 +176,14 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Object", &["local", "generated", "objectspace", "object_space"]),
         ("Uv", &["texcoord", "texturecoordinates", "uvmapping", "mapping"]),
         ("Texture", &["image", "bitmap", "imagemap", "imagetexture", "picture"]),
+        (
+            "Path",
+            &["pathtracer", "path_tracer", "pathtracing", "path_tracing", "volpath", "simplepath", "unidirectional"],
+        ),
+        ("Direct", &["directlighting", "direct_lighting", "directlight", "direct_light", "whitted"]),
+        ("AmbientOcclusion", &["ao", "occlusion"]),
+        ("PathLength", &["bounces", "path_depth", "raydepth", "ray_depth", "segments"]),
+        ("Nodes", &["traversal", "cost", "heatmap", "boxes"]),
     ];
     let lower = name.to_ascii_lowercase();
     let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, others, _)| (kind, others));
@@ -200,7 +213,6 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
 type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
-    (&["plane", "ground", "floor"], "a floor is a large `Rectangle(size: 20)`"),
     (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
@@ -513,6 +525,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "name" | "id" | "label" | "tag" => "objects, lights and materials have names; write others as a comment",
         "visible" | "hidden" | "enabled" | "hide" | "visibility" | "cast_shadow" | "cast_shadows" | "double_sided" => {
             "all that is written is seen: leave the object out, or make it a comment"
+        }
+        "y" | "d" | "height" | "offset" | "distance" | "level" | "z" if def.name == "Plane" => {
+            "where a plane is, a point of it says: `point: (0, 1, 0)`; which way it faces, its `normal`"
         }
         "units" | "unit" => "a scene has one unit, whichever it is: leave it out",
         _ => return None,

@@ -3,8 +3,8 @@
 
 use super::Reader;
 use crate::codes;
-use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene, cannot_shine, with_operands};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::path::shown;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -34,11 +34,9 @@ impl Reader<'_> {
     }
 
     /// Tells of shapes whose numbers do not go together: ends at one point, outlines that cross themselves, curves that
-    /// come too near to the axis that they turn about; and of shapes that cannot shine and are to.
+    /// come too near to the axis that they turn about.
     pub(super) fn shapes(&mut self, scene: &Scene) {
         let (mut sides, mut told) = (0, HashSet::new());
-        let shining = scene.materials.iter().filter(|named| named.material.shines().is_some());
-        let shining: HashSet<&str> = shining.map(|named| &*named.name.value).collect();
         for object in &scene.objects.0 {
             sides += sides_of(&object.value);
             let mut faults = Vec::new();
@@ -50,8 +48,6 @@ impl Reader<'_> {
             } else {
                 sides -= sides_of(&object.value);
             }
-            let with_operands = with_operands(std::slice::from_ref(object)).enumerate();
-            faults.extend(with_operands.filter_map(|(k, part)| without_light(part, k > 0, &shining)));
             // What is repeated is wrong many times, and told once.
             for fault in faults {
                 if told.insert((fault.span, fault.code)) {
@@ -72,19 +68,6 @@ fn sides_of(object: &Object) -> usize {
         _ => return 0,
     };
     if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count }
-}
-
-/// The fault of a shape with curved sides, or in a solid, that is to shine.
-fn without_light(object: &Spanned<Object>, in_solid: bool, shining: &HashSet<&str>) -> Option<Diagnostic> {
-    let at = match object.value.material() {
-        _ if object.value.shines() && !in_solid => return None,
-        MaterialRef::Inline(material) => material.value.shines().map(|_| material.span),
-        MaterialRef::Named { name, span } => shining.contains(&**name).then_some(*span),
-        MaterialRef::Default => None,
-    };
-    let kind = object.value.kind().to_lowercase();
-    let article = if kind.starts_with('i') { "an" } else { "a" };
-    at.map(|at| cannot_shine(&if in_solid { "a part of a solid".to_owned() } else { format!("{article} {kind}") }, at))
 }
 
 fn of_lathe(lathe: &Lathe, span: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {

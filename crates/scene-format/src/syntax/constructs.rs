@@ -184,7 +184,7 @@ const SHAPES: &[Block] = &[
         "Cone(from: (x, y, z), to: (x, y, z), radius: .., tip_radius: ..)",
         "{ Cone = { from = [x, y, z], to = [x, y, z], radius = .., tip_radius = .. } }",
     ),
-    (&["plane"], "Rectangle(size: 20)", "{ Rectangle = { size = 20 } }"),
+    (&["plane"], "Plane(point: (x, y, z), normal: (0, 1, 0))", "{ Plane = { point = [x, y, z], normal = [0, 1, 0] } }"),
     (&["disc"], "Disk(radius: ..)", "{ Disk = { radius = .. } }"),
     (&["mesh", "mesh2", "triangle"], "Mesh(file: \"shape.obj\")", "{ Mesh = { file = \"shape.obj\" } }"),
     (

@@ -390,6 +390,14 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 placements,
                 name: name(random),
             })),
+            5 if random.below(3) == 0 => Object::Plane(Box::new(Plane {
+                point: vector(random).into(),
+                normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),
+                material,
+                transform: transforms(random),
+                placements,
+                name: name(random),
+            })),
             5 => Object::Disk(Box::new(Disk {
                 center: vector(random).into(),
                 normal: [0.3, number(random, -1.0, 1.0), 0.0].into(),
@@ -478,12 +486,8 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => {}
         }
         // Numbers that do not go together are no scene, nor are curved sides that shine.
-        let curved = matches!(object, Object::Disk(_) | Object::Cylinder(_) | Object::Cone(_) | Object::Capsule(_));
-        let dull = match object.material() {
-            MaterialRef::Inline(material) => !matches!(material.value, Material::Emissive(_)),
-            MaterialRef::Named { .. } => false,
-            MaterialRef::Default => true,
-        };
+        let curved = matches!(object.kind(), "Plane" | "Disk" | "Cylinder" | "Cone" | "Capsule");
+        let dull = matches!(object.material(), MaterialRef::Inline(m) if !matches!(m.value, Material::Emissive(_)));
         if curved && !dull {
             *object.material_mut() = MaterialRef::Default;
         }
@@ -537,7 +541,13 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             noise: (random.below(2) == 0).then(|| number(random, 0.001, 0.9).into()),
             time: (random.below(2) == 0).then(|| length(random).into()),
             acceleration: *random.pick(&[Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None]),
-            integrator: *random.pick(&[Integrator::Full, Integrator::Path]),
+            integrator: match random.below(5) {
+                0 => Integrator::Path,
+                1 => Integrator::Direct,
+                2 => Integrator::AmbientOcclusion { distance: None },
+                3 => Integrator::AmbientOcclusion { distance: Some(2.5.into()) },
+                _ => Integrator::Full,
+            },
             ..Render::default()
         },
         effects: Effects {

@@ -8,10 +8,10 @@ use super::curved::{Written, written};
 use super::materials::MaterialBuilder;
 use super::placing::{Subject, place_all};
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
-use scene_format::desc::{MaterialRef, Object, Placements, cannot_shine};
-use scene_format::diagnostic::Spanned;
+use scene_format::desc::{MaterialRef, Object, Placements, solid_cannot_shine};
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use tracer_kernels::scene::{Frame, Operand, Shape, Solids, Step};
+use tracer_kernels::scene::{Frame, NONE, Operand, Shape, Solids, Step};
 use tracer_kernels::shapes::csg::{Operation, Part, Surface};
 use tracer_kernels::shapes::{Solid, UnitShape};
 
@@ -108,6 +108,22 @@ fn noun(object: &Object) -> &'static str {
     }
 }
 
+/// The fault of a solid, or of a shape in one, that is to shine by this material.
+fn shining(object: &Spanned<Object>, material: &MaterialRef) -> Diagnostic {
+    let what = match &object.value {
+        Object::Union(_) => "a union",
+        Object::Intersection(_) => "an intersection",
+        Object::Difference(_) => "a difference",
+        _ => "a part of a solid",
+    };
+    let at = match material {
+        MaterialRef::Inline(material) => material.span,
+        MaterialRef::Named { span, .. } => *span,
+        MaterialRef::Default => Span::NONE,
+    };
+    solid_cannot_shine(what, if at == Span::NONE { object.span } else { at })
+}
+
 /// What reads the parts of a solid.
 struct Nodes<'a, 'k, 'm> {
     desc: &'a SceneDesc,
@@ -128,7 +144,13 @@ impl Nodes<'_, '_, '_> {
     ) -> Node {
         let material = match object.value.material() {
             MaterialRef::Default => inherited,
-            own => Some(self.builder.resolve_as(own, || format!("{path}.material"), self.diagnostics)),
+            own => {
+                let material = self.builder.resolve_as(own, || format!("{path}.material"), self.diagnostics);
+                if self.builder.emissive(material).is_some() {
+                    self.diagnostics.push(shining(object, own));
+                }
+                Some(material)
+            }
         };
         let (operation, list) = match &object.value {
             Object::Union(solid) => (Operation::Union, &solid.objects.0),
@@ -156,9 +178,6 @@ impl Nodes<'_, '_, '_> {
             .or_else(|| super::polygonal::cube(&object.value))
             .unwrap_or(Written { unit: UnitShape::Sphere, local: DAffine3::IDENTITY, noun: "shape" });
         let material = material.unwrap_or_else(|| self.builder.default_material());
-        if self.builder.emissive(material).is_some() {
-            self.diagnostics.push(cannot_shine("a part of a solid", object.span));
-        }
         let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
         let moved = self.map_of(object, noun, local, local.translation, &reach);
         operands.push(OperandWritten { unit, local, moved, material });
@@ -243,7 +262,10 @@ fn surfaces(unit: &UnitShape) -> Vec<(Surface, DAffine3)> {
         }
         UnitShape::Capsule { half } => vec![(Surface::Capsule { half }, DAffine3::IDENTITY)],
         UnitShape::Cube => (0..3).flat_map(|axis| [plane(axis, 0.5), plane(axis, -0.5)]).collect(),
-        UnitShape::Sphere | UnitShape::Disk { .. } | UnitShape::Solid(_) => vec![(Surface::Ball, DAffine3::IDENTITY)],
+        // Others are no operands.
+        UnitShape::Sphere | UnitShape::Disk { .. } | UnitShape::Plane | UnitShape::Solid(_) => {
+            vec![(Surface::Ball, DAffine3::IDENTITY)]
+        }
     }
 }
 
@@ -380,7 +402,7 @@ impl SolidObject {
             });
             let material = self.operands.first().map_or(0, |operand| operand.material);
             let (placement, object) = (DAffine3::IDENTITY, self.number);
-            shapes.push(Shape { unit, placement, material, object, coordinates: 0 });
+            shapes.push(Shape { unit, placement, material, light: NONE, object, coordinates: 0 });
         }
     }
 

@@ -1,4 +1,4 @@
-//! Objects with curved sides: spheres, and those that are a unit shape under an affine map (see
+//! Objects with curved sides, and planes: spheres, and those that are a unit shape under an affine map (see
 //! [`tracer_kernels::shapes`]).
 
 use super::assets::Sources;
@@ -7,11 +7,11 @@ use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{
-    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Vec3, cannot_shine,
+    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Vec3, cannot_shine,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
-use tracer_kernels::scene::{Frame, NONE, Shape, Sphere};
+use tracer_kernels::scene::{CurvedLight, Frame, NONE, Shape, Sphere};
 use tracer_kernels::shapes::UnitShape;
 use tracer_mesh::shapes::of_object;
 
@@ -31,12 +31,19 @@ pub(super) fn written(object: &Object) -> Option<Written> {
             let local = DAffine3 { matrix3, translation: DVec3::from(sphere.center.value) };
             Some(Written { unit: UnitShape::Sphere, local, noun: "sphere" })
         }
+        Object::Plane(plane) => Some(of_plane(plane)),
         Object::Disk(disk) => Some(of_disk(disk)),
         Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
         Object::Cone(cone) => Some(of_cone(cone)),
         Object::Capsule(capsule) => Some(of_capsule(capsule)),
         _ => None,
     }
+}
+
+fn of_plane(plane: &Plane) -> Written {
+    let [right, up, normal] = sides(DVec3::from(plane.normal.value));
+    let local = DAffine3 { matrix3: DMat3::from_cols(right, up, normal), translation: DVec3::from(plane.point.value) };
+    Written { unit: UnitShape::Plane, local, noun: "plane" }
 }
 
 fn of_disk(disk: &Disk) -> Written {
@@ -123,7 +130,7 @@ pub fn load(
         let Some(Written { unit, local, noun }) = written(&object.value) else { continue };
         let (transform, placements) = (object.value.transform(), object.value.placements());
         let material = builder.resolve(object.value.material(), number, diagnostics);
-        let emissive = builder.emissive(material).cloned();
+        let mut emissive = builder.emissive(material).cloned();
         let faults = object.value.faults(object.span);
         if !faults.is_empty() {
             diagnostics.extend(faults);
@@ -136,19 +143,24 @@ pub fn load(
         let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
-        if emissive.is_some() && (unit != UnitShape::Sphere || !maps.iter().all(is_similar)) {
+        if emissive.is_some() && unit.is_endless() {
             let span = match object.value.material() {
                 MaterialRef::Inline(material) => material.span,
                 MaterialRef::Named { span, .. } => *span,
                 MaterialRef::Default => object.span,
             };
-            let what = if unit == UnitShape::Sphere { "an ellipsoid" } else { noun };
-            let article = if unit == UnitShape::Sphere { "" } else { "a " };
-            diagnostics.push(cannot_shine(&format!("{article}{what}"), span));
+            diagnostics.push(cannot_shine(&format!("a {noun}"), span));
+            emissive = None;
         }
         all.push(Curved { number, unit, maps, local, material, emissive, plain });
     }
     all
+}
+
+/// The unit normal of a plane, and its point that is nearest to one.
+pub(super) fn equation(map: &DAffine3, point: DVec3) -> (DVec3, DVec3) {
+    let normal = (map.matrix3.inverse().transpose() * DVec3::Z).normalize();
+    (normal, point - normal * normal.dot(point - map.translation))
 }
 
 /// Whether a map keeps all angles (up to rounding): it turns, moves and scales.
@@ -180,6 +192,7 @@ impl Curved {
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         self.maps.iter().step_by(self.maps.len().div_ceil(1024).max(1)).map(move |map| match self.ball(map) {
             Some((center, radius)) => center + (look_at - center).try_normalize().unwrap_or(DVec3::Z) * radius,
+            None if self.unit.is_endless() => equation(map, look_at).1,
             None => {
                 let [low, high] = self.unit.bounds(map);
                 look_at.clamp(low, high)
@@ -187,32 +200,41 @@ impl Curved {
         })
     }
 
-    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A = 4 pi r^2, of both
-    /// sides where it has two.
+    /// Whether it has no end.
+    pub fn is_endless(&self) -> bool {
+        self.unit.is_endless()
+    }
+
+    /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A the true area of a
+    /// copy, of both sides where it has two.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let Some(emissive) = &self.emissive else { return Vec::new() };
         let pi = std::f64::consts::PI;
         let sides = if emissive.two_sided { 2.0 } else { 1.0 };
+        let of_amount = match emissive.amount.value {
+            Amount::Radiance(l) => l,
+            Amount::Power(_) => [0.0; 3],
+        };
         let radiance = |map: &DAffine3| {
-            let radius = self.ball(map).map_or(0.0, |(_, radius)| radius);
-            let area = 4.0 * pi * radius * radius * sides;
-            match emissive.amount.value {
-                Amount::Radiance(l) => l,
-                Amount::Power(p) => p.map(|x| x / (pi * area)),
-            }
+            let Amount::Power(power) = emissive.amount.value else { return of_amount };
+            let area = match self.ball(map) {
+                Some((_, radius)) => 4.0 * pi * radius * radius,
+                None => self.unit.area(map),
+            };
+            power.map(|x| x / (pi * area * sides))
         };
         self.maps.iter().map(radiance).collect()
     }
 
-    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance and says its index.
-    /// `written`, where a pattern asks for it: from the coordinates that things are written in to the world, the first
-    /// the world's own.
+    /// Adds its copies to the spheres and shapes of the scene. `light` makes a light of a radiance for a sphere and
+    /// says its index; those of shapes are added to `lamps`, in the order of the shapes. `written`, where a pattern
+    /// asks for it: from the coordinates that things are written in to the world, the first the world's own.
     pub fn build(
         &self,
         frame: &Frame,
         light: &mut dyn FnMut([f64; 3], bool) -> u32,
         spheres: &mut Vec<Sphere>,
-        shapes: &mut Vec<Shape>,
+        (shapes, lamps): (&mut Vec<Shape>, &mut Vec<CurvedLight>),
         mut written: Option<&mut Vec<DAffine3>>,
     ) {
         let radiances = self.radiances();
@@ -224,15 +246,21 @@ impl Curved {
                 written.push(*map * from_written);
             }
             let (material, object) = (self.material, self.number);
+            let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
             if let Some((center, radius)) = self.ball(map) {
-                let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
                 let light = radiances.get(copy).map_or(NONE, |&radiance| light(radiance, two_sided));
                 let (center, radius) = (frame.point(center), frame.length(radius));
                 spheres.push(Sphere { center, radius, material, object, light, coordinates });
             } else {
                 let placement =
                     DAffine3 { matrix3: map.matrix3 * frame.scale, translation: frame.point(map.translation) };
-                shapes.push(Shape { unit: self.unit, placement, material, object, coordinates });
+                let (unit, shape) = (self.unit, shapes.len() as u32);
+                let mut light = NONE;
+                if let Some(&radiance) = radiances.get(copy) {
+                    light = lamps.len() as u32;
+                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided });
+                }
+                shapes.push(Shape { unit, placement, material, light, object, coordinates });
             }
         }
     }
@@ -251,6 +279,9 @@ pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
         let open = match (written(&object.value), of_object(&object.value)) {
             (Some(Written { unit: unit @ UnitShape::Disk { .. }, noun, .. }), _) if !unit.is_closed() => {
                 Some((noun, "a pane of glass is a thin `Cylinder`"))
+            }
+            (Some(Written { unit: UnitShape::Plane, noun, .. }), _) => {
+                Some((noun, "water is a large and deep `Box`, a pane of glass a flat one"))
             }
             (Some(Written { unit, noun, .. }), _) if !unit.is_closed() => Some((noun, "close it: `caps: true`")),
             (_, Some(shape)) if !shape.is_closed() => Some((shape.noun(), shape.way_to_close())),

@@ -1,8 +1,8 @@
 //! Curved shapes in one place: one of them is seen wherever both are, as of triangles in one plane
 //! ([`tracer_kernels::bvh`]), and the others are left out, so that rays that leave the one do not meet the other.
-//! Disks are told apart by the tree.
+//! Disks are told apart by the tree, and what lies in a plane without an end from that; planes are told apart here.
 
-use super::curved::{Curved, is_similar};
+use super::curved::{Curved, equation, is_similar};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
@@ -21,6 +21,35 @@ fn place(object: &Curved, map: &DAffine3) -> [u32; 12] {
     DAffine3 { matrix3, ..*map }.to_cols_array().map(|x| (x as f32 + 0.0).to_bits())
 }
 
+/// Planes that are so near to each other where the camera looks, in parts of the view's size, are one: rays start off
+/// them in single precision.
+const NEAR: f64 = 1.0 / 4_194_304.0;
+/// No more planes than this are held against each other.
+const MOST_PLANES: usize = 1000;
+
+/// Planes that are seen, each by its normal and a point near what the camera looks at.
+struct Planes {
+    eye: DVec3,
+    look_at: DVec3,
+    taken: Vec<(DVec3, DVec3)>,
+}
+
+impl Planes {
+    /// Whether a plane is not in the place of another; it is taken then.
+    fn is_free(&mut self, map: &DAffine3) -> bool {
+        let (normal, point) = equation(map, self.look_at);
+        let size = self.eye.distance(self.look_at) + point.distance(self.look_at) + point.abs().max_element();
+        let is_same = |(other, there): &(DVec3, DVec3)| {
+            normal.cross(*other).length() <= NEAR && normal.dot(point - *there).abs() <= NEAR * size
+        };
+        let free = !self.taken.iter().any(is_same);
+        if free && self.taken.len() < MOST_PLANES {
+            self.taken.push((normal, point));
+        }
+        free
+    }
+}
+
 /// Who is seen: what shines, then what lets no light through, then what comes first.
 fn rank(object: &Curved, materials: &[Material]) -> u32 {
     let transmits =
@@ -37,6 +66,8 @@ pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material]
         (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
     order.sort_by_key(|&k| rank(&curved[k], materials));
     let mut taken: BTreeMap<[u32; 12], Vec<UnitShape>> = BTreeMap::new();
+    let [eye, look_at] = [&desc.camera.position, &desc.camera.look_at].map(|point| DVec3::from(point.value));
+    let mut planes = Planes { eye, look_at, taken: Vec::new() };
     let mut left_out: BTreeMap<Span, usize> = BTreeMap::new();
     for k in order {
         let unit = curved[k].unit;
@@ -44,6 +75,9 @@ pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material]
             .maps
             .iter()
             .map(|map| {
+                if unit.is_endless() {
+                    return planes.is_free(map);
+                }
                 let there = taken.entry(place(&curved[k], map)).or_default();
                 let free = !there.contains(&unit);
                 if free {

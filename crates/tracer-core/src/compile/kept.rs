@@ -141,6 +141,7 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
     }
     add(bytemuck::cast_slice(geometry.parts));
     add(&geometry.first_shape.to_le_bytes());
+    add(bytemuck::cast_slice(geometry.planes));
     // All meshes of a scene share their positions.
     let mut positions: Option<&[[f32; 3]]> = None;
     for mesh in geometry.meshes {

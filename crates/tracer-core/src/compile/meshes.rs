@@ -20,6 +20,7 @@ use std::sync::Arc;
 use tracer_kernels::bvh;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::scene::{FlatLight, Frame, Instance, Light, Material, Mesh, NONE, Shape, Solids, Triangles};
+use tracer_kernels::shapes::Row;
 use tracer_mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 
 /// Which material each object of triangles has.
@@ -314,7 +315,8 @@ fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
 }
 
 impl Built {
-    /// The tree over these meshes, the first `spheres`, and the shapes, whose first has the id `first_shape`.
+    /// The tree over these meshes, the first `spheres`, and the shapes, whose first has the id `first_shape`; planes
+    /// are the last of them.
     pub fn tree(
         &self,
         acceleration: bvh::Acceleration,
@@ -337,9 +339,12 @@ impl Built {
             .collect();
         let instances: Vec<bvh::InstanceGeometry> =
             self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
-        let placed: Vec<bvh::ShapeGeometry> = shapes.iter().map(Shape::geometry).collect();
+        let (bounded, endless) = shapes.split_at(shapes.partition_point(|shape| !shape.unit.is_endless()));
+        let placed: Vec<bvh::ShapeGeometry> = bounded.iter().map(Shape::geometry).collect();
+        let planes: Vec<Row> = endless.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
-        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, parts: &solids.parts, meshes, instances };
+        let (shapes, parts, planes) = (&placed[..], &solids.parts[..], &planes[..]);
+        let geometry = bvh::Geometry { spheres, shapes, first_shape, parts, planes, meshes, instances };
         build_tree(kept, &geometry, acceleration, &self.ranks(shapes, materials))
     }
 

@@ -39,11 +39,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
-use tracer_kernels::bvh;
 use tracer_kernels::scene::{
-    Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture, Shape, ShapeTable,
-    Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
+    PlaneTable, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
+use tracer_kernels::{bvh, scene};
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
 #[derive(Debug, thiserror::Error)]
@@ -91,6 +91,18 @@ pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileEr
         kept.sweep();
     }
     compiled
+}
+
+/// What is rendered.
+fn integrator(words: &Integrator, frame: &Frame) -> scene::Integrator {
+    match words {
+        Integrator::Full | Integrator::Path => scene::Integrator::Paths,
+        Integrator::Direct => scene::Integrator::Direct,
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.as_ref().map_or(f64::INFINITY, |distance| frame.length(distance.value));
+            scene::Integrator::AmbientOcclusion { distance: distance as f32 }
+        }
+    }
 }
 
 fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, CompileError> {
@@ -141,9 +153,12 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
     let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
     let mut solids = Solids::default();
+    // What has no end stays behind them.
+    let mut endless = shapes.split_off(shapes.partition_point(|shape| !shape.unit.is_endless()));
     for object in &solid_objects {
         object.build(&frame, &mut shapes, &mut solids, written.as_mut());
     }
+    shapes.append(&mut endless);
     let parts = meshes::Parts {
         desc,
         loaded: &loaded,
@@ -158,6 +173,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials, uses.len() as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
+    let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
     let light_table = LightTable::new(&lights, &spheres, environment);
     let instance_table = InstanceTable::new(&built.instances);
     let written = written.map_or_else(Written::default, |maps| {
@@ -180,6 +196,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     )
     .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
+    let integrator = integrator(&desc.render.integrator, &frame);
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
@@ -201,6 +218,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         samples: desc.render.samples.value,
         max_bounces: desc.render.max_bounces.value,
         seed: desc.render.seed.value,
+        integrator,
         reuse: match desc.render.reuse {
             Reuse::Blocks if full && is_dark => Sharing::Always,
             Reuse::Blocks if full => Sharing::Indoors,
@@ -218,6 +236,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         tables: Tables {
             spheres: sphere_table,
             shapes: ShapeTable::new(&shapes, &solids, first_body),
+            planes: plane_table,
             materials: material_table,
             lights: light_table,
             textures: TextureTable::new(pictures, &uses),
@@ -266,10 +285,16 @@ pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
     named.into_iter().map(|path| desc.base_dir.join(path)).collect()
 }
 
-/// One point per object near what the camera looks at, on its surface or in its box.
+/// One point per object near what the camera looks at, on its surface or in its box. What has no end says nothing of
+/// where a scene is, unless there is nothing else.
 fn marks(curved: &[Curved], solids: &[csg::SolidObject], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
+    let of = |endless: bool| {
+        let some = curved.iter().filter(move |object| object.is_endless() == endless);
+        some.flat_map(move |object| object.marks(look_at))
+    };
     let of_solids = solids.iter().flat_map(|object| object.marks(look_at));
-    curved.iter().flat_map(|object| object.marks(look_at)).chain(of_solids).chain(placed.marks(look_at)).collect()
+    let marks: Vec<DVec3> = of(false).chain(of_solids).chain(placed.marks(look_at)).collect();
+    if marks.is_empty() { of(true).collect() } else { marks }
 }
 
 /// The spheres of objects and lights in the order of their primitive ids (see [`SphereTable`]), the other curved
@@ -287,9 +312,9 @@ fn curved_and_lights(
         lights.len() as u32 - 1
     };
     let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
-    let mut shapes = Vec::new();
+    let (mut shapes, mut lamps): (Vec<Shape>, Vec<CurvedLight>) = (Vec::new(), Vec::new());
     for object in curved {
-        object.build(frame, &mut shine, &mut spheres, &mut shapes, written.as_deref_mut());
+        object.build(frame, &mut shine, &mut spheres, (&mut shapes, &mut lamps), written.as_deref_mut());
     }
     for (object, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
@@ -298,11 +323,23 @@ fn curved_and_lights(
         spheres.push(Sphere { center, radius, material: NONE, object, light: index, coordinates: 0 });
     }
     SphereTable::order(&mut spheres);
+    // Behind those that hang in the tree.
+    shapes.sort_by_key(|shape| shape.unit.is_endless());
     for (k, sphere) in spheres.iter().enumerate() {
         if let Some(Light::Sphere { sphere: index, .. }) = lights.get_mut(sphere.light as usize) {
             *index = k as u32;
         }
     }
+    // Behind those of the spheres.
+    let first = lights.len() as u32;
+    for (k, shape) in (0..).zip(&mut shapes).filter(|(_, shape)| shape.light != NONE) {
+        if let Some(lamp) = lamps.get_mut(shape.light as usize) {
+            lamp.shape = k;
+        }
+        shape.light += first;
+    }
+    let in_unit = |lamp: CurvedLight| CurvedLight { radiance: lamp.radiance.map(|x| x / radiance_unit), ..lamp };
+    lights.extend(lamps.into_iter().map(|lamp| Light::Curved(in_unit(lamp))));
     (spheres, shapes, lights)
 }
 
@@ -317,7 +354,7 @@ fn build_tree(
     materials: &[Material],
     kept: Option<&Kept>,
 ) -> Result<Option<Arc<bvh::Accel>>, Box<Diagnostic>> {
-    if built.instances.is_empty() && in_tree == 0 && shapes.is_empty() {
+    if built.instances.is_empty() && in_tree == 0 && shapes.iter().all(|shape| shape.unit.is_endless()) {
         return Ok(None);
     }
     let acceleration = self::acceleration(acceleration);

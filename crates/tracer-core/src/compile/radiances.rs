@@ -5,7 +5,7 @@ use super::polygonal::polygonal;
 use scene_format::Diagnostic;
 use scene_format::SceneDesc;
 use scene_format::codes;
-use scene_format::desc::{self, Emission, SphereLight};
+use scene_format::desc::{self, Emission, Integrator, SphereLight};
 use scene_format::diagnostic::Span;
 
 /// L = I / (pi r^2) = P / (4 pi^2 r^2).
@@ -49,6 +49,9 @@ pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64
 /// The largest power of two that is not above the brightest channel of all lights and the background: to divide by it
 /// changes no digit. One where there is no light. `background`: the most that comes from there.
 pub(super) fn unit(desc: &SceneDesc, shining: &[Shining], background: [f64; 3]) -> f64 {
+    if is_without_light(desc) {
+        return 1.0;
+    }
     let lamps = desc.lights.iter().map(|light| {
         let desc::Light::SphereLight(light) = &light.value;
         of_light(light)
@@ -61,9 +64,17 @@ pub(super) fn unit(desc: &SceneDesc, shining: &[Shining], background: [f64; 3]) 
     if power > 1e-290 { power } else { 1.0 }
 }
 
+/// Whether the picture is of no light, but of numbers up to one.
+fn is_without_light(desc: &SceneDesc) -> bool {
+    matches!(desc.render.integrator, Integrator::AmbientOcclusion { .. })
+}
+
 /// A warning for each light, and the background, that is so dark beside the brightest that single precision does not
 /// hold it.
 pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], background: [f64; 3], unit: f64) -> Vec<Diagnostic> {
+    if is_without_light(desc) {
+        return Vec::new();
+    }
     let is_lost = |radiance: [f64; 3]| radiance.iter().any(|&x| x > 0.0 && x / unit < f64::from(f32::MIN_POSITIVE));
     let warning = |span, what: &str| {
         Diagnostic::warning(

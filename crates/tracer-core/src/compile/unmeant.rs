@@ -10,6 +10,7 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
 use tracer_kernels::scene::{Camera, Frame, Projection};
+use tracer_kernels::shapes;
 use tracer_mesh::MeshData;
 
 /// More copies of an object than this are not looked at: millions of them must not take their time twice.
@@ -17,6 +18,9 @@ const MOST_COPIES: usize = 10_000;
 
 /// More pairs of a solid and a lamp than this neither.
 const MOST_PAIRS: usize = 10_000_000;
+
+/// Marks are of that many copies only.
+const MOST_MARKED: usize = 1024;
 
 /// Warns of all of it.
 pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved], diagnostics: &mut Diagnostics) {
@@ -61,6 +65,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
     }
     shut_in(desc, placed, curved, &materials, diagnostics);
     turned_away(desc, placed, curved, &materials, diagnostics);
+    disks_turned_away(desc, placed, curved, diagnostics);
 }
 
 /// A view of which a pixel is smaller than the steps of single precision, where the camera stands or looks.
@@ -97,8 +102,6 @@ fn turned_away(
     materials: &BTreeMap<&str, &Material>,
     diagnostics: &mut Diagnostics,
 ) {
-    // Marks are of that many copies only.
-    const MOST_MARKED: usize = 1024;
     let is_few = polygonal(desc).enumerate().all(|(k, _)| placed.maps_of(k).len() <= MOST_MARKED)
         && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
     const CORNERS: [DVec3; 4] = [
@@ -139,15 +142,51 @@ fn turned_away(
         }
         left -= others;
         if !maps.is_empty() && maps.iter().all(is_turned_away) {
-            diagnostics.push(
-                Diagnostic::warning(
-                    codes::UNSEEN_LIGHT,
-                    object.span,
-                    format!("objects[{}] shines to where nothing is: nobody sees its light", object.number),
-                )
-                .expected("an object, or the camera, before its front")
-                .hint("turn it round (the other `normal`), or let it shine to both sides: `two_sided: true`"),
-            );
+            diagnostics.push(unseen_light(object.number, object.span));
+        }
+    }
+}
+
+fn unseen_light(number: u32, span: Span) -> Diagnostic {
+    let message = format!("objects[{number}] shines to where nothing is: nobody sees its light");
+    Diagnostic::warning(codes::UNSEEN_LIGHT, span, message)
+        .expected("an object, or the camera, before its front")
+        .hint("turn it round (the other `normal`), or let it shine to both sides: `two_sided: true`")
+}
+
+/// Disks that shine to one side, where there is nothing.
+fn disks_turned_away(desc: &SceneDesc, placed: &Placed, curved: &[Curved], diagnostics: &mut Diagnostics) {
+    let polygonal_count = polygonal(desc).count();
+    let is_few = (0..polygonal_count).all(|k| placed.maps_of(k).len() <= MOST_MARKED)
+        && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
+    let mut left = MOST_PAIRS / 10;
+    let eye = DVec3::from(desc.camera.position.value);
+    for (k, object) in curved.iter().enumerate() {
+        let is_lamp = object.emissive.as_ref().is_some_and(|emissive| !emissive.two_sided);
+        let others = desc.objects.len().saturating_mul(object.maps.len());
+        if !is_lamp || !matches!(object.unit, shapes::UnitShape::Disk { .. }) || !is_few || others > left {
+            continue;
+        }
+        left -= others;
+        let is_turned_away = |map: &DAffine3| {
+            let normal = (map.matrix3.inverse().transpose() * DVec3::Z).normalize_or_zero();
+            let center = map.translation;
+            // In front by more than rounding.
+            let least = 1e-9 * (map.matrix3.x_axis.length() + map.matrix3.y_axis.length() + center.length());
+            let in_front = |p: DVec3| normal.dot(p - center) > least;
+            let far = center + normal * 1e12;
+            let flat = (0..polygonal_count).flat_map(|other| placed.marks_of(other, far));
+            let round = curved.iter().enumerate().filter(|(other, _)| *other != k);
+            let mut all = flat.chain(round.flat_map(|(_, object)| object.marks(far)));
+            // Of its own copies the highest points.
+            let height = |own: &DAffine3| {
+                object.unit.reach(own.matrix3.transpose() * normal) + normal.dot(own.translation - center)
+            };
+            !in_front(eye) && !object.maps.iter().any(|own| height(own) > least) && !all.any(in_front)
+        };
+        if !object.maps.is_empty() && object.maps.iter().all(is_turned_away) {
+            let span = desc.objects.get(object.number as usize).map_or(Span::NONE, |object| object.span);
+            diagnostics.push(unseen_light(object.number, span));
         }
     }
 }

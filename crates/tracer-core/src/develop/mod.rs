@@ -82,6 +82,29 @@ pub fn develop_denoised(film: &Film, look: &Look, denoised: &Denoised) -> Image 
     image
 }
 
+/// Develops radiance that no film has, row by row from the top: what another renderer has made. What is behind
+/// everything cannot be told from the rest.
+pub fn develop_radiance([width, height]: [u32; 2], look: &Look, radiance: &[[f64; 3]]) -> Image {
+    let gain = libm::exp2(look.exposure);
+    let encoder = &*ENCODER;
+    let mut image = Image {
+        width,
+        height,
+        linear: Vec::new(),
+        display: Vec::new(),
+        alpha: None,
+        layers: Vec::new(),
+        mattes: MatteImage::default(),
+    };
+    for pixel in radiance {
+        let exposed = pixel.map(|x| x * gain);
+        let finite = exposed.map(|x| x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32);
+        image.linear.extend(finite);
+        image.display.extend(mapped(look.tone_map, exposed).map(|x| encoder.encode(x.clamp(0.0, 1.0))));
+    }
+    image
+}
+
 /// Develops pixels of this radiance, of which so much is background where that is not to be seen.
 fn developed(
     film: &Film,

@@ -4,14 +4,21 @@
 //! independent and a pixel's sum is exact ([`crate::film`]), so threads take batches in any order and the film is the
 //! same.
 
+mod counting;
 mod grid;
+mod inspect;
 mod observer;
 mod options;
 mod passes;
 mod technique;
 mod techniques;
 mod trace;
+mod watcher;
 
+pub use inspect::{
+    Brought, Ended, Inspection, LightOf, MetTold, PathTold, Roulette, SampledTold, Scattering, Shared, Told,
+    VertexTold, Whole, inspect,
+};
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
@@ -23,11 +30,11 @@ use std::time::{Duration, Instant};
 use technique::Engine;
 use techniques::Trial;
 use tracer_kernels::engine::kernels::Kernels;
-use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::pass::{Pass, Task};
 use tracer_kernels::engine::pool::{Counted, Pool};
 use tracer_kernels::layers::Layer;
 use tracer_kernels::level::Level;
-use tracer_kernels::scene::Scene;
+use tracer_kernels::scene::{Integrator, Scene};
 
 /// Why a film cannot be gone on with ([`resume`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -160,7 +167,8 @@ fn painter<'a>(
     let crop = film.crop();
     let samples_total =
         u64::from(crop.width) * u64::from(crop.height) * u64::from(samples.saturating_sub(film.first()));
-    let plain = Pass::plain(film.seed(), film.level.lanes());
+    let task = if engine.scene.integrator == Integrator::Direct { Task::Direct } else { Task::Picture };
+    let plain = Pass { task, ..Pass::plain(film.seed(), film.level.lanes()) };
     let has_samples = samples_total > 0;
     let techniques = techniques::plan(Trial { engine, options, crop, has_samples, pass: plain, pool, plan: None });
     let mut painter = Painter {

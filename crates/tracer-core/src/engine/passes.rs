@@ -4,6 +4,7 @@ use super::grid::Grid;
 use super::observer::{Observer, Progress};
 use super::technique::{Engine, OnFilm, Technique};
 use super::trace::trace;
+use super::watcher::Unwatched;
 use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
@@ -244,7 +245,7 @@ impl Painter<'_> {
             }
             batch.watch.start(self.statistics);
             let start = Instant::now();
-            trace(self.engine, pass, &self.techniques, batch);
+            trace(self.engine, pass, &self.techniques, batch, &mut Unwatched);
             if let Some(limit) = self.limit {
                 clamp_samples(limit, cells, batch);
             }
@@ -259,7 +260,7 @@ impl Painter<'_> {
     }
 
     /// Makes a batch's items those of the blocks at these places and sample indices.
-    fn fill(&self, places: &Range<u32>, samples: Range<u32>, batch: &mut Batch) {
+    pub fn fill(&self, places: &Range<u32>, samples: Range<u32>, batch: &mut Batch) {
         batch.items.clear();
         (batch.glints, batch.shares) = (0, 0);
         for place in places.clone() {

@@ -46,6 +46,9 @@ pub struct OnFilm<'a, 'b> {
 /// A way to find light. Whether it is at work depends on scene and settings alone, and so does all that it does: the
 /// picture is the same for any crop, threads, lanes, and however the samples are divided into passes.
 pub trait Technique: Send + Sync {
+    /// What it is called where a sample is explained.
+    fn name(&self) -> &'static str;
+
     /// Makes ready for the sample indices of a pass; none goes over a power of two.
     fn before_pass(&mut self, _: Engine<'_>, _samples: &Range<u32>, _: &Pool) {}
 

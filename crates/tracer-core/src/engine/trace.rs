@@ -1,45 +1,84 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
+use super::counting;
 use super::technique::{Engine, Technique, Vertex};
+use super::watcher::Watcher;
 use tracer_kernels::bvh::{Accel, Coherence, Hits, Occlusion};
 use tracer_kernels::engine::batch::{Batch, rays};
-use tracer_kernels::engine::deposit;
 use tracer_kernels::engine::kernels::Kernels;
 use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::{deposit, planes_closest, planes_occluded};
 use tracer_kernels::level::Level;
 use tracer_kernels::report::Stage;
+use tracer_kernels::scene::Integrator;
 
 /// Traces the items of the batch; the radiance of slot s is in `batch.radiance` afterwards.
-pub fn trace(engine: Engine<'_>, pass: Pass<'_>, techniques: &[Box<dyn Technique>], batch: &mut Batch) {
+pub fn trace(
+    engine: Engine<'_>,
+    pass: Pass<'_>,
+    techniques: &[Box<dyn Technique>],
+    batch: &mut Batch,
+    watcher: &mut impl Watcher,
+) {
     batch.start();
-    engine.kernels.camera(engine.scene, pass.seed, u32::MAX, batch);
+    if pass.layers.are_of_hits() {
+        // Here, for a batch may have no path at all: beside a fisheye's circle.
+        batch.layers.start(pass.layers.kept());
+    }
+    engine.kernels.camera(engine.scene, pass.seed, watcher.items(), batch);
     batch.watch.lap(Stage::Camera);
+    if let Integrator::AmbientOcclusion { distance } = engine.scene.integrator {
+        return ambient(engine, pass, distance, batch);
+    }
     let mut number = 0;
     while batch.paths.len > 0 {
         let vertex = Vertex { number, members: batch.members.len, suffixes: batch.suffixes.len };
         bounce(engine, pass, number, batch);
         for technique in techniques {
+            let before = batch.paths.len;
             technique.after_vertex(engine, pass, vertex, batch);
+            watcher.after_vertex(before, batch);
         }
         number += 1;
     }
+    watcher.after_paths(batch);
     for technique in techniques {
         technique.after_batch(engine, pass, batch);
+        watcher.after_batch(technique.name(), batch);
     }
 }
 
 /// One vertex of all paths: what their rays hit, the light that is seen and sampled from there, and the next rays.
 pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    met(engine, pass, vertex, batch);
+    batch.watch.shaded(batch.paths.len, pass.lanes);
+    engine.kernels.shade(engine.scene, pass, vertex, batch);
+    batch.watch.lap(Stage::Shade);
+    seen(engine, pass, batch);
+}
+
+/// How much is free of what lies above the surfaces that camera rays hit.
+fn ambient(engine: Engine<'_>, pass: Pass<'_>, distance: f32, batch: &mut Batch) {
+    met(engine, pass, 0, batch);
+    engine.kernels.ambient(engine.scene, pass.seed, distance, batch);
+    batch.watch.lap(Stage::Shade);
+    seen(engine, pass, batch);
+}
+
+/// What the rays of a vertex hit, and what layers want of it.
+fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
+    let for_layers = vertex == 0 && pass.layers.are_of_hits();
+    counting::paths(engine, pass.layers, batch);
     closest(engine, vertex == 0, batch);
-    if vertex == 0 && pass.layers.are_of_hits() {
-        batch.layers.start(pass.layers.kept());
-        kernels.first_hits(scene, pass.seed, pass.layers, batch);
+    if for_layers {
+        engine.kernels.first_hits(engine.scene, pass.seed, pass.layers, batch);
         batch.watch.lap(Stage::Layers);
     }
-    batch.watch.shaded(batch.paths.len, pass.lanes);
-    kernels.shade(scene, pass, vertex, batch);
-    batch.watch.lap(Stage::Shade);
+}
+
+/// Which shadow rays arrive, and what they bring.
+fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
+    counting::shadows(engine, pass.layers, batch);
     occluded(engine, Coherence::Incoherent, batch);
     deposit(batch);
     batch.watch.lap(Stage::Deposit);
@@ -49,6 +88,9 @@ pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch
 pub fn closest(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
     kernels.closest(scene, batch);
+    if !scene.tables.planes.is_empty() {
+        planes_closest(&scene.tables.planes, batch);
+    }
     batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_closest(accel.top_boxes(), batch);
@@ -82,6 +124,9 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
 pub fn occluded(engine: Engine<'_>, coherence: Coherence, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
     kernels.occluded(scene, batch);
+    if !scene.tables.planes.is_empty() {
+        planes_occluded(scene, batch);
+    }
     batch.watch.lap(Stage::Spheres);
     let Some(accel) = &scene.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);

@@ -235,12 +235,14 @@ impl Film {
         let hits = layers.map_or(0, |layers| layers.hits[k]);
         let count = match definition(of.layer).pixel {
             Pixel::Mean => tile.samples[k].max(1),
+            Pixel::Counted(_) => tile.samples[k].max(1),
             Pixel::MeanOfHits(empty) if hits == 0 => return pixel.fill(empty),
             Pixel::MeanOfHits(_) => hits,
             Pixel::Nearest(_) => {
                 return pixel.fill(layers.map_or(0, |layers| number_of(layers.nearest[before.nearest][k])) as f32);
             }
             Pixel::OfFilm(FilmNumber::Variance) => return pixel.fill(finite(self.variance(x, y))),
+            Pixel::OfFilm(FilmNumber::Noise) => return pixel.fill(finite(self.noise(x, y))),
         };
         for (c, value) in pixel.iter_mut().enumerate() {
             let sum = layers.map_or(0, |layers| layers.sums[before.sums + c][k]);

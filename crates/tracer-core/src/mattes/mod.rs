@@ -42,7 +42,7 @@ pub fn mattes_kept(output: &Output) -> MattesKept {
 }
 
 /// The name of an object, or where it stands in the scene; behind them come the lights.
-pub(crate) fn object_name(desc: &SceneDesc, number: usize) -> String {
+pub fn object_name(desc: &SceneDesc, number: usize) -> String {
     let name = |name: Option<&str>, list: &str, k: usize, kind: &str| {
         name.map_or_else(|| format!("{list}[{k}] {kind}"), str::to_owned)
     };

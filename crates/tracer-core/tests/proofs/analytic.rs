@@ -18,7 +18,7 @@ const DEVIATION: f64 = 4.8;
 
 /// Asserts the picture's mean in the red channel. The noise must be small enough to tell (a fifth of a percent), and
 /// the arithmetic of `f32` may be wrong by 20 roundings (1.2e-6).
-fn assert_mean(name: &str, desc: &SceneDesc, samples: u32, expected: f64) {
+pub(crate) fn assert_mean(name: &str, desc: &SceneDesc, samples: u32, expected: f64) {
     let scene = compiled(desc);
     let [width, height] = scene.size;
     let mean = |seed: u32| {
@@ -34,7 +34,7 @@ fn assert_mean(name: &str, desc: &SceneDesc, samples: u32, expected: f64) {
 }
 
 /// All pixels hold exactly this, as `f32` holds it.
-fn assert_exact(name: &str, desc: &SceneDesc, expected: [f64; 3]) {
+pub(crate) fn assert_exact(name: &str, desc: &SceneDesc, expected: [f64; 3]) {
     let scene = compiled(desc);
     let film = film(&scene, 16, 1);
     for y in 0..scene.size[1] {
@@ -51,7 +51,7 @@ fn assert_exact(name: &str, desc: &SceneDesc, expected: [f64; 3]) {
 /// cap's disc, seen at theta). Partly below it what sinks is missing; integrating the cap's part above the horizon
 /// gives (Snyder: Area light sources for real-time graphics, 1996) with x = cot sigma, y = -x cot theta, s = sin(theta)
 /// sqrt(1 - y^2): (cos(theta) acos(y) - x s) sin^2(sigma) + atan(s/x).
-fn irradiance(sigma: f64, theta: f64) -> f64 {
+pub(crate) fn irradiance(sigma: f64, theta: f64) -> f64 {
     if theta + sigma <= PI / 2.0 {
         return PI * sigma.sin().powi(2) * theta.cos();
     }

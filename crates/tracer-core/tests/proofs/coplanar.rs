@@ -13,25 +13,25 @@ use scene_format::desc::{
 use scene_format::diagnostic::Spanned;
 use scene_format::{SceneDesc, codes};
 
-const SIZE: u32 = 32;
-const RED: [f64; 3] = [0.8, 0.1, 0.2];
-const BLUE: [f64; 3] = [0.1, 0.3, 0.9];
+pub(crate) const SIZE: u32 = 32;
+pub(crate) const RED: [f64; 3] = [0.8, 0.1, 0.2];
+pub(crate) const BLUE: [f64; 3] = [0.1, 0.3, 0.9];
 
 /// Where the plane y = 0 of a description stands.
 #[derive(Clone, Copy, Debug)]
-struct Attitude {
-    axis: DVec3,
-    degrees: f64,
-    place: DVec3,
+pub(crate) struct Attitude {
+    pub(crate) axis: DVec3,
+    pub(crate) degrees: f64,
+    pub(crate) place: DVec3,
 }
 
 impl Attitude {
-    fn point(&self, p: DVec3) -> DVec3 {
+    pub(crate) fn point(&self, p: DVec3) -> DVec3 {
         self.place + DQuat::from_axis_angle(self.axis, self.degrees.to_radians()) * p
     }
 
     /// The transforms of something that is turned by `turn` degrees in the plane, at `at`.
-    fn steps(&self, turn: f64, at: [f64; 3]) -> Vec<Transform> {
+    pub(crate) fn steps(&self, turn: f64, at: [f64; 3]) -> Vec<Transform> {
         let about = |axis: [f64; 3], degrees: f64| Transform::Rotate { axis, degrees, about: Some(Box::new([0.0; 3])) };
         vec![
             about([0.0, 1.0, 0.0], turn),
@@ -42,11 +42,11 @@ impl Attitude {
     }
 }
 
-fn of(material: Material) -> MaterialRef {
+pub(crate) fn of(material: Material) -> MaterialRef {
     MaterialRef::Inline(Box::new(material.into()))
 }
 
-fn rectangle(size: f64, material: Material, transform: Vec<Transform>) -> Object {
+pub(crate) fn rectangle(size: f64, material: Material, transform: Vec<Transform>) -> Object {
     Object::Rectangle(Box::new(Rectangle {
         size: PerAxis([size; 2]).into(),
         material: of(material),
@@ -69,7 +69,7 @@ fn instance(size: f64, material: Material, mut transform: Vec<Transform>, attitu
 }
 
 /// What lies in the plane at each pixel: a point of the plane, seen from `eye`.
-fn points(eye: DVec3, look_at: DVec3, up: DVec3, fov: f64) -> Vec<DVec3> {
+pub(crate) fn points(eye: DVec3, look_at: DVec3, up: DVec3, fov: f64) -> Vec<DVec3> {
     let forward = (look_at - eye).normalize();
     let right = forward.cross(up).normalize();
     let (up, half) = (right.cross(forward), (fov / 2.0).to_radians().tan());
@@ -207,7 +207,7 @@ fn glass_on_a_table_shows_the_table() {
 }
 
 /// A shape with flat sides in the plane y = 0, or with one of them there.
-fn flat_sided(kind: &str, material: Material, transform: Vec<Transform>) -> Object {
+pub(crate) fn flat_sided(kind: &str, material: Material, transform: Vec<Transform>) -> Object {
     let (material, transform) = (of(material), transform.into_iter().map(Spanned::from).collect());
     let (placements, name) = (Placements::One, Name::default());
     match kind {

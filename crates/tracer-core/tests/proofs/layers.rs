@@ -6,7 +6,8 @@ use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements, Rectangle,
+    Acceleration, FisheyeMapping, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
+    Projection, Rectangle,
 };
 use tracer_core::{Crop, Film, Layer, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
 use tracer_reference::{FirstHit, first_hits};
@@ -28,8 +29,16 @@ fn layer<const N: usize>(film: &Film, layer: Layer) -> Vec<[f32; N]> {
 
 /// All that a film says of its layers, as bits: pixel by pixel.
 fn bits(film: &Film) -> Vec<Vec<u32>> {
+    bits_of(film, |_| true)
+}
+
+fn bits_of(film: &Film, wanted: impl Fn(Layer) -> bool) -> Vec<Vec<u32>> {
     let [width, height] = [film.crop().width, film.crop().height];
-    let images: Vec<_> = LayerSet::all().iter().map(|layer| film.layer(layer).expect("all are kept")).collect();
+    let images: Vec<_> = LayerSet::all()
+        .iter()
+        .filter(|layer| wanted(*layer))
+        .map(|layer| film.layer(layer).expect("all are kept"))
+        .collect();
     let pixel = |k: usize| {
         let of = |image: &tracer_core::LayerImage| {
             image.values[k * image.channels.len()..(k + 1) * image.channels.len()].to_vec()
@@ -37,6 +46,26 @@ fn bits(film: &Film) -> Vec<Vec<u32>> {
         images.iter().flat_map(of).map(f32::to_bits).collect()
     };
     (0..(width * height) as usize).map(pixel).collect()
+}
+
+/// Around a fisheye's circle there is no camera ray, and in the corners of a wide picture not one of a whole batch: there
+/// nothing is, for every layer, and not what the batch before has found.
+#[test]
+fn around_a_fisheye_nothing_is() {
+    let mut desc = everything();
+    desc.camera.projection = Projection::Fisheye { fov: 180.0.into(), mapping: FisheyeMapping::Equidistant };
+    (desc.image.width, desc.image.height) = (192.into(), 64.into());
+    let scene = compiled(&desc);
+    let film = |threads| render(&scene, &RenderOptions { threads, ..samples(3) }, &Unobserved);
+    let (film, other) = (film(1), film(2));
+    assert!(bits(&film) == bits(&other), "one and two threads differ");
+    for which in [Layer::Alpha, Layer::Depth, Layer::ObjectId] {
+        for (k, [value]) in layer::<1>(&film, which).into_iter().enumerate() {
+            let from_the_middle = ((k % 192) as f64 + 0.5 - 96.0).hypot((k / 192) as f64 + 0.5 - 32.0);
+            assert!(value == 0.0 || from_the_middle < 33.0, "{which:?} is {value} at pixel {k}");
+        }
+    }
+    assert!(layer::<1>(&film, Layer::Alpha).into_iter().any(|[alpha]| alpha > 0.9));
 }
 
 /// Without the lamp that is all around, so that some rays hit nothing.
@@ -234,10 +263,13 @@ fn the_same_bytes_whatever_the_schedule() {
             assert!(bits(&film) == cut_bits(&expected, scene.size, part), "{threads} threads, {}", level.name());
         }
     }
+    // What another structure costs is another thing.
+    let same = |layer: Layer| !matches!(layer, Layer::Nodes | Layer::Leaves);
+    let expected = bits_of(&render(&scene, &asked, &Unobserved), same);
     for acceleration in [Acceleration::BoundingBox, Acceleration::None] {
         let mut desc = open();
         desc.render.acceleration = acceleration;
-        assert!(bits(&render(&compiled(&desc), &asked, &Unobserved)) == expected, "{acceleration:?}");
+        assert!(bits_of(&render(&compiled(&desc), &asked, &Unobserved), same) == expected, "{acceleration:?}");
     }
 }
 
@@ -291,4 +323,61 @@ fn films_with_layers_are_gone_on_with() {
         broken[at] ^= 16;
         assert!(Film::load(&mut broken.as_slice()).is_err(), "byte {at}");
     }
+}
+
+/// Path lengths of scenes where they are known, and what a mirror adds; the tree is asked where there is one.
+#[test]
+fn what_rays_cost_is_counted() {
+    let of = |layer: Layer, desc: &SceneDesc| -> Vec<f32> {
+        let film = render(&compiled(desc), &samples(4), &Unobserved);
+        self::layer::<1>(&film, layer).iter().map(|x| x[0]).collect()
+    };
+    let plain = |mut desc: SceneDesc| {
+        desc.render.integrator = Integrator::Path;
+        desc
+    };
+    let mirrors = |bounces: u32| {
+        let ball = sphere([0.0; 3], 1.0, mirror([0.9; 3]));
+        let desc = scene(3, vec![], vec![ball]).camera([0.0, 0.0, 4.0], [0.0; 3], 2.0).background([1.0; 3]);
+        plain(desc.bounces(bounces))
+    };
+    // The camera's ray, and the mirrored one that leaves.
+    assert_eq!(of(Layer::PathLength, &mirrors(3)), [2.0; 9]);
+    assert_eq!(of(Layer::PathLength, &plain(scene(3, vec![], vec![]).background([1.0; 3]))), [1.0; 9]);
+    // Between two mirrors as large as worlds rays go to and fro: one more for each bounce.
+    let between = |bounces: u32| {
+        let walls = [-1.0, 1.0].map(|side| sphere([0.0, 0.0, side * 1001.0], 1000.0, mirror([1.0; 3])));
+        plain(scene(3, vec![], walls.into()).camera([0.0; 3], [0.0, 0.0, -1.0], 0.001).bounces(bounces))
+    };
+    for bounces in [0, 1, 2, 5] {
+        assert_eq!(of(Layer::PathLength, &between(bounces)), [bounces as f32 + 2.0; 9]);
+    }
+    // One ball is asked by every ray; there is no tree. A mesh has one, and shadow rays ask it, too.
+    assert_eq!(of(Layer::Nodes, &mirrors(3)), [0.0; 9]);
+    let cat = |lights| {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/cat.obj");
+        let cat = mesh(file.as_ref(), diffuse([0.5; 3]), scene_format::desc::Shading::Auto, vec![]);
+        plain(scene(16, lights, vec![cat]).camera([0.0, 5.0, 60.0], [0.0; 3], 40.0).bounces(0))
+    };
+    let lit = cat(vec![light([0.0, 60.0, 30.0], 5.0, [10.0; 3])]);
+    let (dark, bright) = (of(Layer::Nodes, &cat(vec![])), of(Layer::Nodes, &lit));
+    assert!(dark.iter().zip(&bright).all(|(dark, bright)| dark <= bright));
+    assert!(bright.iter().sum::<f32>() > dark.iter().sum::<f32>() && dark.iter().any(|&n| n >= 3.0), "{dark:?}");
+    let leaves = of(Layer::Leaves, &lit);
+    assert!(leaves.iter().any(|&n| n >= 1.0) && leaves.iter().zip(&bright).all(|(leaf, node)| *leaf <= 8.0 * node));
+}
+
+/// The standard error relative to the pixel's own luminance, as the film has both.
+#[test]
+fn noise_is_that_of_the_variance() {
+    let film = render(&compiled(&everything()), &samples(8), &Unobserved);
+    let noise = layer::<1>(&film, Layer::Noise);
+    for (k, [noise]) in noise.iter().enumerate() {
+        let (x, y) = (k as u32 % 37, k as u32 / 37);
+        let [r, g, b] = film.radiance(x, y);
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let expected = if luminance > 0.0 { film.variance(x, y).sqrt() / luminance } else { 0.0 };
+        assert!((f64::from(*noise) - expected).abs() <= 1e-6 * expected, "{k}: {noise} {expected}");
+    }
+    assert!(noise.iter().any(|[noise]| *noise > 0.01));
 }

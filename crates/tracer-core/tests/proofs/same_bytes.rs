@@ -102,8 +102,48 @@ pub(crate) fn many_balls() -> SceneDesc {
         .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() })
 }
 
-fn scenes() -> [(&'static str, SceneDesc); 2] {
-    [("everything", everything()), ("many balls", many_balls())]
+/// Planes without an end: a floor with a rug, a lamp and a box of glass in it or on it, a mirror, and things that reach
+/// through; solids, matt and of glass, copied and mirrored, and a curved lamp.
+fn planes() -> SceneDesc {
+    let text = r#"Scene(
+        image: Image(width: 37, height: 37), background: (0.2, 0.25, 0.3), render: Render(max_bounces: 6),
+        camera: Camera(position: (0.5, 1.4, 6), look_at: (0, 0.6, 0), fov: 50),
+        lights: [SphereLight(center: (-2, 4, 3), radius: 0.6, radiance: 25)],
+        materials: { "lamp": Emissive(radiance: 6), "gloss": BlinnPhong(albedo: 0.4, exponent: 200, specular: 0.2) },
+        objects: [
+            Plane(material: Diffuse(albedo: Checkerboard(a: 0.7, b: 0.2))),
+            Plane(point: (-3, 0, 0), normal: (1, 0, 0.5), material: Mirror(reflectance: 0.9)),
+            Plane(point: (0, 0, -2.5), normal: (0, 0.2, 1), material: "gloss"),
+            Rectangle(center: (0.6, 0, 1), size: (1.5, 1), material: Diffuse(albedo: (0.7, 0.1, 0.1))),
+            Rectangle(center: (1.8, 0, 0), size: 0.6, material: "lamp"),
+            Box(center: (0.4, 0.35, 1), size: 0.7, material: Transparent(ior: 1.5)),
+            Sphere(center: (-0.9, 0.2, 0.3), radius: 0.6, material: Diffuse(albedo: 0.8)),
+            Cylinder(from: (-0.4, 0, 2), to: (-0.4, 0.5, 2), radius: 0.3),
+            Difference(
+                objects: [
+                    Box(center: (-1.9, 0.4, 1.6), size: 0.8, material: Diffuse(albedo: Checkerboard(
+                        a: 0.1, b: 0.8, mapping: Object(scale: 5),
+                    ))),
+                    Sphere(center: (-1.6, 0.7, 1.9), radius: 0.4, material: Mirror(reflectance: 0.8)),
+                    Cylinder(from: (-3, 0.4, 1.6), to: (0, 0.4, 1.6), radius: 0.15, material: "gloss"),
+                ],
+                placements: [[], [Scale((-0.8, 1, 1)), Translate((0.6, 0, 1.2))]],
+            ),
+            Intersection(material: Transparent(ior: 1.5), objects: [
+                Sphere(center: (1.5, 0.6, 2), radius: 0.6), Union(objects: [
+                    Box(center: (1.2, 0.6, 2), size: (0.6, 0.7, 0.8)), Box(center: (1.7, 0.5, 2), size: (0.4, 0.9, 0.5)),
+                ]),
+            ]),
+            Disk(center: (0, 3, 1), radius: 0.4, normal: (0, -1, 0), material: "lamp"),
+        ])"#;
+    match scene_format::load_str("planes", text, scene_format::Syntax::Ron, Path::new(""), &[]) {
+        Ok(loaded) => loaded.scene,
+        Err(error) => panic!("{error:?}"),
+    }
+}
+
+fn scenes() -> [(&'static str, SceneDesc); 3] {
+    [("everything", everything()), ("many balls", many_balls()), ("planes", planes())]
 }
 
 const SAMPLES: u32 = 21;

@@ -14,19 +14,19 @@ use scene_format::desc::{
 /// All whose guides are compared here, for the strictness of the tests.
 const GUIDED: usize = 5;
 
-fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
+pub fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
     Material::Emissive(Box::new(Emissive { amount: Amount::Radiance(radiance).into(), two_sided }))
 }
 
-fn powered(power: [f64; 3], two_sided: bool) -> Material {
+pub fn powered(power: [f64; 3], two_sided: bool) -> Material {
     Material::Emissive(Box::new(Emissive { amount: Amount::Power(power).into(), two_sided }))
 }
 
-fn inline(material: Material) -> MaterialRef {
+pub fn inline(material: Material) -> MaterialRef {
     MaterialRef::Inline(Box::new(material.into()))
 }
 
-fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material) -> Object {
+pub fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material) -> Object {
     Object::Rectangle(Box::new(Rectangle {
         center: center.into(),
         normal: normal.into(),

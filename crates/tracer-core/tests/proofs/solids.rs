@@ -276,4 +276,14 @@ fn faults_of_solids() {
     union.objects.0.truncate(1);
     union.objects.0.push(shape("Sphere(center: (0, 0, 0), radius: 1, material: Emissive(radiance: 1))"));
     assert_eq!(told(&desc), ["E0544: a part of a solid cannot shine"]);
+    // One mistake is told once, at the whole or at the part.
+    let lamp = "background: 1, materials: { \"lamp\": Emissive(radiance: 5) }";
+    for (solid, expected) in [
+        ("Union(material: Emissive(radiance: 1), objects: [Box(), Box()])", "E0544: a union cannot shine"),
+        ("Intersection(material: \"lamp\", objects: [Box(), Box()])", "E0544: an intersection cannot shine"),
+        ("Difference(objects: [Box(), Box(material: \"lamp\")])", "E0544: a part of a solid cannot shine"),
+        ("Union(objects: [Box(), Union(material: \"lamp\", objects: [Box()])])", "E0544: a union cannot shine"),
+    ] {
+        assert_eq!(told(&described(&format!("Scene({lamp}, objects: [{solid}])"))), [expected], "{solid}");
+    }
 }

@@ -1,6 +1,10 @@
 //! The words of `tracer farm`.
 
-use super::{DenoiseArgs, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, size};
+use super::render::frames;
+use super::{
+    DenoiseArgs, Frames, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval,
+    layer, size,
+};
 use crate::write::Bits;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -50,6 +54,10 @@ pub struct FarmSlurmArgs {
     /// Picture: .png .exr .hdr .pfm (repeatable)
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     pub output: Vec<PathBuf>,
+    /// A farm for each of these frames: 0-47 or all
+    #[arg(long, value_name = "A-B", value_parser = frames, conflicts_with = "frame")]
+    #[arg(help = "A farm for each frame: 0-47, all; names have ####")]
+    pub frames: Option<Frames>,
     /// How many parts, which are tasks of one job array
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub parts: u32,
@@ -108,9 +116,15 @@ pub struct FarmSlurmArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
+    /// What to render: full, path, direct or ambient_occlusion
+    #[arg(long, value_enum, value_name = "NAME", hide_possible_values = true)]
+    pub integrator: Option<IntegratorName>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
+    /// The picture tells nothing: no program, no scene
+    #[arg(long)]
+    pub no_metadata: bool,
 }
 
 impl FarmSlurmArgs {
@@ -129,7 +143,9 @@ impl FarmSlurmArgs {
             exposure: self.exposure,
             layers: self.layers.clone(),
             denoise: self.denoise,
+            integrator: self.integrator,
             every: self.every,
+            no_metadata: self.no_metadata,
             ..RenderArgs::default()
         }
     }
@@ -137,7 +153,7 @@ impl FarmSlurmArgs {
 
 const STATUS_EXAMPLES: &str = "\
 Examples:
-  tracer farm status scene.farm
+  tracer farm status shot_*.farm
   tracer farm status 4711 --json
 
 Exit codes: 0 merged, 1 something failed or was stopped, 2 no such farm,
@@ -147,9 +163,9 @@ Exit codes: 0 merged, 1 something failed or was stopped, 2 no such farm,
 #[derive(Debug, Args)]
 #[command(after_help = STATUS_EXAMPLES)]
 pub struct FarmStatusArgs {
-    /// Its folder, or a job of it
-    #[arg(value_name = "FOLDER|JOB")]
-    pub farm: PathBuf,
+    /// Its folder, or a job of it (repeatable)
+    #[arg(required = true, value_name = "FOLDER|JOB")]
+    pub farms: Vec<PathBuf>,
     /// As JSON
     #[arg(long)]
     pub json: bool,
@@ -166,9 +182,20 @@ Parts at work write what they have; `tracer farm slurm` goes on with them.";
 #[derive(Debug, Args)]
 #[command(after_help = CANCEL_EXAMPLES)]
 pub struct FarmCancelArgs {
-    /// Its folder, or a job of it
-    #[arg(value_name = "FOLDER|JOB")]
-    pub farm: PathBuf,
+    /// Its folder, or a job of it (repeatable)
+    #[arg(required = true, value_name = "FOLDER|JOB")]
+    pub farms: Vec<PathBuf>,
+}
+
+impl FarmSlurmArgs {
+    /// The farm of one frame.
+    pub fn of_frame(&self, frame: u32, named: impl Fn(&PathBuf) -> PathBuf) -> Self {
+        let mut args = self.clone();
+        (args.frames, args.scene.frame) = (None, Some(frame));
+        args.output = self.output.iter().map(&named).collect();
+        args.folder = self.folder.as_ref().map(&named);
+        args
+    }
 }
 
 /// A limit as sbatch takes it: its own forms with `:` or `-`, or a time with a unit.

@@ -35,6 +35,9 @@ pub struct MergeArgs {
     /// Merge what there is, and say what is missing
     #[arg(long)]
     pub allow_missing: bool,
+    /// The picture tells nothing: no program, no scene
+    #[arg(long)]
+    pub no_metadata: bool,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -59,6 +62,7 @@ impl MergeArgs {
             denoise: self.denoise,
             threads: self.threads,
             report: self.report.clone(),
+            no_metadata: self.no_metadata,
             quiet: self.quiet,
             ..RenderArgs::default()
         }
@@ -78,6 +82,7 @@ impl MergeArgs {
             words.extend(["--bits".to_owned(), bits.to_owned()]);
         }
         words.extend(self.denoise.words());
+        words.extend(self.no_metadata.then(|| "--no-metadata".to_owned()));
         words.extend(self.allow_missing.then(|| "--allow-missing".to_owned()));
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }

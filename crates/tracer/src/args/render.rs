@@ -2,7 +2,8 @@
 
 use super::{DenoiseArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, noise, part, size};
 use crate::write::Bits;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use scene_format::desc::Integrator;
 use std::path::PathBuf;
 use std::time::Duration;
 use tracer_core::{Crop, Layer};
@@ -11,7 +12,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --camera, --frame, --crop, --layers, --report and more.";
+`tracer man render` has --crop, --layers, --report, --no-metadata and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Default, Args)]
@@ -70,9 +71,19 @@ pub struct RenderArgs {
     /// Layers of the EXR beside the scene's: albedo,depth
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub layers: Vec<Layer>,
+    /// A layer to see: PNG files show it in false colours
+    #[arg(long, value_name = "LAYER", value_parser = layer, conflicts_with_all = ["part", "denoise"])]
+    pub show: Option<Layer>,
+    /// What to render: full, path, direct, ambient_occlusion, or reference, slow and in double precision
+    #[arg(long, value_enum, value_name = "NAME", hide_possible_values = true)]
+    #[arg(help = "full, path, direct, ambient_occlusion or reference")]
+    pub integrator: Option<IntegratorName>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
+    /// Pictures tell nothing: no program, no scene, no command
+    #[arg(long)]
+    pub no_metadata: bool,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -96,6 +107,46 @@ pub struct RenderArgs {
     pub quiet: bool,
 }
 
+/// What is rendered, in place of the scene's `render.integrator`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorName {
+    /// All light, with all that saves noise.
+    Full,
+    /// All light, by plain paths.
+    Path,
+    /// Direct light.
+    Direct,
+    /// How much of the sky is free.
+    #[value(name = "ambient_occlusion", alias = "ambient-occlusion", alias = "ao")]
+    AmbientOcclusion,
+    /// The textbook in double precision.
+    Reference,
+}
+
+impl IntegratorName {
+    /// The word of the scene that it stands for; the reference has none.
+    pub fn word(self) -> Option<Integrator> {
+        match self {
+            IntegratorName::Full => Some(Integrator::Full),
+            IntegratorName::Path => Some(Integrator::Path),
+            IntegratorName::Direct => Some(Integrator::Direct),
+            IntegratorName::AmbientOcclusion => Some(Integrator::AmbientOcclusion { distance: None }),
+            IntegratorName::Reference => None,
+        }
+    }
+
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            IntegratorName::Full => "full",
+            IntegratorName::Path => "path",
+            IntegratorName::Direct => "direct",
+            IntegratorName::AmbientOcclusion => "ambient_occlusion",
+            IntegratorName::Reference => "reference",
+        }
+    }
+}
+
 /// Frames of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
@@ -105,7 +156,7 @@ pub enum Frames {
     Range(u32, u32),
 }
 
-fn frames(text: &str) -> Result<Frames, String> {
+pub(super) fn frames(text: &str) -> Result<Frames, String> {
     if text == "all" {
         return Ok(Frames::All);
     }

@@ -1,5 +1,6 @@
 //! What a rendering is known by: a checkpoint is gone on with only where all of it is the same.
 
+use super::hashes::{file_note, files_are_told};
 use super::picture::{backdrop_told, mattes_told};
 use super::{picture_notes, told};
 use crate::failure::Failure;
@@ -33,7 +34,7 @@ pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[St
     notes.push((WHOLE.to_owned(), hash_of_film(desc)));
     let render = &desc.render;
     let settings = [
-        ("integrator", format!("{:?}", render.integrator)),
+        ("integrator", render.integrator.to_string()),
         ("reuse", format!("{:?}", render.reuse)),
         ("caustics", format!("{:?}", render.caustics)),
         ("max_bounces", render.max_bounces.value.to_string()),
@@ -58,9 +59,9 @@ pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[St
     swap(&mut lent.objects, &mut desc.objects);
     notes.extend(picture_notes(desc, mattes, set));
     for file in files {
-        let shown = file.strip_prefix(&desc.base_dir).unwrap_or(file);
-        notes.push((format!("{FILE}{}", shown.display()), hash_of(file)?));
+        notes.push((file_note(file, &desc.base_dir), hash_of(file)?));
     }
+    notes.push(files_are_told());
     Ok(notes)
 }
 

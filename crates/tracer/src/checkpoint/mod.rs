@@ -1,17 +1,21 @@
 //! Checkpoints: the state of a rendering on the disk, so that it can be gone on with whatever happens to the process.
 
 mod flushing;
+mod hashes;
 mod identity;
 mod picture;
 mod place;
 mod read;
+mod record;
 mod told;
 
 pub use flushing::Flushing;
+pub use hashes::{Hashes, Hashing, files_are_told};
 pub use identity::{Asked, Extent, differences, note_differences, notes, now, sha256_of};
 pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};
+pub use record::{Record, RecordedFile, assets_hash, told_name};
 pub use told::{as_json, as_text, note, part_told};
 
 use crate::memory::human;

@@ -1,6 +1,7 @@
 //! What the picture of a film is made with, as notes beside it: so that a film is enough to make it, without the scene.
 
-use crate::write::{Provenance, Setting};
+use super::Record;
+use crate::write::{Provenance, Setting, sha256};
 use scene_format::SceneDesc;
 use scene_format::desc::{Output, ToneMap};
 use std::path::Path;
@@ -21,6 +22,7 @@ pub fn picture_notes(desc: &SceneDesc, mattes: &Mattes, set: &[String]) -> Vec<N
     let mut notes = vec![
         note("scene_name", name),
         note("scene_text", text.unwrap_or_default().to_owned()),
+        note("scene_sha256", source.map_or_else(String::new, |source| sha256(source.text.as_bytes()))),
         note("max_bounces", desc.render.max_bounces.value.to_string()),
         note("exposure", desc.effects.exposure.value.to_string()),
         note("tone_map", format!("{:?}", desc.effects.tone_map)),
@@ -34,11 +36,11 @@ pub fn picture_notes(desc: &SceneDesc, mattes: &Mattes, set: &[String]) -> Vec<N
     notes
 }
 
-fn all<'a>(notes: &'a [Note], name: &'a str) -> impl Iterator<Item = &'a str> {
+pub(super) fn all<'a>(notes: &'a [Note], name: &'a str) -> impl Iterator<Item = &'a str> {
     notes.iter().filter(move |(of, _)| of.strip_prefix(NOTE) == Some(name)).map(|(_, value)| value.as_str())
 }
 
-fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
+pub(super) fn first<'a>(notes: &'a [Note], name: &'a str) -> &'a str {
     all(notes, name).next().unwrap_or_default()
 }
 
@@ -134,5 +136,7 @@ pub fn provenance(notes: &[Note], film: &Film, denoised: bool) -> Provenance {
         scene_name: first(notes, "scene_name").to_owned(),
         scene_text: first(notes, "scene_text").to_owned(),
         settings,
+        record: Record::new(notes, film, denoised.then_some("on")).to_json(),
+        is_hidden: false,
     }
 }

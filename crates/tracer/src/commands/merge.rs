@@ -11,7 +11,7 @@ use crate::loading::{is_dash, use_threads};
 use crate::memory;
 use crate::merge_report::{MergeReport, PartReport};
 use crate::shell::{Shell, counted};
-use crate::write::{Place, is_one_file, leads_to_same};
+use crate::write::{Place, Provenance, is_one_file, leads_to_same};
 use rayon::prelude::*;
 use std::fs::File;
 use std::path::PathBuf;
@@ -53,7 +53,10 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         image.mattes = mattes.develop(&film);
     }
     let developed = started.elapsed().as_secs_f64();
-    let provenance = provenance(notes, &film, denoised.is_some());
+    let provenance = match args.no_metadata {
+        true => Provenance::hidden(),
+        false => provenance(notes, &film, denoised.is_some()),
+    };
     let Pictures { files, failed } = pictures(&outputs, &image, &provenance, shell)?;
     let total = started.elapsed().as_secs_f64();
     if let Some(denoised) = denoised.filter(|_| shell.is_told()) {

@@ -11,14 +11,17 @@ mod explain;
 mod farm;
 mod fix;
 mod fmt;
+mod from_picture;
 pub mod golden;
 mod info;
+mod inspect;
 mod lsp;
 mod man;
 pub(crate) mod merge;
 mod new;
 mod preview;
 mod render;
+mod repro;
 mod scenes;
 mod schema;
 
@@ -42,9 +45,11 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Preview(args) => preview::run(args, shell),
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
+        Command::Inspect(args) => inspect::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),
+        Command::Repro(args) => repro::run(args, shell),
         Command::Compare(args) => compare::run(args),
         Command::Golden(args) => golden::run(&args.command, shell),
         Command::BenchAcceleration(args) => bench_acceleration::run(args, shell),

@@ -1,5 +1,6 @@
 //! `tracer preview`: the picture in the browser, or in the terminal, while the scene is edited.
 
+use super::from_picture;
 use crate::args::{PreviewArgs, TerminalName};
 use crate::checkpoint::{picture_notes, provenance};
 use crate::command_line::quoted;
@@ -9,7 +10,7 @@ use crate::memory;
 use crate::opening::open;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, encode, save};
-use scene_format::SceneDesc;
+use scene_format::{SceneDesc, hash_hex};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -114,6 +115,16 @@ struct Program {
     set: Vec<String>,
 }
 
+impl Program {
+    /// Whether a scene is what its text and the options say.
+    fn is_as_written(&self, desc: &SceneDesc) -> bool {
+        let Some(source) = desc.sources.first() else { return false };
+        let written = from_picture::load(&source.name, &source.text, &desc.base_dir, &self.set);
+        let place = |desc: &SceneDesc| hash_hex(&SceneDesc { camera: desc.camera.clone(), ..SceneDesc::default() });
+        written.is_ok_and(|written| place(&written) == place(desc))
+    }
+}
+
 impl Host for Program {
     fn encode(&self, desc: &SceneDesc, film: &Film, look: &Look, kind: Kind) -> Result<Vec<u8>, String> {
         let encoding = match kind {
@@ -121,8 +132,12 @@ impl Host for Program {
             Kind::Exr => Encoding::Exr,
         };
         let image = develop(film, look);
-        encode(&image, encoding, &provenance(&picture_notes(desc, &Mattes::default(), &self.set), film, false))
-            .map_err(|error| error.to_string())
+        let mut told = provenance(&picture_notes(desc, &Mattes::default(), &self.set), film, false);
+        if !self.is_as_written(desc) {
+            // The camera was moved by whoever looks: no text says where it is.
+            told.record.clear();
+        }
+        encode(&image, encoding, &told).map_err(|error| error.to_string())
     }
 
     fn save(&self, path: &Path, bytes: &[u8]) -> Result<(), String> {

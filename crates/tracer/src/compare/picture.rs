@@ -65,9 +65,16 @@ impl Picture {
     /// When it cannot be read, is none of these, or holds numbers that are not finite.
     pub fn load(path: &Path) -> Result<Self, PictureError> {
         let bytes = std::fs::read(path).map_err(|source| PictureError::Io { path: path.to_owned(), source })?;
+        Picture::of(&bytes, path)
+    }
+
+    /// The same of the bytes of a file of that name.
+    ///
+    /// # Errors
+    /// When they are none of these, or hold numbers that are not finite.
+    pub fn of(bytes: &[u8], path: &Path) -> Result<Self, PictureError> {
         let broken = |message: String| PictureError::Broken { path: path.to_owned(), message };
-        let picture =
-            if bytes.starts_with(b"PF\n") || bytes.starts_with(b"Pf\n") { pfm(&bytes) } else { decode(&bytes) };
+        let picture = if bytes.starts_with(b"PF\n") || bytes.starts_with(b"Pf\n") { pfm(bytes) } else { decode(bytes) };
         let picture = picture.map_err(broken)?;
         match picture.values.iter().position(|value| !value.is_finite()) {
             None => Ok(picture),

@@ -3,16 +3,18 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 18] = [
+pub const COMMANDS: [&str; 20] = [
     "render",
     "preview",
     "merge",
     "farm",
     "check",
     "info",
+    "inspect",
     "convert",
     "fmt",
     "new",
+    "repro",
     "compare",
     "golden",
     "bench-acceleration",

@@ -198,6 +198,60 @@ fn a_dry_run_prints_the_scripts_and_submits_nothing() {
     assert_eq!(cluster.0.files(), ["bin", ODD, "scene.ron"]);
 }
 
+/// A farm for each frame, each with parts and a merge of its own; the pictures are those of one machine.
+#[test]
+fn frames_are_farms() {
+    let cluster = Cluster::new();
+    let sandbox = &cluster.0;
+    let moving = crate::support::SCENE.replace("center: (1, 1, 0)", "center: (\"=1+frame\", 1, 0)");
+    sandbox.write("film.ron", moving.replace("    camera:", "    animation: Animation(frames: 4),\n    camera:"));
+    let line = ["slurm", "film.ron", "-o", "shot_####.png", "--parts", "2", "--frames", "1-2"];
+    let dry = cluster.farm(&[&line[..], &["--dry-run"]].concat()).ends(0).out_text();
+    for word in ["shot_0001.farm/part.sh", "shot_0002.farm/merge.sh", "--frame 1 ", "--frame 2 ", "-o shot_0002.png"] {
+        assert!(dry.contains(word), "{word} is not in:\n{dry}");
+    }
+    assert!(!cluster.has("last") && !cluster.has("shot_0001.farm") && !dry.contains("##"), "{dry}");
+    cluster.farm(&line).ends(0).says(&["shot_0001.farm: of 2 parts", "shot_0002.farm: of 2 parts"]);
+    assert_eq!(sandbox.text("last").trim(), "4", "an array and a merge for each frame");
+    let all = ["status", "shot_0001.farm", "shot_0002.farm"];
+    cluster.farm(&all).ends(1);
+    let run = |frame: u32, script: &str, task: u32| {
+        let script = sandbox.path(&format!("shot_000{frame}.farm/{script}"));
+        let mut command = std::process::Command::new("sh");
+        command.arg(script).env("PATH", cluster.path()).current_dir("/").env("SLURM_ARRAY_TASK_ID", task.to_string());
+        command.env("SLURM_ARRAY_JOB_ID", "7").env("SLURM_JOB_ID", "8").env("SLURM_CPUS_ON_NODE", "1");
+        Ran::of(&mut command).ends(0);
+    };
+    for frame in 1..=2 {
+        run(frame, "part.sh", 1);
+        run(frame, "part.sh", 2);
+        run(frame, "merge.sh", 0);
+        sandbox.run(&["render", "film.ron", "--frame", &frame.to_string(), "-o", "one.png"]).ends(0);
+        assert_eq!(sandbox.read(&format!("shot_000{frame}.png")), sandbox.read("one.png"), "frame {frame}");
+    }
+    let status = cluster.farm(&all).ends(0).out_text();
+    assert!(status.contains("shot_0001.farm") && status.contains("shot_0002.farm"), "{status}");
+    let json = cluster.farm(&[&all[..], &["--json"]].concat()).ends(0).out_text();
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json.as_array().map(Vec::len), Some(2));
+    cluster.farm(&["cancel", "shot_0001.farm", "shot_0002.farm"]).ends(0).says(&["no job of it waits or runs"]);
+    // The same line goes on: nothing is left to do.
+    cluster.farm(&line).ends(0).says(&["shot_0001.farm: all 2 parts are done", "shot_0002.farm: all 2 parts are done"]);
+    assert_eq!(sandbox.text("last").trim(), "4");
+    // Before anything is submitted.
+    cluster
+        .farm(&["slurm", "film.ron", "-o", "shot.png", "--parts", "2", "--frames", "1-2"])
+        .ends(2)
+        .says(&["put ####"]);
+    let more = ["--folder", "all.farm"];
+    cluster.farm(&[&line[..], &more].concat()).ends(2).says(&["put ####", "all.farm"]);
+    cluster.farm(&[&line[..], &["--frame", "1"]].concat()).ends(2);
+    cluster
+        .farm(&["slurm", "film.ron", "-o", "f_####.png", "--parts", "2", "--frame", "3"])
+        .ends(0)
+        .says(&["f_0003.farm"]);
+}
+
 #[test]
 fn a_part_that_fails_is_tried_again_and_named() {
     let cluster = Cluster::new();

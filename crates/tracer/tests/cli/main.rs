@@ -15,6 +15,8 @@ mod goals;
 mod golden;
 mod habits;
 mod height_field;
+mod inspect;
+mod integrators;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(unix)]
@@ -24,7 +26,9 @@ mod mattes;
 mod parts;
 mod render;
 mod report;
+mod repro;
 mod support;
+mod teaching;
 #[cfg(unix)]
 mod terminal;
 mod tutorial;

@@ -1,9 +1,11 @@
-//! Faults in curved shapes.
+//! Faults in curved shapes and planes.
 
-use super::{Mutant, proofs, suite};
+use super::{Mutant, kernel_units, proofs, suite};
 
 const CONE: &str = "crates/kernels/src/shapes/cone.rs";
 const CSG: &str = "crates/kernels/src/shapes/csg.rs";
+const PLANES: &str = "crates/kernels/src/engine/stages/planes.rs";
+const LAMP: &str = "crates/kernels/src/shapes/lamp/mod.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -69,5 +71,68 @@ pub const MUTANTS: &[Mutant] = &[
         find: "outward: if sides[0] { -self.normal[k] } else { self.normal[k] }, sign })",
         replace: "outward: self.normal[k], sign })",
         caught_by: suite("solids", &["hits_are_the_first"]),
+    },
+    Mutant {
+        name: "rays-meet-the-plane-that-they-leave",
+        file: PLANES,
+        find: "&& paths.from_primitive[i] != plane.id",
+        replace: "&& paths.from_primitive[i] != plane.id + 1_000",
+        caught_by: proofs(&["planes::it_reaches"]),
+    },
+    Mutant {
+        name: "pixels-share-through-planes",
+        file: PLANES,
+        find: "let mut beyond = sides[usize::from(height < 0.0)];",
+        replace: "let mut beyond = sides[usize::from(height < 0.0)] & 0;",
+        caught_by: proofs(&["planes::sharing"]),
+    },
+    Mutant {
+        name: "planes-throw-no-shadow",
+        file: PLANES,
+        find: "t < f64::from(shadows.t_max[i]) && other",
+        replace: "t < f64::from(-shadows.t_max[i]) && other",
+        caught_by: proofs(&["planes::planes_as"]),
+    },
+    Mutant {
+        name: "planes-hide-lamps-in-them",
+        file: PLANES,
+        find: "primitive != NONE && scene.accel",
+        replace: "primitive == NONE && scene.accel",
+        caught_by: proofs(&["planes::a_lamp"]),
+    },
+    Mutant {
+        name: "squeezed-lamps-keep-their-densities",
+        file: LAMP,
+        find: "let inverse_pdf = self.growth * length * length * length / density;",
+        replace: "let inverse_pdf = self.growth / (density + 0.0 * length);",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "open-lamps-show-through-themselves",
+        file: LAMP,
+        find: "if hidden || !(density",
+        replace: "if hidden && density > 1e9 || !(density",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "light-starts-uniform-in-the-lamps-own-space",
+        file: LAMP,
+        find: "own * area::growth(&self.map, n) / area",
+        replace: "own * area::growth(&self.map, n).signum() / area",
+        caught_by: kernel_units(&["shapes::lamp"]),
+    },
+    Mutant {
+        name: "closed-lamps-shine-inwards",
+        file: LAMP,
+        find: "if self.two_sided { 1.0 } else { 0.0 }",
+        replace: "1.0",
+        caught_by: proofs(&["shining_curved::within"]),
+    },
+    Mutant {
+        name: "lamps-in-shapes-are-sampled-past-their-holes",
+        file: "crates/kernels/src/shapes/lamp/flat.rs",
+        find: "from = self.hole[1];",
+        replace: "from = self.hole[0];",
+        caught_by: kernel_units(&["shapes::lamp"]),
     },
 ];

@@ -11,7 +11,7 @@ pub use need::Need;
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
-pub use table::PROOFS;
+pub use table::{MDBOOK, PROOFS};
 
 /// A long proof.
 #[derive(Clone, Copy, Debug)]

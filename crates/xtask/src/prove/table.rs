@@ -21,6 +21,9 @@ const GUNGRAUN: &[Need] = &[
     Program("cc", "gcc libc6-dev"),
 ];
 
+/// The version of mdBook.
+pub const MDBOOK: &str = "0.5.4";
+
 /// What Mitsuba needs.
 const MITSUBA: &[Need] =
     &[Python(&["mitsuba==3.9.1", "numpy"]), File("/usr/lib/x86_64-linux-gnu/libLLVM-19.so", "libllvm19")];
@@ -98,6 +101,14 @@ pub const PROOFS: &[Proof] = &[
              target/prove/wheels/tracer_render-*.whl",
             "python -m pytest -q -c crates/python/pyproject.toml crates/python/tests/python --pyargs tracer",
         ],
+    ),
+    proof(
+        "site",
+        Asked,
+        "the manual as a site by mdBook, a picture for every entry of the reference; a minute, once mdBook is \
+         installed",
+        &[Cargo("mdbook", "mdbook", MDBOOK)],
+        &["cargo xtask site", "grep -q img target/site/book/docs/scene-reference.html"],
     ),
     proof(
         "slurm",

@@ -1,9 +1,9 @@
-//! Disks, cylinders, cones and capsules.
+//! Disks, cylinders, cones, capsules and planes.
 
 use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
-use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Extent, Material, Name, Object, Placements, Transform};
+use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Extent, Material, Name, Object, Placements, Plane, Transform};
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
@@ -96,6 +96,31 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
         })),
     };
     world.desc.objects.push(object.into());
+}
+
+/// Adds a plane without an end through a point, written there or turned and moved to it. Its normal is along an axis.
+pub fn plane(world: &mut World, point: Point, normal: Point, material: Material, random: &mut Random) {
+    // Along the plane, to another point of it.
+    let beside = || [0, 1, 2].map(|k: usize| if normal[k] == 0.0 { 3.0 } else { 0.0 });
+    let moved: Point = [0, 1, 2].map(|k: usize| point[k] + beside()[k]);
+    let (mut transform, mut placements) = (Vec::new(), Placements::One);
+    let (mut written, mut facing) = (moved, normal);
+    if once_in(random, 2) {
+        facing = random.direction().to_array();
+        let (from, to) = (Box::new(facing), Box::new(normal));
+        transform.push(Transform::Align { from, to, about: Some(Box::new(moved)) }.into());
+    }
+    if once_in(random, 3) {
+        written = [0.0; 3];
+        transform.clear();
+        facing = normal;
+        let there = vec![Transform::Scale { factor: [2.0; 3], about: None }.into(), Transform::Translate(moved).into()];
+        placements = Placements::List(Box::new(std::iter::once(there).collect()));
+    }
+    let (point, normal) = (written.into(), facing.into());
+    let (material, name) = (inline(material), Name::default());
+    let plane = Plane { point, normal, material, transform, placements, name };
+    world.desc.objects.push(Object::Plane(Box::new(plane)).into());
 }
 
 /// Adds a closed cylinder that stands, or hangs where `height` is below 0, with one of its caps at the height of its

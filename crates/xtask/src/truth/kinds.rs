@@ -326,14 +326,14 @@ fn hidden_lamp(world: &mut World, random: &mut Random) {
 fn open_air(world: &mut World, random: &mut Random) {
     let room = Room::draw(random);
     let material = draw::matt(world, random);
-    if once_in(random, 2) {
-        world.sphere([0.0, -1000.0, 0.0], 1000.0, material);
-    } else {
-        world.mesh(
+    match random.below(3) {
+        0 => world.sphere([0.0, -1000.0, 0.0], 1000.0, material),
+        1 => world.mesh(
             "floor",
             &Shape::quad([[-20.0, 0.0, 20.0], [20.0, 0.0, 20.0], [20.0, 0.0, -20.0], [-20.0, 0.0, -20.0]]),
             material,
-        );
+        ),
+        _ => super::curved::plane(world, [0.0; 3], [0.0, 1.0, 0.0], material, random),
     }
     receivers(world, room, -0.7, 0.7, random);
     let casters = once_in(random, 2);
@@ -428,8 +428,12 @@ fn unfolded(world: &mut World, random: &mut Random) {
     // A black screen keeps the lamp's own light from the things: what comes over the mirror is then most of it.
     let low = (at[1] - lamp - 0.3).max(0.85);
     world.mesh("screen", &Shape::block([at[0] - 0.1, low, -2.0], [3.0, low + 0.03, 2.0]), matt(0.0));
-    let corners = [[0.0, -9.0, 9.0], [0.0, -9.0, -9.0], [0.0, 9.0, -9.0], [0.0, 9.0, 9.0]];
-    world.mesh(PLANE_MIRROR, &Shape::quad(corners), mirror());
+    if once_in(random, 2) {
+        super::curved::plane(world, [0.0; 3], [1.0, 0.0, 0.0], mirror(), random);
+    } else {
+        let corners = [[0.0, -9.0, 9.0], [0.0, -9.0, -9.0], [0.0, 9.0, -9.0], [0.0, 9.0, 9.0]];
+        world.mesh(PLANE_MIRROR, &Shape::quad(corners), mirror());
+    }
     let eye = [random.between(1.5, 3.0), random.between(1.0, 3.0), 4.5];
     world.camera(eye, [1.2, 0.5, 0.0], random.between(35.0, 50.0));
 }

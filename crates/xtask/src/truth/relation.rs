@@ -97,6 +97,8 @@ fn unfolded(world: &World) -> World {
     let mut other = world.clone();
     let is_mirror = |object: &Object| match object {
         Object::Mesh(mesh) => mesh.file().is_some_and(|file| file.value.to_string_lossy().starts_with(PLANE_MIRROR)),
+        // No other plane is drawn where things are mirrored.
+        Object::Plane(_) => true,
         _ => false,
     };
     other.desc.objects.retain(|object| !is_mirror(&object.value));

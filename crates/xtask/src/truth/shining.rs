@@ -70,7 +70,9 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
             Amount::Radiance(color.map(|c| c * strength))
         };
         let material = Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided }));
-        match random.below(5) {
+        match random.below(8) {
+            5 | 6 => super::curved::shape(world, center, radius, material, random),
+            7 => super::curved::ball(world, center, radius, material, random),
             0 | 1 => rectangle(world, center, radius, material, random),
             2 => cuboid(world, center, radius, material, random),
             3 => world.sphere(center, radius, material),

@@ -207,11 +207,11 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
 
 fn check(geometry: &Geometry) -> Result<(), BuildError> {
     let mut taken = geometry.spheres.len() as u64;
-    if !geometry.shapes.is_empty() {
+    if !geometry.shapes.is_empty() || !geometry.planes.is_empty() {
         if u64::from(geometry.first_shape) < taken {
             return Err(BuildError::ShapeIds { first: geometry.first_shape, taken });
         }
-        taken = u64::from(geometry.first_shape) + geometry.shapes.len() as u64;
+        taken = u64::from(geometry.first_shape) + (geometry.shapes.len() + geometry.planes.len()) as u64;
         let usable = |shape: &ShapeGeometry| shape.lower.iter().chain(&shape.upper).all(|x| x.abs() <= RANGE);
         if let Some(at) = geometry.shapes.iter().position(|shape| !usable(shape)) {
             return Err(BuildError::Shape { shape: at as u32 });

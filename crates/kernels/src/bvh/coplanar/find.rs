@@ -56,6 +56,8 @@ struct Face {
     corners: [DVec3; 3],
     normal: DVec3,
     centre: DVec3,
+    /// How far its corners may be off along each axis.
+    moved: DVec3,
     /// How far its corners may be off across the plane.
     error: f64,
     /// The least of its heights.
@@ -70,6 +72,16 @@ struct Face {
 impl Face {
     fn id(&self) -> (u32, u32, u8) {
         (self.primitive, self.instance, self.part)
+    }
+
+    /// Whether it is a plane without an end.
+    fn is_endless(&self) -> bool {
+        self.curved.is_some_and(|face| face.is_endless())
+    }
+
+    /// The least wins.
+    fn order(&self) -> (u8, bool, (u32, u32, u8)) {
+        (self.rank, self.is_endless(), self.id())
     }
 
     /// How well its plane is known, in parts of the scene's reach.
@@ -106,6 +118,7 @@ impl Coplanar {
         let flat = faces.partition_point(|face| !face.narrow);
         let mut pairs = pairs_in(planes(&faces[..flat], scene), &faces);
         pairs.extend(identical(&faces, flat));
+        pairs.extend(in_planes(geometry, ranks, &mut faces));
         pairs.sort_unstable_by_key(|pair| (pair.0, pair.1));
         if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs)) }
     }
@@ -125,12 +138,11 @@ fn identical(faces: &[Face], first: usize) -> Vec<(u32, u32, f64)> {
     };
     let mut order: Vec<_> = (first..faces.len()).into_par_iter().map(|k| (key(&faces[k]), k as u32)).collect();
     order.par_sort_unstable();
-    let rank = |k: u32| (faces[k as usize].rank, faces[k as usize].id());
     let mut pairs = Vec::new();
     for same in order.chunk_by(|a, b| a.0 == b.0) {
         let ids = || same.iter().map(|&(_, k)| k);
         // Who wins, wins everywhere.
-        let Some(winner) = ids().min_by_key(|&k| rank(k)) else { continue };
+        let Some(winner) = ids().min_by_key(|&k| faces[k as usize].order()) else { continue };
         let gap = 2.0 * faces[winner as usize].error;
         pairs.extend(ids().filter(|&k| k != winner).map(|loser| (winner, loser, gap)));
     }
@@ -205,6 +217,42 @@ fn of_shape(geometry: &Geometry, ranks: &Ranks, k: u32, row: &Row) -> impl Itera
     })
 }
 
+/// The pairs of a plane without an end and what lies in it, winner first; the planes are put behind the faces. A face
+/// is in a plane if its corners are no farther off than twice what rounding may have moved them.
+fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>) -> Vec<(u32, u32, f64)> {
+    let (count, mut pairs) = (faces.len(), Vec::new());
+    for (k, row) in (geometry.shapes.len()..).zip(geometry.planes) {
+        let Some(curved) = row.flat_faces().next() else { continue };
+        let (normal, offset) = curved.equation();
+        let plane = Face {
+            primitive: geometry.first_shape + k as u32,
+            instance: NONE,
+            part: 0,
+            curved: Some(curved),
+            outward: None,
+            material: ranks.materials.as_ref().and_then(|of| of.shapes.get(k)).copied(),
+            corners: [normal * offset; 3],
+            normal,
+            centre: normal * offset,
+            moved: DVec3::ZERO,
+            error: 0.0,
+            height: f64::INFINITY,
+            reach: 0.0,
+            rank: ranks.shapes.get(k).copied().unwrap_or(0),
+            narrow: false,
+        };
+        let place = faces.len() as u32;
+        pairs.par_extend(faces[..count].par_iter().enumerate().filter_map(|(other, face)| {
+            let known = normal.abs().dot(face.moved) + DOUBLE * (face.reach + offset.abs());
+            let lies_in = face.corners.iter().all(|corner| (normal.dot(*corner) - offset).abs() <= known);
+            let pair = if face.order() < plane.order() { [other as u32, place] } else { [place, other as u32] };
+            lies_in.then_some((pair[0], pair[1], known))
+        }));
+        faces.push(plane);
+    }
+    pairs
+}
+
 fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), rank: u8) -> Option<Face> {
     let (mut terms, mut units, mut placed, mut mirrored) = (DVec3::ZERO, 2.0, corners, false);
     match placement {
@@ -223,7 +271,8 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
     let across = (b - a).cross(c - a);
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let (area, normal) = (across.length(), across.normalize_or_zero());
-    let error = units * UNIT * normal.abs().dot(terms) + DOUBLE * terms.max_element();
+    let moved = units * UNIT * terms;
+    let error = normal.abs().dot(moved) + DOUBLE * terms.max_element();
     let height = area / longest;
     let centre = (a + b + c) / 3.0;
     let face = Face {
@@ -236,6 +285,7 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
         corners: placed,
         normal,
         centre,
+        moved,
         error,
         height,
         reach: terms.max_element(),
@@ -318,8 +368,7 @@ fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)
                     let (a, b) = (&faces[k as usize], &faces[other as usize]);
                     // Corners that two share may have been rounded apart.
                     if overlap(&flat(k), &flat(other), 16.0 * UNIT * (a.reach + b.reach)) {
-                        let rank = |face: &Face| (face.rank, face.id());
-                        found.push(if rank(a) < rank(b) { (k, other, gap) } else { (other, k, gap) });
+                        found.push(if a.order() < b.order() { (k, other, gap) } else { (other, k, gap) });
                     }
                 }
                 open.push((upper, k));
@@ -373,8 +422,10 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
     let end = geometry.meshes.iter().map(|mesh| mesh.first_primitive + mesh.triangles.len() as u32).max().unwrap_or(0);
     let mut triangles = Offsets { first, of: vec![0f32; (end - first) as usize] };
     let curved = named.iter().any(|&k| faces[k as usize].curved.is_some());
-    let mut shapes =
-        Offsets { first: geometry.first_shape, of: vec![0.0; if curved { geometry.shapes.len() } else { 0 }] };
+    let mut shapes = Offsets {
+        first: geometry.first_shape,
+        of: vec![0.0; if curved { geometry.shapes.len() + geometry.planes.len() } else { 0 }],
+    };
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
     let mut touching: Vec<Vec<[u32; 2]>> = vec![Vec::new(); named.len()];
     for &(winner, loser, gap) in pairs {
@@ -404,10 +455,7 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
         let begin = all_touching.len() as u32;
         all_touching.append(&mut touching);
         let touching = [begin, all_touching.len() as u32];
-        list.sort_unstable_by_key(|&member| {
-            let face = &faces[named[member as usize] as usize];
-            (face.rank, face.id())
-        });
+        list.sort_unstable_by_key(|&member| faces[named[member as usize] as usize].order());
         list.dedup();
         let face = &faces[k as usize];
         let begin = winners.len() as u32;
@@ -425,7 +473,7 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
             grid: (list.len() > LONG).then(|| grid(face, &list, faces, &named)),
         });
     }
-    Coplanar { triangles, shapes, members, winners, touching: all_touching }
+    Coplanar { triangles, shapes, members, winners, touching: all_touching, in_planes: what_lies_in(pairs, faces) }
 }
 
 /// What lies behind the one face by the other one, where both bodies let light through: the other's material + 1, and
@@ -437,20 +485,40 @@ fn touches(face: &Face, other: &Face) -> Option<u32> {
     Some(if opposite { behind } else { behind | SAME_SIDE })
 }
 
-/// A grid over the winners of a triangle, some one to a cell. Each reaches a quarter of a cell beyond its box: the
-/// point where a ray meets the plane is known so well unless the ray hardly leaves it.
+/// Each plane without an end of a pair, with what lies in it.
+fn what_lies_in(pairs: &[(u32, u32, f64)], faces: &[Face]) -> Vec<[u32; 3]> {
+    let both = |&(one, other, _): &(u32, u32, f64)| [(one, other), (other, one)];
+    let ends = pairs.iter().flat_map(both).map(|(a, b)| (&faces[a as usize], &faces[b as usize]));
+    let mut found: Vec<[u32; 3]> = ends
+        .filter(|(plane, _)| plane.is_endless())
+        .map(|(plane, other)| [plane.primitive, other.primitive, other.instance])
+        .collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// A grid over the winners of a triangle or plane, some one to a cell. Each reaches a quarter of a cell beyond its box:
+/// the point where a ray meets the plane is known so well unless the ray hardly leaves it.
 fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
     let axes = other_axes(face.normal);
     let cells = (list.len() as f64).sqrt().ceil().min(256.0) as usize;
-    let spans = axes.map(|axis| span(face.corners.map(|corner| corner[axis])));
+    let corners_of = |face: &Face| face.curved.map_or(face.corners.to_vec(), |curved| curved.corners().to_vec());
+    let others = || list.iter().map(|&member| &faces[named[member as usize] as usize]);
+    let spanned: Vec<DVec3> = match face.is_endless() {
+        true => others().flat_map(corners_of).collect(),
+        false => face.corners.to_vec(),
+    };
+    let spans = axes.map(|axis| span(spanned.iter().map(|corner| corner[axis])));
     let scale = spans.map(|(lower, upper)| cells as f64 / (upper - lower));
     let mut held: Vec<Vec<u32>> = vec![Vec::new(); cells * cells];
-    for &member in list {
-        let other = &faces[named[member as usize] as usize];
-        let square = other.curved.map(|curved| curved.corners());
-        let corners = square.as_ref().map_or(&other.corners[..], |corners| &corners[..]);
+    for (&member, other) in list.iter().zip(others()) {
+        let corners = corners_of(other);
         let [x, y] = [0, 1].map(|k: usize| {
-            let (lower, upper) = span(corners.iter().map(|corner| corner[axes[k]]));
+            let (lower, upper) = match other.is_endless() {
+                true => spans[k],
+                false => span(corners.iter().map(|corner| corner[axes[k]])),
+            };
             let cell = |x: f64| ((x - spans[k].0) * scale[k]).clamp(0.0, (cells - 1) as f64) as usize;
             cell(lower - 0.25 / scale[k])..=cell(upper + 0.25 / scale[k])
         });

@@ -21,7 +21,8 @@
 //! triangles pays for one question a batch.
 //!
 //! Disks and the caps of cones and cylinders take part as triangles do, with a circle in place of edges; a hit is on a
-//! cap if the line meets the cap's plane at the t of the hit.
+//! cap if the line meets the cap's plane at the t of the hit. Planes without an end are beside the tree and take part
+//! with no edge at all. What of the same kind lies in one wins over it: else it would be seen nowhere.
 //!
 //! What lies farther apart than rounding takes it stays apart: two triangles are in one plane if the corners of one
 //! are no farther from the plane of the other than twice what the rounding of both may have moved them.
@@ -41,7 +42,7 @@ pub struct Ranks {
     pub triangles: Vec<u8>,
     /// Of all triangles of an instance whose own is not 0.
     pub instances: Vec<Option<u8>>,
-    /// Of each curved shape; none: 0.
+    /// Of each curved shape, and behind them of each plane; none: 0.
     pub shapes: Vec<u8>,
     /// Materials, where any of them lets light through.
     pub materials: Option<Materials>,
@@ -60,7 +61,7 @@ pub struct Materials {
     pub triangles: Vec<u32>,
     /// Of all triangles of an instance that do not have their own.
     pub instances: Vec<Option<u32>>,
-    /// Of each curved shape.
+    /// Of each curved shape, and behind them of each plane.
     pub shapes: Vec<u32>,
 }
 
@@ -94,6 +95,8 @@ pub struct Coplanar {
     winners: Vec<u32>,
     /// Of bodies that touch: indices into `members`, and material + 1 of these, with [`SAME_SIDE`] or without.
     touching: Vec<[u32; 2]>,
+    /// Planes without an end, each with the (primitive, instance) of all that lies in it, rising.
+    in_planes: Vec<[u32; 3]>,
 }
 
 /// How far rays start off primitives whose ids follow each other; 0 where nothing else lies in their planes.
@@ -205,6 +208,8 @@ impl Coplanar {
         let (origin, direction) = ray_of(rays, ray);
         let from = self.members.partition_point(|m| m.primitive < primitive);
         self.members[from..].iter().take_while(|m| m.primitive == primitive).find(|m| match &m.outline {
+            // A plane is nothing else.
+            Outline::Curved(face) if face.is_endless() => true,
             // Not the side of the shape: t is that of the plane, rounded.
             Outline::Curved(face) => face.passed(origin, direction).is_some_and(|at| {
                 let beside = (at as f32 - t).abs();
@@ -229,7 +234,11 @@ impl Coplanar {
             None => &self.winners[first as usize..end as usize],
         };
         // A ray may leave one cap of a shape and come to the other.
-        let left = |m: &Member| matches!(m.outline, Outline::Triangle(_)) && (m.primitive, m.instance) == from;
+        let is_one = |m: &Member| match &m.outline {
+            Outline::Triangle(_) => true,
+            Outline::Curved(face) => face.is_endless(),
+        };
+        let left = |m: &Member| is_one(m) && (m.primitive, m.instance) == from;
         let mut others = list.iter().map(|&k| &self.members[k as usize]).filter(|m| !left(m));
         others.find(|m| m.outline.is_passed(&space, origin, direction))
     }
@@ -244,6 +253,11 @@ impl Coplanar {
                 hits.instance[ray] = winner.instance;
             }
         }
+    }
+
+    /// Whether something lies in a plane without an end.
+    pub fn lies_in(&self, plane: u32, primitive: u32, instance: u32) -> bool {
+        self.in_planes.binary_search(&[plane, primitive, instance]).is_ok()
     }
 
     /// Whether bodies that let light through touch anywhere.

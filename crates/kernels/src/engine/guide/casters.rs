@@ -1,7 +1,7 @@
 //! Casters: objects with mirrors, glass or narrow glossy lobes on them, each within a sphere at which photons are
 //! aimed.
 
-use crate::scene::{NONE, Scene};
+use crate::scene::{NONE, Scene, Shape};
 use crate::shapes::{Solid, UnitShape};
 use glam::{DMat3, DVec3};
 
@@ -56,8 +56,8 @@ impl Casters {
                 _ => passes_on(scene, shape.material),
             };
             if reflectance > 0.0 {
-                let [low, high] = shape.bounds();
-                let caster = Caster { center: (low + high) * 0.5, radius: 0.5 * low.distance(high), reflectance };
+                let (center, radius) = around_shape(shape);
+                let caster = Caster { center, radius, reflectance };
                 objects.push(Object { caster, id: (spheres + id) as u32 });
             }
         }
@@ -90,6 +90,16 @@ impl Casters {
         };
         Casters { list, of_sphere: never_empty(of_object), of_instance: never_empty(of_instance) }
     }
+}
+
+/// A sphere around a shape. A plane's holds all that a scene has, lights and all, so that photons go everywhere by the
+/// cosine and find all of it, however far.
+fn around_shape(shape: &Shape) -> (DVec3, f64) {
+    if shape.unit.is_endless() {
+        return (DVec3::ZERO, 1e9);
+    }
+    let [low, high] = shape.bounds();
+    ((low + high) * 0.5, 0.5 * low.distance(high))
 }
 
 /// The largest share of light that a material passes on to photons, about; 0: it is no caster.

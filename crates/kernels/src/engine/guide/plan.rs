@@ -3,8 +3,9 @@
 use super::casters::{Caster, Casters};
 use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
-use crate::scene::{Light, LightTable, NONE, Scene};
+use crate::scene::{CurvedRow, Light, LightTable, NONE, Scene};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Pairs of a light and a caster; more casters than this allows are taken together: each pair needs several photons.
 const MOST_PAIRS: usize = 256;
@@ -24,7 +25,7 @@ pub mod aim {
 pub struct PairTable {
     /// Middle of the light, of flat ones a corner.
     pub light_center: [Vec<f32>; 3],
-    /// Its radius; not read of flat ones.
+    /// Its radius; read of spheres only.
     pub light_radius: Vec<f32>,
     /// Its primitive; [`NONE`] of flat ones, from which rays start off their plane.
     pub light_primitive: Vec<u32>,
@@ -34,9 +35,11 @@ pub struct PairTable {
     pub edge: [Vec<f32>; 3],
     /// Of flat lights the unit normal; empty where there are none.
     pub normal: [Vec<f32>; 3],
-    /// Of flat lights how far off their plane rays start.
+    /// Of flat lights, and such with flat parts, how far off their plane rays start.
     pub offset: Vec<f32>,
-    /// Bits as in [`LightTable::FLAT`], of spheres, too.
+    /// Of curved lights their row in [`Plan::curved`].
+    pub row: Vec<u32>,
+    /// Bits as in [`LightTable::FLAT`], of others, too, and [`LightTable::CURVED`].
     pub flags: Vec<u32>,
     /// 1 - cos of the half angle of the cap that photons start from; 2 is the whole light.
     pub cap: Vec<f32>,
@@ -81,6 +84,8 @@ pub struct Plan {
     pub ends: Vec<[usize; 2]>,
     /// Which casters the objects are.
     pub casters: Casters,
+    /// The curved lights.
+    pub curved: Arc<[CurvedRow]>,
     /// Flux of all lights, the sum of the channels.
     pub power: f32,
 }
@@ -103,9 +108,9 @@ impl Plan {
                     let (_, radius) = light.bounds(&scene.spheres);
                     radiance * radius * radius
                 }
-                Light::Parallelogram(flat) | Light::Triangle(flat) => {
-                    let sides = if flat.two_sided { 2.0 } else { 1.0 };
-                    radiance * sides * light.area(&scene.spheres) / (4.0 * pi)
+                Light::Curved(_) | Light::Parallelogram(_) | Light::Triangle(_) => {
+                    let faces = if light.two_sided() { 2.0 } else { 1.0 };
+                    radiance * faces * light.area(&scene.spheres) / (4.0 * pi)
                 }
             };
             all += power * 4.0 * pi * pi;
@@ -130,6 +135,7 @@ impl Plan {
             chances: pairs.iter().enumerate().map(|(k, p)| (p.probability, unit(k, 0x0ff5_e700))).collect(),
             ends: pairs.iter().map(|p| [p.light, p.caster]).collect(),
             casters,
+            curved: scene.tables.lights.curved.clone(),
             power: all as f32,
         })
     }
@@ -171,6 +177,10 @@ impl Pair {
         let (center, radius) = light.bounds(&scene.spheres);
         let distance = caster.center.distance(center);
         let (aim, cap) = match light.flat() {
+            None if light.curved().is_some() => {
+                let apart = distance > radius + caster.radius;
+                (if apart { aim::OUTSIDE } else { aim::EVERYWHERE }, 2.0)
+            }
             None if distance > radius + caster.radius => {
                 // Points of the light from which the caster can be seen: those whose tangent plane cuts its sphere.
                 (aim::OUTSIDE, 1.0 - (radius - caster.radius) / distance)
@@ -187,9 +197,12 @@ impl Pair {
         let sin2 = sine * sine;
         let cone = sin2 / (1.0 + (1.0 - sin2).sqrt());
         // From a light with one side nothing goes where its back is seen.
-        let shines = match light.flat().filter(|flat| !flat.two_sided) {
-            Some(flat) => (caster.center - flat.corner).dot(flat.normal()) > -caster.radius,
-            None => light.two_sided() || distance + caster.radius > radius,
+        let shines = match light.normal() {
+            Some(normal) => {
+                let on_plane = light.flat().map_or(center, |flat| flat.corner);
+                (caster.center - on_plane).dot(normal) > -caster.radius
+            }
+            None => light.two_sided() || light.curved().is_some() || distance + caster.radius > radius,
         };
         let weight = if shines { cone * caster.reflectance } else { 0.0 };
         Pair { light: 0, caster: 0, aim, cap: cap.clamp(0.0, 2.0), weight, probability: 0.0 }
@@ -202,7 +215,7 @@ impl Pair {
                 let (_, radius) = light.bounds(&scene.spheres);
                 2.0 * std::f64::consts::PI * radius * radius * self.cap
             }
-            Light::Parallelogram(_) | Light::Triangle(_) => light.area(&scene.spheres),
+            Light::Curved(_) | Light::Parallelogram(_) | Light::Triangle(_) => light.area(&scene.spheres),
         }
     }
 }
@@ -220,7 +233,7 @@ impl PairTable {
             let sides = if light.two_sided() { 2.0 } else { 1.0 };
             let directions = if pair.aim == aim::EVERYWHERE { sides * std::f64::consts::PI } else { 1.0 };
             let density = pair.probability;
-            table.push_light(scene, light, caster.center, any_flat);
+            table.push_light(scene, pair.light, caster.center, any_flat);
             for (axis, radiance) in radiance.into_iter().enumerate() {
                 table.caster_center[axis].push(caster.center[axis] as f32);
                 table.radiance[axis].push(radiance as f32);
@@ -237,7 +250,8 @@ impl PairTable {
     }
 
     /// Where photons of a light start. `any_flat`: the scene has lights that are no spheres.
-    fn push_light(&mut self, scene: &Scene, light: &Light, caster: DVec3, any_flat: bool) {
+    fn push_light(&mut self, scene: &Scene, number: usize, caster: DVec3, any_flat: bool) {
+        let (light, lights) = (&scene.lights[number], &scene.tables.lights);
         let push = |columns: &mut [Vec<f32>; 3], v: DVec3| {
             columns.iter_mut().zip(v.to_array()).for_each(|(column, x)| column.push(x as f32));
         };
@@ -253,9 +267,15 @@ impl PairTable {
             push(&mut self.edge, edge);
             push(&mut self.normal, normal);
         }
-        let (mut offset, mut flags, mut primitive) = (0.0, sphere_flags, NONE);
+        let (mut offset, mut flags, mut primitive, mut row) = (0.0, sphere_flags, NONE, 0);
         match light {
             Light::Sphere { sphere, .. } => primitive = *sphere,
+            Light::Curved(_) => {
+                row = number as u32 - lights.spheres;
+                let curved = &lights.curved[row as usize];
+                (offset, primitive) = (curved.lamp.offset() as f32, curved.primitive);
+                flags |= LightTable::CURVED;
+            }
             Light::Parallelogram(flat) => (offset, flags) = LightTable::offset_and_flags(flat, 0),
             Light::Triangle(flat) => (offset, flags) = LightTable::offset_and_flags(flat, LightTable::TRIANGLE),
         }
@@ -263,5 +283,6 @@ impl PairTable {
         self.light_primitive.push(primitive);
         self.offset.push(offset);
         self.flags.push(flags);
+        self.row.push(row);
     }
 }

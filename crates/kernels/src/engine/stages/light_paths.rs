@@ -25,6 +25,7 @@
 
 use super::aim;
 use super::cameras::View;
+use super::lights::curved;
 use super::materials::{Bsdf, TWO_PI, reflect_bent};
 use super::photons::Numbers;
 use super::surface::{Surface, surface};
@@ -156,13 +157,20 @@ pub fn density_ratio<F: Lanes>(
     let center = V3::<F>::gather_columns(&pairs.light_center, pair);
     let radius = F::gather(&pairs.light_radius, pair);
     let mut outward = s.p.sub(center).scale(one / radius);
-    if !pairs.edge[0].is_empty() {
-        let plane = F::U::gather(&pairs.flags, pair) & F::U::splat(LightTable::PLANE);
-        outward = V3::select(plane.eq(nothing), outward, s.ng);
+    let mut rarity = one;
+    if !pairs.edge[0].is_empty() || !plan.curved.is_empty() {
+        let flags = F::U::gather(&pairs.flags, pair);
+        let others = flags & F::U::splat(LightTable::PLANE | LightTable::CURVED);
+        outward = V3::select(others.eq(nothing), outward, s.ng);
+        let on_curved = known & !(flags & F::U::splat(LightTable::CURVED)).eq(nothing);
+        if on_curved.any() {
+            let row = F::U::gather(&pairs.row, pair);
+            rarity = F::select(on_curved, curved::rarity(&plan.curved, row, s.ng, on_curved), one);
+        }
     }
     let cos = outward.dot(direction).abs();
     let cone = cone_to(plan, pair, s.p);
-    let density = F::select(everywhere, one, cos * cone * c(TWO_PI));
+    let density = F::select(everywhere, one, cos * cone * c(TWO_PI)) * rarity;
     let known = known & zero.lt(density);
     let per_path = F::gather(&light_paths.density, pair) / F::select(known, density, one);
     F::select(known, per_path * ratio, zero)

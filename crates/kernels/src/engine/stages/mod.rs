@@ -1,6 +1,7 @@
 //! The stages of a bounce, each a function over lanes from arrays to arrays.
 
 pub mod aim;
+pub mod ambient;
 pub mod camera;
 pub mod cameras;
 pub mod deposit;
@@ -10,6 +11,7 @@ pub mod lights;
 pub mod materials;
 pub mod patterns;
 pub mod photons;
+pub mod planes;
 pub mod points;
 pub mod reach;
 pub mod shade;

@@ -1,5 +1,6 @@
 //! Photons: from the lights, over mirrors, glass and narrow lobes, to rough surfaces (see `engine::guide`).
 
+use super::lights::curved;
 use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
 use super::surface::surface;
@@ -39,6 +40,7 @@ impl<F: Lanes> Numbers<F> {
 
 /// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of
 /// light paths radiance, and `pdf` their density per area and solid angle over the cosine.
+// Long: one way of starting for each kind of light, which share their numbers.
 #[inline(always)]
 pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
     let c = F::splat;
@@ -73,6 +75,17 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
             point = V3::select(flat, axis.mad(u, edge.mad(v, center)), point);
             normal = V3::select(flat, V3::gather_columns(&pairs.normal, pair), normal);
         }
+        let (mut sided, mut rarity) = (flat, one);
+        if !plan.curved.is_empty() {
+            let on = valid & !(flags & F::U::splat(LightTable::CURVED)).eq(F::U::splat(0));
+            if on.any() {
+                let start = curved::start::<F>(&plan.curved, F::U::gather(&pairs.row, pair), u, v, on);
+                point = V3::select(on, start.point, point);
+                normal = V3::select(on, start.normal, normal);
+                rarity = F::select(on, start.rarity, rarity);
+                sided = sided | on;
+            }
+        }
         // A direction from there to the caster's sphere, uniform.
         let (u, v) = numbers.pair(salts[1]);
         let to = V3::<F>::gather_columns(&pairs.caster_center, pair).sub(point);
@@ -81,7 +94,7 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
         let cone = sin2 / (one + (one - sin2).sqrt());
         let towards = to.scale(one / distance2.sqrt());
         let mut direction = towards.to_world(warp::cone(u, v, cone));
-        let back = flat & two_sided & normal.dot(direction).lt(zero);
+        let back = sided & two_sided & normal.dot(direction).lt(zero);
         normal = V3::select(back, normal.neg(), normal);
         let mut density = normal.dot(direction) * cone * c(super::materials::TWO_PI);
         if everywhere.any() {
@@ -91,11 +104,12 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
             direction = V3::select(everywhere, normal.to_world(warp::cosine_hemisphere(u, v)), direction);
             density = F::select(everywhere, one, density);
         }
-        if flat.any() {
-            point = V3::select(flat, normal.mad(F::gather(&pairs.offset, pair), point), point);
+        if sided.any() {
+            point = V3::select(sided, normal.mad(F::gather(&pairs.offset, pair), point), point);
         }
-        let flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
         let sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));
+        density = density * rarity;
+        let flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
         direction.compress(sent, &mut paths.direction, k);

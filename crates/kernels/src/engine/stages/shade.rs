@@ -47,6 +47,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     // After the last scattering a ray is cast only to see the light that it meets.
     let scatters = vertex <= scene.max_bounces;
     let last = vertex == scene.max_bounces;
+    let direct = pass.task == Task::Direct;
 
     let (paths, next, shadows) = (&batch.paths, &mut batch.next, &mut batch.shadows);
     let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
@@ -102,8 +103,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let light = F::U::select(emits, s.light - F::U::splat(1), F::U::splat(0));
             let pdf = F::load(&paths.pdf[i..]);
             let normal = if several { V3::<F>::load(&paths.normal, i) } else { V3::grey(zero) };
-            let met =
-                LightHit { distance: F::load(&batch.hits.t[i..]), cos: direction.dot(s.ng).abs(), front: s.outside };
+            let (distance, cos) = (F::load(&batch.hits.t[i..]), direction.dot(s.ng).abs());
+            let met = LightHit { direction, distance, cos, front: s.outside, lanes: emits };
             let sampled = lights::pdf(&tables.lights, light, Receiver { p: origin, n: normal }, &met);
             let mut weight = F::select(pdf.lt(zero), one, power_heuristic(pdf, sampled));
             if let Some((light_paths, plan)) = pass.light_paths
@@ -124,6 +125,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
         let mut surfaces = hit & !lamp;
+        if direct {
+            // What a rough surface has scattered sees lights only.
+            surfaces = surfaces & !has(slot, path::OWN);
+        }
         if !scatters || !surfaces.any() {
             continue;
         }
@@ -182,7 +187,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         }
         let lit_here = rough & valid;
         // Diffuse surfaces go on at the last vertex only to see a background.
-        let goes_on = if last && !open { !bsdf.diffuse } else { valid };
+        let goes_on = if (last || direct) && !open { !bsdf.diffuse } else { valid };
         let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let [on_light, of_direction] = PairPoints::points_of([&light_points, &directions], &pixel);
         let lobes_or_end = bsdf.glossy.any() || bsdf.transparent.any() || vertex >= ROULETTE_FROM;
@@ -198,7 +203,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let (u, v) = of_choice;
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = on_light;
-            let l = lights::sample(&tables.lights, &choice, s.start, u, v);
+            let l = lights::sample(&tables.lights, &choice, s.start, u, v, lit_here);
             let cos_i = s.ns.dot(l.wi);
             let lit = lit_here & bsdf.reaches(cos_i) & zero.lt(l.distance);
             if lit.any() {
@@ -360,7 +365,7 @@ fn power_heuristic<F: Lanes>(a: F, b: F) -> F {
 
 /// 1 / (1 + (b / a)^2) of the ratio b / a.
 #[inline(always)]
-fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
+pub fn weight_of_ratio<F: Lanes>(ratio: F) -> F {
     F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))
 }
 

@@ -41,6 +41,10 @@ pub fn on_shapes<F: Lanes>(
     if let Some(offsets) = scene.accel.as_deref().and_then(Accel::coplanar_shape_offsets) {
         offset = F::gather(offsets, index);
     }
+    let mut light = F::U::splat(0);
+    if !scene.tables.shapes.light.is_empty() {
+        light = F::U::gather(&scene.tables.shapes.light, index);
+    }
     Surface {
         p,
         start: facing.mad(offset, p),
@@ -52,7 +56,7 @@ pub fn on_shapes<F: Lanes>(
         u: F::load(&found.uv[0]),
         v: F::load(&found.uv[1]),
         material: F::U::load(&found.material),
-        light: F::U::splat(0),
+        light,
         body: F::U::load(&found.body),
     }
 }

@@ -122,7 +122,7 @@ impl<F: Lanes> Target<F> {
 
 /// The light that leaves suffix j.
 #[inline(always)]
-fn light(suffixes: &Suffixes, radiance: &Columns, j: usize) -> [f32; 3] {
+pub fn light(suffixes: &Suffixes, radiance: &Columns, j: usize) -> [f32; 3] {
     let at = PATHS + suffixes.slot[j] as usize;
     [radiance[0][at], radiance[1][at], radiance[2][at]]
 }

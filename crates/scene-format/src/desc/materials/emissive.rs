@@ -28,13 +28,12 @@ pub struct Emissive {
 }
 
 scene_struct! {
-    /// A surface that shines and reflects nothing: spheres, rectangles, boxes, polygons, extrudes, lathes, tubes,
-    /// toruses, arrows and meshes with it are lights. How much it shines is said by exactly one of `radiance` and
-    /// `power`.
+    /// A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by
+    /// exactly one of `radiance` and `power`.
     pub(crate) struct EmissiveWords as "Emissive", "an emissive material", exactly one of [radiance, power] {
         /// Radiance L of every point, in all directions.
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
-        /// Power of each copy: L = P / (pi A), A the area that shines (both sides where `two_sided`).
+        /// Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`).
         power: Option<Spanned<Color>> = None => Rule::light("in W");
         /// Whether it shines to both sides; else only to the normal's: outwards.
         two_sided: bool = false;

@@ -37,7 +37,6 @@ impl Told for Capsule {
 
 impl ShapeWords for Capsule {
     const MANY: &'static str = "capsules";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Capsule {

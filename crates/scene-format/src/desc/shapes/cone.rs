@@ -40,7 +40,6 @@ impl Told for Cone {
 
 impl ShapeWords for Cone {
     const MANY: &'static str = "cones";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Cone {

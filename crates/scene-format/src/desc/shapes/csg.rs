@@ -140,17 +140,14 @@ impl Told for Difference {
 
 impl ShapeWords for Union {
     const MANY: &'static str = "unions";
-    const SHINES: bool = false;
 }
 
 impl ShapeWords for Intersection {
     const MANY: &'static str = "intersections";
-    const SHINES: bool = false;
 }
 
 impl ShapeWords for Difference {
     const MANY: &'static str = "differences";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Union {
@@ -227,6 +224,9 @@ fn unfit(object: &Object) -> Option<(String, &'static str)> {
         Object::Cone(_) => ("an open cone has no inside".to_owned(), closed),
         Object::Rectangle(_) => ("a rectangle has no inside".to_owned(), "a thin `Box` has one"),
         Object::Disk(_) => ("a disk has no inside".to_owned(), "a short `Cylinder` has one"),
+        Object::Plane(_) => {
+            ("a plane has no end and no inside".to_owned(), "a large `Box`, one side in the plane, has one")
+        }
         other => {
             let kind = other.kind();
             let article = if kind.starts_with(['A', 'E']) { "an" } else { "a" };

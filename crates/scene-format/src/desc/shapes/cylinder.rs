@@ -41,7 +41,6 @@ impl Told for Cylinder {
 
 impl ShapeWords for Cylinder {
     const MANY: &'static str = "cylinders";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Cylinder {

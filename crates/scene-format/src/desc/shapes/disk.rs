@@ -40,7 +40,6 @@ impl Told for Disk {
 
 impl ShapeWords for Disk {
     const MANY: &'static str = "disks";
-    const SHINES: bool = false;
 }
 
 impl Faulty for Disk {

@@ -55,6 +55,10 @@ pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
 }
 
 impl Technique for Glints {
+    fn name(&self) -> &'static str {
+        "glint chains"
+    }
+
     fn mark(&self, block: &Block, _sample: u32, items: u32, batch: &mut Batch) {
         if self.in_block(block) {
             batch.glints |= items;

@@ -67,6 +67,10 @@ impl Guides {
 }
 
 impl Technique for Guides {
+    fn name(&self) -> &'static str {
+        "aiming"
+    }
+
     /// Makes the guide of these sample indices, which have the same one, if it is not at hand.
     fn before_pass(&mut self, engine: Engine<'_>, samples: &Range<u32>, pool: &Pool) {
         let largest = (MOST_PHOTONS / self.first).ilog2() + 1;

@@ -33,6 +33,10 @@ pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
 }
 
 impl Technique for OfRendering {
+    fn name(&self) -> &'static str {
+        "light paths"
+    }
+
     fn tell<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.light_paths = Some((&self.light_paths, &self.plan));
     }

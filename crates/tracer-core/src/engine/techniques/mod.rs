@@ -13,6 +13,7 @@ use std::sync::Arc;
 use tracer_kernels::engine::guide::plan::Plan;
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::scene::Integrator;
 
 /// What a technique may try before it says whether it is worth its while.
 pub struct Trial<'a> {
@@ -37,6 +38,10 @@ const ALL: [TryOut; 4] = [reuse::plan, guides::plan, light_paths::plan, glints::
 /// Those that are at work.
 pub fn plan(mut trial: Trial<'_>) -> Vec<Box<dyn Technique>> {
     let scene = trial.engine.scene;
+    // They bring all light sooner; nothing else.
+    if scene.integrator != Integrator::Paths {
+        return Vec::new();
+    }
     let wants_photons = trial.options.caustics.unwrap_or(scene.caustics) && trial.has_samples;
     trial.plan = if wants_photons { Plan::new(scene, trial.pass.seed).map(Arc::new) } else { None };
     ALL.iter().filter_map(|plan| plan(&trial)).collect()

@@ -5,9 +5,9 @@ use crate::engine::technique::{Engine, Technique, Vertex};
 use crate::engine::trace::{bounce, occluded_in_tree};
 use std::time::Instant;
 use tracer_kernels::bvh::Coherence;
-use tracer_kernels::engine::Obstacles;
 use tracer_kernels::engine::batch::{Batch, Group, ITEMS, Shadows};
 use tracer_kernels::engine::pass::Pass;
+use tracer_kernels::engine::{Obstacles, planes_hide};
 use tracer_kernels::report::Stage;
 use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS, Item, QUARTERS, TILE};
 use tracer_kernels::sampling::sampler::hash3;
@@ -34,6 +34,10 @@ pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
 }
 
 impl Technique for Reuse {
+    fn name(&self) -> &'static str {
+        "sharing"
+    }
+
     fn tell<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.reuse = true;
     }
@@ -142,7 +146,11 @@ fn share(engine: Engine<'_>, batch: &mut Batch) {
     let obstacles = Obstacles::new(scene);
     let mut next = 0;
     while next < batch.suffixes.len {
+        let first = next;
         next = kernels.share_segments(scene, &obstacles, next, batch);
+        if !scene.tables.planes.is_empty() {
+            planes_hide(&scene.tables.planes, first..next, batch);
+        }
         batch.watch.lap(Stage::Share);
         let Some(accel) = &scene.accel else { continue };
         std::mem::swap(&mut batch.shadows, &mut batch.segments);

@@ -16,7 +16,7 @@ const TILE: u32 = 8;
 const SEEDS: u32 = 32;
 
 /// Scenes that are compared in all: together they fail by chance once in a hundred.
-const SCENES: usize = 79;
+const SCENES: usize = 99;
 const FAMILY_LEVEL: f64 = 0.01;
 
 /// Largest difference of the pictures' means, in standard errors.
@@ -72,6 +72,15 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
         freedom: f64::INFINITY,
     };
     assert_agree(name, scene.size, SCENES, &|r, c| engine.estimate(r, c), &theirs);
+}
+
+/// Asserts by the same tests that two scenes make the same picture with so many samples each.
+pub fn assert_same_scenes(name: &str, one: &SceneDesc, other: &SceneDesc, samples: u32) {
+    let samples = (samples * effort()).div_ceil(SEEDS).max(1);
+    let rendered = |desc: &SceneDesc, seed: u32| Renderings::new(&super::compiled(desc), samples, seed);
+    let (ours, theirs) = (rendered(one, 6000), rendered(other, 7000));
+    let size = [one.image.width.value, one.image.height.value];
+    assert_agree(name, size, SCENES, &|r, c| ours.estimate(r, c), &|r, c| theirs.estimate(r, c));
 }
 
 /// Asserts by the same tests that pixels which share what they find, and pixels for themselves, make the same picture.

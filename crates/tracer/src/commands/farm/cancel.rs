@@ -7,10 +7,18 @@ use crate::args::FarmCancelArgs;
 use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
 use crate::shell::Shell;
+use std::path::Path;
 use std::process::ExitCode;
 
 pub(super) fn run(args: &FarmCancelArgs, shell: &Shell) -> Result<ExitCode, Failure> {
-    let (layout, record) = find(&args.farm)?;
+    for farm in &args.farms {
+        cancel(farm, shell)?;
+    }
+    Ok(ExitCode::from(exit::DONE))
+}
+
+fn cancel(farm: &Path, shell: &Shell) -> Result<(), Failure> {
+    let (layout, record) = find(farm)?;
     let shown = layout.folder.display();
     let jobs: Vec<String> = record.arrays.iter().chain(&record.merge).cloned().collect();
     let queued = queue::queue(&jobs)?;
@@ -20,7 +28,7 @@ pub(super) fn run(args: &FarmCancelArgs, shell: &Shell) -> Result<ExitCode, Fail
     let arrays: Vec<String> = record.arrays.iter().filter(in_queue).cloned().collect();
     if merge.is_empty() && arrays.is_empty() {
         shell.say(&format!("{shown}: no job of it waits or runs"));
-        return Ok(ExitCode::from(exit::DONE));
+        return Ok(());
     }
     queue::cancel(&merge)?;
     queue::cancel(&arrays)?;
@@ -30,5 +38,5 @@ pub(super) fn run(args: &FarmCancelArgs, shell: &Shell) -> Result<ExitCode, Fail
     shell
         .say(&format!("{shown}: cancelled jobs {jobs}; {done} of {} parts are done, all films are kept", record.parts));
     shell.say(&format!("to go on: cd {} && {}", quoted(&record.directory), words.join(" ")));
-    Ok(ExitCode::from(exit::DONE))
+    Ok(())
 }

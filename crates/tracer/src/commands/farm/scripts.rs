@@ -88,6 +88,7 @@ fn merge_words(args: &FarmSlurmArgs, record: &Record) -> Vec<String> {
         words.extend(["--bits".to_owned(), bits.to_owned()]);
     }
     words.extend(args.denoise.words());
+    words.extend(args.no_metadata.then(|| "--no-metadata".to_owned()));
     words
 }
 
@@ -165,7 +166,7 @@ mod tests {
     use clap::{CommandFactory, Parser};
 
     /// Options of `render` that are none of the farm's, or not handed on as they are, and why.
-    const OWN: [(&str, &str); 14] = [
+    const OWN: [(&str, &str); 15] = [
         ("format", "pictures are files"),
         ("noise", "parts end at their samples"),
         ("time", "parts end at their samples"),
@@ -176,14 +177,15 @@ mod tests {
         ("report", "of what one process did"),
         ("stats", "of what one process did"),
         ("open", "nobody looks at a node's screen"),
-        ("frames", "a farm renders one picture"),
-        ("skip-existing", "a farm renders one picture"),
+        ("frames", "each frame has a farm of its own"),
+        ("skip-existing", "a farm that is done stays done"),
+        ("show", "parts are no pictures"),
         ("quiet", "a part's log is all that tells of it"),
         ("diagnostics", "faults are told before parts are submitted"),
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 15] = [
+    const HANDED_ON: [(&str, &[&str], bool); 17] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),
@@ -194,6 +196,8 @@ mod tests {
         ("exposure", &["--exposure", "1.5"], true),
         ("layers", &["--layers", "depth,albedo"], true),
         ("denoise", &["--denoise=on"], true),
+        ("integrator", &["--integrator", "direct"], true),
+        ("no-metadata", &["--no-metadata"], true),
         ("every", &["--every", "5s"], false),
         ("set", &["--set", "camera.fov=40"], true),
         ("camera", &["--camera", "a"], true),

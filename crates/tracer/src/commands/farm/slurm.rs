@@ -7,7 +7,7 @@ use super::scripts::{self, MERGE, PART, Scripts};
 use super::settings::{self, text};
 use crate::args::FarmSlurmArgs;
 use crate::command_line::quoted;
-use crate::commands::render;
+use crate::commands::render::{self, frames};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, is_dash};
 use crate::shell::{Shell, counted};
@@ -19,9 +19,32 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) fn run(args: &FarmSlurmArgs, shell: &Shell) -> Result<ExitCode, Failure> {
+    let of_frame = |frame| args.of_frame(frame, |path| frames::of_frame(path, frame));
+    let Some(asked) = args.frames else {
+        return args.scene.frame.map_or_else(|| one(args, shell), |frame| one(&of_frame(frame), shell));
+    };
+    if is_dash(&args.scene.scene) {
+        return Err(Failure::wrong(DASH));
+    }
+    for path in args.output.iter().chain(&args.folder) {
+        frames::expect_number(path)?;
+    }
+    // A farm for each frame: what is wrong with one is told before any is submitted, and the same line goes on.
+    let (first, last) = frames::range(&args.as_render(), asked, shell)?;
+    for frame in first..=last {
+        one(&of_frame(frame), shell)?;
+    }
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// Nodes and this program read the same files.
+const DASH: &str = "the nodes of a farm read and write files: scene and picture cannot be -";
+
+/// The farm of a picture.
+fn one(args: &FarmSlurmArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let rendering = args.as_render();
     if is_dash(&args.scene.scene) || args.output.iter().any(|path| is_dash(path)) {
-        return Err(Failure::wrong("the nodes of a farm read and write files: scene and picture cannot be -"));
+        return Err(Failure::wrong(DASH));
     }
     let outputs = render::outputs::outputs(&rendering)?;
     render::outputs::probe(&outputs, None)?;

@@ -15,13 +15,19 @@ use std::process::ExitCode;
 const AT_WORK: u8 = 3;
 
 pub(super) fn run(args: &FarmStatusArgs) -> Result<ExitCode, Failure> {
-    let (layout, record) = find(&args.farm)?;
-    let status = Status::new(&layout, &record)?;
-    let text = if args.json { format!("{:#}\n", status.as_json()) } else { status.as_text() };
+    let farms = args.farms.iter().map(|farm| find(farm)).collect::<Result<Vec<_>, Failure>>()?;
+    let all = farms.iter().map(|(layout, record)| Status::new(layout, record)).collect::<Result<Vec<_>, Failure>>()?;
+    let text = match (args.json, all.as_slice()) {
+        (true, [one]) => format!("{:#}\n", one.as_json()),
+        (true, many) => format!("{:#}\n", many.iter().map(Status::as_json).collect::<serde_json::Value>()),
+        (false, many) => many.iter().map(Status::as_text).collect(),
+    };
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())?;
     out.flush()?;
-    Ok(ExitCode::from(status.exit_code()))
+    let codes: Vec<u8> = all.iter().map(Status::exit_code).collect();
+    let worst = [exit::FAILED, AT_WORK].into_iter().find(|code| codes.contains(code));
+    Ok(ExitCode::from(worst.unwrap_or(exit::DONE)))
 }
 
 /// All that there is to tell.

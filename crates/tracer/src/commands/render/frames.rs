@@ -2,6 +2,7 @@
 
 use super::one;
 use crate::args::{self, RenderArgs};
+use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, load};
 use crate::shell::{Shell, counted};
@@ -19,6 +20,7 @@ use tracer_core::Kept;
 #[derive(Default)]
 pub(super) struct Frames {
     pub kept: Kept,
+    pub hashes: Hashes,
     /// The texts of the scene as the first frame was made of them.
     sources: OnceCell<Vec<Source>>,
 }
@@ -136,13 +138,7 @@ pub(super) fn run(
         args.format = None;
     }
     for path in files(&mut args) {
-        if is_dash(path) || path.to_str().and_then(|name| with_number(name, 0)).is_none() {
-            return Err(Failure::wrong(format!(
-                "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
-                path.display(),
-                example(path).display()
-            )));
-        }
+        expect_number(path)?;
     }
     interrupt::listen(*shell)?;
     let (first, last) = range(&args, frames, shell)?;
@@ -154,7 +150,7 @@ pub(super) fn run(
         (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
         let of_frame = numbered(&of_frame)?;
         let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
-        if args.skip_existing && of_frame.output.iter().all(is_there) {
+        if args.skip_existing && of_frame.output.iter().chain(&of_frame.report).all(is_there) {
             skipped += 1;
             continue;
         }
@@ -163,9 +159,9 @@ pub(super) fn run(
             Some(code) => ExitCode::from(code),
         };
         if let Some(signal) = interrupt::requested() {
-            let done = if code == ExitCode::from(exit::DONE) { made + 1 } else { made };
-            let rest = "the same line with --skip-existing does the rest";
-            shell.say(&format!("interrupted: {done} of {} done; {rest}", counted(all as usize, "frame")));
+            let done = made + skipped + usize::from(code == ExitCode::from(exit::DONE));
+            let all = counted(all as usize, "frame");
+            shell.say(&format!("interrupted: {done} of {all} done; {}", rest(&args)));
             return Ok(ExitCode::from(signal));
         }
         if code != ExitCode::from(exit::DONE) {
@@ -181,6 +177,41 @@ pub(super) fn run(
     Ok(ExitCode::from(exit::DONE))
 }
 
+/// How the frames that are left are rendered, without losing what one was begun with.
+fn rest(args: &RenderArgs) -> String {
+    let mut more = Vec::new();
+    if !args.skip_existing {
+        more.push("--skip-existing".to_owned());
+    }
+    if let (Some(checkpoint), None) = (&args.checkpoint, &args.resume) {
+        more.push(format!("--resume {}", checkpoint.display()));
+    }
+    match more.is_empty() {
+        true => "the same line does the rest".to_owned(),
+        false => format!("the same line with {} does the rest", more.join(" ")),
+    }
+}
+
+/// The same path with a frame's number in place of `####`, if it has that.
+pub fn of_frame(path: &Path, frame: u32) -> PathBuf {
+    path.to_str().and_then(|name| with_number(name, frame)).map_or_else(|| path.to_owned(), PathBuf::from)
+}
+
+/// Sees that each frame has a file of its own.
+///
+/// # Errors
+/// When there is no `####` in the name.
+pub fn expect_number(path: &Path) -> Result<(), Failure> {
+    if !is_dash(path) && path.to_str().and_then(|name| with_number(name, 0)).is_some() {
+        return Ok(());
+    }
+    Err(Failure::wrong(format!(
+        "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
+        path.display(),
+        example(path).display()
+    )))
+}
+
 /// A name with room for a number.
 fn example(path: &Path) -> PathBuf {
     if is_dash(path) {
@@ -194,7 +225,10 @@ fn example(path: &Path) -> PathBuf {
 }
 
 /// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
-fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
+///
+/// # Errors
+/// A frame is wrong.
+pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
     let mut scene = args.scene.clone();
     if let args::Frames::Range(first, _) = frames {
         scene.frame = Some(first);

@@ -1,10 +1,13 @@
 //! Checkpoints of a rendering: which are read and written, as the command line says.
 
+use super::frames::Frames;
 use crate::args::RenderArgs;
-use crate::checkpoint::{Checkpoints, EVERY, Extent, Found, Lock, Place, is_film, look_for, notes, picture_notes};
+use crate::checkpoint::{self, Checkpoints, EVERY, Extent, Found, Hashes, Hashing, Lock, Place};
+use crate::checkpoint::{is_film, look_for, notes, picture_notes};
 use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
+use crate::write::Provenance;
 use scene_format::SceneDesc;
 use tracer_core::{Film, Note, Scene};
 
@@ -104,4 +107,32 @@ impl Places {
         let checkpoints = Checkpoints::new(place, lock, every, notes.clone(), found.is_spoilt, *shell);
         Ok(Kept { film: found.film, checkpoints: Some(checkpoints), notes, _lock })
     }
+}
+
+/// Begins with the hashes of the scene's files, where the notes have none yet and somebody wants them.
+pub(super) fn hashing(
+    args: &RenderArgs,
+    notes: &[Note],
+    scene: &Scene,
+    desc: &SceneDesc,
+    frames: Option<&Frames>,
+) -> Option<Hashing> {
+    let is_wanted = args.report.is_some() || !args.no_metadata;
+    let are_there = notes.iter().any(|(name, _)| *name == checkpoint::files_are_told().0);
+    let hashes = frames.map_or_else(Hashes::default, |frames| frames.hashes.clone());
+    (is_wanted && !are_there).then(|| hashes.begin(&scene.files, &desc.base_dir, args.threads))
+}
+
+/// The hashes that were begun; that there are none is said.
+pub(super) fn hashed(hashing: Option<Hashing>, shell: &Shell) -> Vec<Note> {
+    let Some(hashing) = hashing else { return Vec::new() };
+    hashing.end().unwrap_or_else(|| {
+        shell.say("warning: a file of the scene cannot be read again, so it is not told what the files held");
+        Vec::new()
+    })
+}
+
+/// What pictures tell of themselves, if they may.
+pub(super) fn provenance(args: &RenderArgs, notes: &[Note], film: &Film, is_denoised: bool) -> Provenance {
+    if args.no_metadata { Provenance::hidden() } else { checkpoint::provenance(notes, film, is_denoised) }
 }

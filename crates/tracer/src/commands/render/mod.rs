@@ -1,16 +1,17 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
 mod empty;
-mod frames;
+pub(super) mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
 mod parts;
+mod reference;
 pub(super) mod repeat;
 pub(super) mod rescue;
 
-use crate::args::RenderArgs;
-use crate::checkpoint::{Checkpoints, Extent, part_told, provenance};
+use crate::args::{IntegratorName, RenderArgs};
+use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
@@ -20,23 +21,41 @@ use crate::report::{
 };
 use crate::shell::Shell;
 use crate::write::{Place, save};
-use crate::{denoising, interrupt, lanes, memory};
+use crate::{denoising, interrupt, lanes, layer_view, memory};
 use frames::{AtEnd, Frames};
 use kept::{Kept, Places};
 use rescue::{Pictures, Rescued, pictures, rescue};
 use scene_format::SceneDesc;
+use scene_format::desc::Integrator;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, Mattes, RenderOptions, Scene, render, resume};
+use tracer_core::{Counters, Crop, Film, Image, Layer, Mattes, RenderOptions, Scene, render, resume};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
+    let args = &with_integrator(args);
+    if args.integrator.is_some() {
+        return reference::run(&frames::numbered(args)?, shell, started);
+    }
     match args.frames {
         Some(frames) => frames::run(args, frames, shell, started),
         None => one(&frames::numbered(args)?, shell, started, None),
     }
+}
+
+/// The same, with the integrator as a field of the scene that is set: so checkpoints, reports and pictures tell of it
+/// as of all others. The reference is no word of scenes.
+fn with_integrator(args: &RenderArgs) -> RenderArgs {
+    let mut args = args.clone();
+    if let Some(word) = args.integrator.and_then(IntegratorName::word) {
+        // A kind with fields has brackets, whether they are empty or not.
+        let brackets = if matches!(word, Integrator::AmbientOcclusion { .. }) { "()" } else { "" };
+        args.scene.set.push(format!("render.integrator={word}{brackets}"));
+        args.integrator = None;
+    }
+    args
 }
 
 /// Renders one picture, or one of several frames.
@@ -54,7 +73,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let part = parts::part(args, &desc, crop)?;
     let crop = part.map_or(crop, |part| part.crop);
     check_memory(crop, &desc, args.denoise.is_on())?;
-    if part.is_none() {
+    if part.is_none() && args.show.is_none() {
         outputs::tell_of_layers(&outputs, args, &desc, shell);
     }
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
@@ -72,6 +91,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
     let extent = Extent::Film(crop, part);
     let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
+    let hashing = kept::hashing(args, notes, &scene, &desc, frames);
     let compiled = clock.lap();
 
     if frames.is_none() {
@@ -122,10 +142,14 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     if let Some(image) = image.as_mut().filter(|_| outputs::has_exr(&outputs)) {
         image.mattes = scene.mattes.develop(&film);
     }
+    if let Some(layer) = args.show {
+        image = shown(layer, &film, shell);
+    }
     let denoised = denoised.flatten();
     let developed = clock.lap();
 
-    let provenance = provenance(notes, &film, denoised.is_some());
+    notes.extend(kept::hashed(hashing, shell));
+    let provenance = kept::provenance(args, notes, &film, denoised.is_some());
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -149,6 +173,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let mut report =
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     if let Some(report) = &mut report {
+        report.scene.assets = assets_hash(notes);
         report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
         let layers = written_layers.names().map(str::to_owned);
         (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised);
@@ -192,6 +217,16 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     }
     let failed = elsewhere || matches!(kept, Some(Err(_)));
     Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
+}
+
+/// A layer of a film in place of its picture; what its colours stand for is said.
+fn shown(layer: Layer, film: &Film, shell: &Shell) -> Option<Image> {
+    let layer = film.layer(layer)?;
+    let (image, range) = layer_view::picture(&layer, film.crop().width);
+    if let Some([low, high]) = range.map(|range| range.map(layer_view::number)).filter(|_| shell.is_told()) {
+        shell.say(&format!("{}: {low} is dark, {high} and more is bright", layer.name));
+    }
+    Some(image)
 }
 
 /// What there is to say of a film: where the time went, what was left out.
@@ -248,6 +283,11 @@ impl Clock {
 
 /// The scene of a rendering in so many parts, with what the options say; what no part could be made of is told here.
 pub(super) fn of_parts(args: &RenderArgs, parts: u32, shell: &Shell) -> Result<SceneDesc, Failure> {
+    if args.integrator == Some(IntegratorName::Reference) {
+        return Err(Failure::wrong(
+            "--integrator reference renders whole pictures only; render it with `tracer render`",
+        ));
+    }
     let desc = described(args, shell)?;
     let crop = crop(args, &desc)?;
     let part = parts::part_of(args, &desc, crop, [1, parts], &format!("--parts {parts}"))?;
@@ -272,7 +312,10 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
     if let Some(exposure) = args.exposure {
         desc.effects.exposure = exposure.into();
     }
-    for layer in args.layers.iter().copied().map(tracer_core::layer_word) {
+    if let Some(word) = args.integrator.and_then(IntegratorName::word) {
+        desc.render.integrator = word;
+    }
+    for layer in args.layers.iter().chain(&args.show).copied().map(tracer_core::layer_word) {
         if !desc.output.layers.contains(&layer) {
             desc.output.layers.push(layer);
         }
@@ -294,7 +337,7 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
+pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
@@ -352,6 +395,7 @@ fn report(
         scene: SceneReport {
             file: desc.sources.first().map(|source| source.name.clone()).unwrap_or_default(),
             hash: scene_format::hash_hex(desc),
+            assets: None,
         },
         picture: PictureReport {
             width: film.size()[0],

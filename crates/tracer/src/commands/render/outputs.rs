@@ -112,6 +112,9 @@ pub fn outputs(args: &RenderArgs) -> Result<Vec<Output>, Failure> {
     if args.bits.is_some() && !outputs.iter().any(|output| matches!(output.encoding, Encoding::Png(_))) {
         return Err(Failure::wrong("--bits is for PNG only; EXR, HDR and PFM hold floats"));
     }
+    if args.show.is_some() && outputs.iter().any(|output| !matches!(output.encoding, Encoding::Png(_))) {
+        return Err(Failure::wrong("--show is for PNG only; the numbers themselves are in an EXR with --layers"));
+    }
     if !args.layers.is_empty() && !has_exr(&outputs) {
         return Err(Failure::wrong(format!(
             "--layers is for EXR, and no -o is one; add -o {}",

@@ -55,6 +55,12 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
     if !args.layers.is_empty() {
         option("--layers", args.layers.iter().copied().collect::<LayerSet>().names().collect::<Vec<_>>().join(","));
     }
+    if let Some(layer) = args.show {
+        option("--show", LayerSet::from_iter([layer]).to_string());
+    }
+    if let Some(integrator) = args.integrator {
+        option("--integrator", integrator.name().to_owned());
+    }
     let denoise = args.denoise.words();
     if let Some(Crop { x, y, width, height }) = args.crop {
         option("--crop", format!("{x},{y},{width},{height}"));
@@ -66,5 +72,6 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
         option("--split", super::parts::split_name(split.into()).to_owned());
     }
     words.extend(denoise);
+    words.extend(args.no_metadata.then(|| "--no-metadata".to_owned()));
     words
 }

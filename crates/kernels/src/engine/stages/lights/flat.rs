@@ -149,7 +149,7 @@ mod tests {
             for _ in 0..SAMPLES {
                 let mut number = || S::splat((random.bits() >> 40) as f32 / 16_777_216.0);
                 let choice = choose(&table, at, number(), number());
-                let s = sample(&table, &choice, at.p, number(), number());
+                let s = sample(&table, &choice, at.p, number(), number(), S::first(1));
                 let mut chosen = [9];
                 choice.light.store(&mut chosen);
                 if chosen[0] != 0 {
@@ -167,6 +167,8 @@ mod tests {
                 let limit = if is_triangle { 1.0 - u } else { 1.0 };
                 assert!(u > -1e-4 && v > -1e-4 && u < 1.0001 && v < limit + 1e-4, "{u} {v}");
                 let hit = LightHit {
+                    direction: s.wi,
+                    lanes: S::first(1),
                     distance: s.distance,
                     cos: S::splat(wi.dot(flat.normal()).abs() as f32),
                     front: S::first(usize::from(in_front)),

@@ -5,6 +5,7 @@
 //! where it has two sides. A sample of a light that does not shine to the receiver has radiance zero. A picture of all
 //! directions ([`environment`]) is a light without a number, infinitely far away.
 
+pub mod curved;
 mod environment;
 mod flat;
 mod selection;
@@ -19,7 +20,7 @@ pub use selection::{Choice, choose};
 pub struct LightSample<F: Lanes> {
     /// Unit direction.
     pub wi: V3<F>,
-    /// Distance to the light's surface along it; of flat lights to just before it.
+    /// Distance to the light's surface along it; of flat lights, and flat parts, to just before it.
     pub distance: F,
     /// One over the density in solid angle, the choice of the light included.
     pub inverse_pdf: F,
@@ -41,22 +42,26 @@ pub struct Receiver<F: Lanes> {
 /// How a ray met a light.
 #[derive(Clone, Copy)]
 pub struct LightHit<F: Lanes> {
+    /// The ray's unit direction.
+    pub direction: V3<F>,
     /// So far from the receiver.
     pub distance: F,
     /// Cosine to the light's normal there, above zero.
     pub cos: F,
     /// It was met from its front.
     pub front: F::M,
+    /// The lanes that have met one; others hold anything.
+    pub lanes: F::M,
 }
 
-/// A direction from `p` to the chosen light.
+/// A direction from `p` to the chosen light, in the lanes of the mask; others hold anything.
 #[inline(always)]
-pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F) -> LightSample<F> {
+pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
     let mut sample = match &lights.environment {
-        None => numbered(lights, choice.light, p, u, v),
+        None => numbered(lights, choice.light, p, u, v, lanes),
         Some(environment) if lights.len == 0 => environment::sample(environment, u, v),
         Some(environment) => {
-            let near = numbered(lights, choice.light, p, u, v);
+            let near = numbered(lights, choice.light, p, u, v, lanes & !choice.environment);
             if choice.environment.any() {
                 near.or(choice.environment, environment::sample(environment, u, v))
             } else {
@@ -72,10 +77,16 @@ pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F,
 
 /// A direction from `p` to light `k`.
 #[inline(always)]
-fn numbered<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F) -> LightSample<F> {
-    let sample = sphere::sample(lights, k, p, u, v);
+fn numbered<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
+    let mut sample = sphere::sample(lights, k, p, u, v);
+    if lights.has_curved() {
+        let is_curved = lanes & curved_lanes(lights, k);
+        if is_curved.any() {
+            sample = sample.or(is_curved, curved::sample(lights, k, p, u, v, is_curved));
+        }
+    }
     if lights.has_flat() {
-        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        let is_flat = !k.lt(F::U::splat(lights.first_flat));
         if is_flat.any() {
             return sample.or(is_flat, flat::sample(lights, flat_row(lights, k), p, u, v));
         }
@@ -104,19 +115,31 @@ pub fn beyond<F: Lanes>(lights: &LightTable, environment: &Environment, directio
     (if lights.len == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) }, radiance)
 }
 
-/// The row of a flat light; anything for spheres.
+/// The row of a flat light; anything for others.
 #[inline(always)]
 fn flat_row<U: Bits>(lights: &LightTable, k: U) -> U {
-    let spheres = U::splat(lights.spheres);
-    U::select(k.lt(spheres), U::splat(0), k - spheres)
+    let first = U::splat(lights.first_flat);
+    U::select(k.lt(first), U::splat(0), k - first)
+}
+
+/// Where a light is a curved one.
+#[inline(always)]
+fn curved_lanes<U: Bits>(lights: &LightTable, k: U) -> U::M {
+    k.lt(U::splat(lights.first_flat)) & !k.lt(U::splat(lights.spheres))
 }
 
 /// Density with which [`choose`] and [`sample`] take a direction that has met light `k`.
 #[inline(always)]
 pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightHit<F>) -> F {
     let mut inverse = sphere::inverse_pdf(lights, k, at.p);
+    if lights.has_curved() {
+        let is_curved = hit.lanes & curved_lanes(lights, k);
+        if is_curved.any() {
+            inverse = F::select(is_curved, curved::inverse_pdf(lights, k, at.p, hit.direction, is_curved), inverse);
+        }
+    }
     if lights.has_flat() {
-        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        let is_flat = !k.lt(F::U::splat(lights.first_flat));
         inverse = F::select(is_flat, flat::inverse_pdf(lights, flat_row(lights, k), hit), inverse);
     }
     let near = selection::probability(lights, k, at) / inverse;
@@ -129,8 +152,14 @@ pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U, hit: &LightHit<F>) -> V3
     let [.., red, green, blue, _, inwards] = lights.rows.row::<F>(k);
     let shines = hit.front | F::splat(0.0).lt(inwards);
     let mut radiance = V3::select(shines, V3(red, green, blue), V3::zero());
+    if lights.has_curved() {
+        let is_curved = hit.lanes & curved_lanes(lights, k);
+        if is_curved.any() {
+            radiance = V3::select(is_curved, curved::radiance(lights, k, hit.front, is_curved), radiance);
+        }
+    }
     if lights.has_flat() {
-        let is_flat = !k.lt(F::U::splat(lights.spheres));
+        let is_flat = !k.lt(F::U::splat(lights.first_flat));
         radiance = V3::select(is_flat, flat::radiance(lights, flat_row(lights, k), hit.front), radiance);
     }
     radiance

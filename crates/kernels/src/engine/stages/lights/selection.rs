@@ -109,7 +109,7 @@ impl<F: Lanes> Step<F> {
     #[inline(always)]
     fn between(lights: &LightTable, inner: F::M, [a, b]: [Node<F>; 2], at: Receiver<F>) -> Self {
         let contents = [a.content, b.content];
-        let (a, b) = if lights.has_flat() {
+        let (a, b) = if lights.has_others() {
             (a.importance(at) * a.facing(at), b.importance(at) * b.facing(at))
         } else {
             (a.importance(at), b.importance(at))
@@ -154,7 +154,7 @@ impl<F: Lanes> Node<F> {
         let [x, y, z, radius] = F::gather4(&lights.tree, at);
         let [power, content, few] = F::gather3(&lights.tree, at + F::U::splat(4));
         let (mut normal, mut around) = (V3::zero(), F::splat(1.0));
-        if lights.has_flat() {
+        if lights.has_others() {
             let [x, y, z, all] = F::gather4(&lights.tree, at + F::U::splat(LightTable::FACING as u32));
             (normal, around) = (V3(x, y, z), all);
         }

@@ -36,7 +36,8 @@ fn facing_up(p: V3<S>) -> Receiver<S> {
 
 /// How a sphere was met does not matter.
 fn met() -> LightHit<S> {
-    LightHit { distance: S::splat(1.0), cos: S::splat(1.0), front: S::first(1) }
+    let direction = V3::splat([0.0, 1.0, 0.0]);
+    LightHit { direction, distance: S::splat(1.0), cos: S::splat(1.0), front: S::first(1), lanes: S::first(1) }
 }
 
 /// Lights of these centres, radii and radiances.
@@ -111,7 +112,7 @@ fn samples_meet_the_light() {
             let v = V3::<S>::splat(p.to_array());
             let k = <S as Lanes>::U::splat(0);
             let choice = Choice { light: k, probability: S::splat(1.0), environment: near() };
-            let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random));
+            let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random), S::first(1));
             // Each of them is rounded three times at most.
             let product = scalar(sample.inverse_pdf) * scalar(pdf(&lights, k, facing_up(v), &met()));
             assert!((product - 1.0).abs() < 6.0 * 2f64.powi(-24), "distance {distance}: {product}");
@@ -150,8 +151,10 @@ fn directions_are_uniform_in_the_cone() {
         let mut cells = vec![0u64; 128];
         for _ in 0..50_000 {
             let only = Choice { light: <S as Lanes>::U::splat(0), probability: S::splat(1.0), environment: near() };
-            let wi =
-                point(sample(&lights, &only, V3::splat(p.to_array()), number(&mut random), number(&mut random)).wi);
+            let wi = point(
+                sample(&lights, &only, V3::splat(p.to_array()), number(&mut random), number(&mut random), S::first(1))
+                    .wi,
+            );
             // 1 - cos from the chord, which keeps its digits.
             let share = 0.5 * (wi - axis).length_squared() / opening;
             let turn = libm::atan2(wi.dot(y), wi.dot(x)).rem_euclid(TAU) / TAU;
@@ -215,7 +218,7 @@ fn densities_hold_the_choice_of_the_light() {
             let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
             assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at, &met()))), "light {k} from {p:?}");
             let choice = Choice { light, probability: chance, environment: near() };
-            let sample = sample(&table, &choice, v, number(&mut random), number(&mut random));
+            let sample = sample(&table, &choice, v, number(&mut random), number(&mut random), S::first(1));
             assert!(is_right(1.0 / scalar(sample.inverse_pdf)), "light {k} from {p:?}, sampled");
         }
     }

@@ -315,6 +315,12 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         RoughSample { wi, weight, pdf }
     }
 
+    /// Rough lanes where [`Bsdf::sample_rough`] takes the glossy lobe.
+    #[inline(always)]
+    pub fn takes_glossy(&self, lobe: F) -> F::M {
+        (self.blinn_phong & lobe.lt(self.lobe().probability())) | (self.glossy & self.metal)
+    }
+
     /// Glossy lanes whose lobe is so narrow that photons go on by it (see `engine::guide`).
     #[inline(always)]
     pub fn narrow(&self) -> F::M {

@@ -1,4 +1,6 @@
-//! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint.
+//! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint; what a picture tells of itself.
+
+mod picture;
 
 use crate::args::InfoArgs;
 use crate::checkpoint::{self, is_film};
@@ -18,6 +20,9 @@ use tracer_core::{Crop, FilmError, SavedFilm, Scene};
 pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     if !is_dash(&args.scene.scene) && is_film(&args.scene.scene) {
         return of_checkpoint(args);
+    }
+    if let Some(told) = picture::told(&args.scene.scene)? {
+        return picture::of_picture(args, &told);
     }
     let desc = load(&args.scene, shell)?;
     let text = if args.resolved {
@@ -91,7 +96,8 @@ impl Facts {
         let meshes = self.count(|object| matches!(object, Object::Mesh(_)));
         let flat_sided = self.count(|object| matches!(object, Object::Rectangle(_) | Object::Box(_)));
         let made = self.count(|object| tracer_core::mesh::shapes::of_object(object).is_some());
-        let curved = total - spheres - meshes - flat_sided - made;
+        let planes = self.count(|object| matches!(object, Object::Plane(_)));
+        let curved = total - spheres - planes - meshes - flat_sided - made;
         let tree = s.tree.map_or("none needed".to_owned(), |tree| {
             let (nodes, leaves) = (counted(tree.nodes as usize, "node"), counted(tree.leaves as usize, "leaf"));
             format!("{nodes}, {leaves}, {} deep, {}", tree.depth, human(tree.bytes))
@@ -105,8 +111,12 @@ impl Facts {
             format!("{} samples, {} bounces, seed {}", self.scene.samples, self.scene.max_bounces, self.scene.seed),
         );
         line("objects", {
-            let other =
-                [(flat_sided, "flat-sided shape"), (curved, "other curved shape"), (made, "triangulated shape")];
+            let other = [
+                (planes, "plane"),
+                (flat_sided, "flat-sided shape"),
+                (curved, "other curved shape"),
+                (made, "triangulated shape"),
+            ];
             let other = other.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what));
             let spheres = std::iter::once(counted(spheres, "sphere"));
             let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();
@@ -131,7 +141,13 @@ impl Facts {
         for (k, file) in asset_files(&self.desc).iter().enumerate() {
             line(if k == 0 { "files" } else { "" }, file.display().to_string());
         }
-        line("bounds", format!("{} to {}", point(s.bounds.min), point(s.bounds.max)));
+        line(
+            "bounds",
+            match s.bounds {
+                Some(bounds) => format!("{} to {}", point(bounds.min), point(bounds.max)),
+                None => "none: planes have no end".to_owned(),
+            },
+        );
         line("tree", tree);
         line(
             "memory",
@@ -172,7 +188,7 @@ impl Facts {
             "materials": s.materials,
             "material_names": self.desc.materials.iter().map(|named| &*named.name.value).collect::<Vec<_>>(),
             "textures": s.textures,
-            "bounds": { "min": s.bounds.min, "max": s.bounds.max },
+            "bounds": s.bounds.map(|bounds| json!({ "min": bounds.min, "max": bounds.max })),
             "tree": s.tree.map(|tree| json!({
                 "nodes": tree.nodes,
                 "leaves": tree.leaves,
