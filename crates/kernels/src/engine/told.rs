@@ -219,7 +219,8 @@ impl<'s> Vertex<'s> {
         let lights = &self.scene.tables.lights;
         let direction = V3::<One>::splat(self.ray.direction);
         let s = &self.surface;
-        let met = LightHit { distance: One::splat(self.ray.t), cos: direction.dot(s.ng).abs(), front: s.outside };
+        let (distance, cos) = (One::splat(self.ray.t), direction.dot(s.ng).abs());
+        let met = LightHit { direction, distance, cos, front: s.outside, lanes: One::first(1) };
         let at = Receiver { p: V3::splat(self.ray.origin), n: V3::splat(self.ray.normal) };
         let pdf = number(lights::pdf(lights, light, at, &met));
         Some(LightMet {
@@ -240,7 +241,7 @@ impl<'s> Vertex<'s> {
         let s = &self.surface;
         let choice = lights::choose(lights, Receiver { p: s.start, n: s.ns }, c(u), c(v));
         let [u, v] = draw.points(Purpose::Light(draw.vertex));
-        let l = lights::sample(lights, &choice, s.start, c(u), c(v));
+        let l = lights::sample(lights, &choice, s.start, c(u), c(v), One::first(1));
         let cos = s.ns.dot(l.wi);
         let wo = V3::<One>::splat(self.ray.direction).neg();
         let (f, pdf) = self.bsdf.evaluate(s.ns, wo, l.wi, cos);

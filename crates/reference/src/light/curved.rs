@@ -33,6 +33,7 @@ fn parts(unit: &UnitShape) -> Vec<Part> {
             Part::Zone { z: half, from: 0.0, to: 1.0 },
             Part::Side { heights: [-half, half], radii: [1.0; 2] },
         ],
+        UnitShape::Plane => unreachable!("what has no end does not shine"),
     }
 }
 

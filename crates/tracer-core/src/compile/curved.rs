@@ -130,7 +130,7 @@ pub fn load(
         let Some(Written { unit, local, noun }) = written(&object.value) else { continue };
         let (transform, placements) = (object.value.transform(), object.value.placements());
         let material = builder.resolve(object.value.material(), number, diagnostics);
-        let emissive = builder.emissive(material).cloned();
+        let mut emissive = builder.emissive(material).cloned();
         let faults = object.value.faults(object.span);
         if !faults.is_empty() {
             diagnostics.extend(faults);
@@ -150,6 +150,7 @@ pub fn load(
                 MaterialRef::Default => object.span,
             };
             diagnostics.push(cannot_shine(&format!("a {noun}"), span));
+            emissive = None;
         }
         all.push(Curved { number, unit, maps, local, material, emissive, plain });
     }

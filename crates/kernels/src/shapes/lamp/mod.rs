@@ -130,6 +130,7 @@ impl Lamp {
                 Form::Cone { side, caps: caps.then(|| [cap(-half, first), cap(half, last)]) }
             }
             UnitShape::Capsule { half } => Form::Capsule(Side { middle: 1.0, slope: 0.0, half: held(half) }),
+            UnitShape::Plane => unreachable!("what has no end does not shine"),
         };
         let of_side =
             |side: &Side| Share { own: side.area(), area: area::of_side(&map, side.middle, side.slope, side.half) };
@@ -408,6 +409,7 @@ impl UnitShape {
                 1.004 * (0..64).map(of_rim).fold(0.0, f64::max)
             }
             UnitShape::Capsule { half } => area::reach_of_ball(m) + half * m.z_axis.length(),
+            UnitShape::Plane => f64::INFINITY,
         }
     }
 }

@@ -185,7 +185,7 @@ mod tests {
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 16] = [
+    const HANDED_ON: [(&str, &[&str], bool); 17] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),

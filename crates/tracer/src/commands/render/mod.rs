@@ -11,7 +11,7 @@ pub(super) mod repeat;
 pub(super) mod rescue;
 
 use crate::args::{IntegratorName, RenderArgs};
-use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told, provenance};
+use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};

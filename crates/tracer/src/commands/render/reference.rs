@@ -119,8 +119,11 @@ fn rendered(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Option<(Vec<[f64;
     Some((pixels.into_iter().map(|[mean, _]| mean).collect(), relative))
 }
 
-/// What the pictures tell of themselves.
+/// What the pictures tell of themselves, if they may; no record: `repro` is for what the engine makes.
 fn provenance(desc: &SceneDesc, args: &RenderArgs) -> Provenance {
+    if args.no_metadata {
+        return Provenance::hidden();
+    }
     let source = desc.sources.first();
     let setting = |name, value: String| Setting { name, value };
     let mut settings = vec![
@@ -135,5 +138,6 @@ fn provenance(desc: &SceneDesc, args: &RenderArgs) -> Provenance {
     settings.extend(args.scene.sets().into_iter().map(|set| setting("set", set)));
     let name = source.map_or("", |source| source.name.as_str());
     let name = std::path::Path::new(name).file_name().unwrap_or(name.as_ref()).to_string_lossy().into_owned();
-    Provenance { scene_name: name, scene_text: source.map_or(String::new(), |source| source.text.clone()), settings }
+    let scene_text = source.map_or(String::new(), |source| source.text.clone());
+    Provenance { scene_name: name, scene_text, settings, ..Provenance::default() }
 }
