@@ -202,8 +202,7 @@ fn starts_have_their_density() {
                 assert!((normals * mean).distance(normal) < 1e-9, "{what}");
                 continue;
             }
-            UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) => continue,
-            UnitShape::Cone { caps: false, .. } => continue,
+            UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) | UnitShape::Cone { caps: false, .. } => continue,
             UnitShape::Cone { radii: [a, b], .. } => TAU / 3.0 * (a * a + a * b + b * b),
             UnitShape::Capsule { half } => 2.0 * TAU / 3.0 + TAU * half,
         };
