@@ -343,8 +343,8 @@ impl Built {
         let placed: Vec<bvh::ShapeGeometry> = bounded.iter().map(Shape::geometry).collect();
         let planes: Vec<Row> = endless.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
-        let (shapes, parts, planes) = (&placed[..], &solids.parts[..], &planes[..]);
-        let geometry = bvh::Geometry { spheres, shapes, first_shape, parts, planes, meshes, instances };
+        let (parts, planes) = (&solids.parts[..], &planes[..]);
+        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, parts, planes, meshes, instances };
         build_tree(kept, &geometry, acceleration, &self.ranks(shapes, materials))
     }
 
