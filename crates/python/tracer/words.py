@@ -9,7 +9,8 @@ Made of the schema (`tracer schema`); `UPDATE_EXPECT=1 cargo test -p tracer-pyth
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, TypedDict
+from typing import Union as Either
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from ._assets import Mesh as MeshArrays
 
     Array = npt.NDArray[Any]
-    File = Union[str, "os.PathLike[str]", Array, MeshArrays]
+    File = Either[str, "os.PathLike[str]", Array, MeshArrays]
 else:
     Array = Any
     File = Any
@@ -33,10 +34,11 @@ CheckerboardItem = TypedDict("CheckerboardItem", {"Checkerboard": "Checkerboard"
 ConductorItem = TypedDict("ConductorItem", {"Conductor": "Conductor"})
 ConeItem = TypedDict("ConeItem", {"Cone": "Cone"})
 CylinderItem = TypedDict("CylinderItem", {"Cylinder": "Cylinder"})
+DifferenceItem = TypedDict("DifferenceItem", {"Difference": "Difference"})
 DiffuseItem = TypedDict("DiffuseItem", {"Diffuse": "Diffuse"})
 DiskItem = TypedDict("DiskItem", {"Disk": "Disk"})
 DotsItem = TypedDict("DotsItem", {"Dots": "Dots"})
-DropToItem = TypedDict("DropToItem", {"DropTo": "Union[DropTo, float, str]"})
+DropToItem = TypedDict("DropToItem", {"DropTo": "Either[DropTo, float, str]"})
 EmissiveItem = TypedDict("EmissiveItem", {"Emissive": "Emissive"})
 EnvironmentItem = TypedDict("EnvironmentItem", {"Environment": "Environment"})
 ExtrudeItem = TypedDict("ExtrudeItem", {"Extrude": "Extrude"})
@@ -48,6 +50,7 @@ GridItem = TypedDict("GridItem", {"Grid": "Grid"})
 GroupItem = TypedDict("GroupItem", {"Group": "Group"})
 HeightFieldItem = TypedDict("HeightFieldItem", {"HeightField": "HeightField"})
 IncludeItem = TypedDict("IncludeItem", {"Include": "Include"})
+IntersectionItem = TypedDict("IntersectionItem", {"Intersection": "Intersection"})
 LatheItem = TypedDict("LatheItem", {"Lathe": "Lathe"})
 LinesItem = TypedDict("LinesItem", {"Lines": "Lines"})
 MarbleItem = TypedDict("MarbleItem", {"Marble": "Marble"})
@@ -64,16 +67,17 @@ RectangleItem = TypedDict("RectangleItem", {"Rectangle": "Rectangle"})
 RepeatItem = TypedDict("RepeatItem", {"Repeat": "Repeat"})
 RingItem = TypedDict("RingItem", {"Ring": "Ring"})
 RotateItem = TypedDict("RotateItem", {"Rotate": "Rotate"})
-ScaleItem = TypedDict("ScaleItem", {"Scale": "Union[Scale, float, str, Sequence[Union[float, str]], Array]"})
+ScaleItem = TypedDict("ScaleItem", {"Scale": "Either[Scale, float, str, Sequence[Either[float, str]], Array]"})
 ScatterItem = TypedDict("ScatterItem", {"Scatter": "Scatter"})
 SphereItem = TypedDict("SphereItem", {"Sphere": "Sphere"})
 SphereLightItem = TypedDict("SphereLightItem", {"SphereLight": "SphereLight"})
 TextureItem = TypedDict("TextureItem", {"Texture": "Texture"})
 ThinLensItem = TypedDict("ThinLensItem", {"ThinLens": "ThinLens"})
 TorusItem = TypedDict("TorusItem", {"Torus": "Torus"})
-TranslateItem = TypedDict("TranslateItem", {"Translate": "Union[Sequence[Union[float, str]], Array, str]"})
+TranslateItem = TypedDict("TranslateItem", {"Translate": "Either[Sequence[Either[float, str]], Array, str]"})
 TransparentItem = TypedDict("TransparentItem", {"Transparent": "Transparent"})
 TubeItem = TypedDict("TubeItem", {"Tube": "Tube"})
+UnionItem = TypedDict("UnionItem", {"Union": "Union"})
 UvItem = TypedDict("UvItem", {"Uv": "Uv"})
 VoronoiItem = TypedDict("VoronoiItem", {"Voronoi": "Voronoi"})
 WoodItem = TypedDict("WoodItem", {"Wood": "Wood"})
@@ -83,7 +87,7 @@ _PickRequired = TypedDict(
     "_PickRequired",
     {
     "from": "Sequence[Any]",
-    "index": "Union[int, str, PickItem]",
+    "index": "Either[int, str, PickItem]",
     },
 )
 _PickFields = TypedDict("_PickFields", {
@@ -99,7 +103,7 @@ class Pick(_PickRequired, _PickFields, total=False):
 
 
 class _RepeatRequired(TypedDict):
-    count: Union[int, str, PickItem]
+    count: Either[int, str, PickItem]
     items: Sequence[Any]
 
 
@@ -112,7 +116,7 @@ class Repeat(_RepeatRequired, total=False):
     items: What is put into the list each time.
     """
 
-    index: Union[str, PickItem]
+    index: Either[str, PickItem]
     vars: Dict[str, Any]
 
 
@@ -124,9 +128,9 @@ class Animation(TypedDict, total=False):
     frame: The frame that is seen unless the command line names others (`--frame 12`, `--frames 0-47`).
     """
 
-    frames: Union[int, str, PickItem]
-    fps: Union[float, str, PickItem]
-    frame: Union[int, str, PickItem]
+    frames: Either[int, str, PickItem]
+    fps: Either[float, str, PickItem]
+    frame: Either[int, str, PickItem]
 
 
 class Camera(TypedDict, total=False):
@@ -145,25 +149,25 @@ class Camera(TypedDict, total=False):
     projection: How directions become places in the picture.
     """
 
-    position: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    look_at: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    up: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    position: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    look_at: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    up: Either[Sequence[Either[float, str]], Array, str, PickItem]
     matrix: Any
-    fov: Union[float, str, PickItem]
-    fov_axis: Union[FovAxis, PickItem]
+    fov: Either[float, str, PickItem]
+    fov_axis: Either[FovAxis, PickItem]
     focal_length: Any
-    sensor_width: Union[float, str, PickItem]
-    shift: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    sensor_width: Either[float, str, PickItem]
+    shift: Either[Sequence[Either[float, str]], Array, str, PickItem]
     near: Any
-    projection: Union[Projection, PickItem]
+    projection: Either[Projection, PickItem]
 
 
 FovAxis = Literal["Vertical", "Horizontal", "Diagonal", "Smaller", "Larger"]
 
-Projection = Union[Literal["Perspective", "Panorama"], "OrthographicItem", "FisheyeItem"]
+Projection = Either[Literal["Perspective", "Panorama"], "OrthographicItem", "FisheyeItem"]
 
 class _OrthographicRequired(TypedDict):
-    height: Union[float, str, PickItem]
+    height: Either[float, str, PickItem]
 
 
 class Orthographic(_OrthographicRequired, total=False):
@@ -180,8 +184,8 @@ class Fisheye(TypedDict, total=False):
     mapping: From the angle to the view direction to the distance from the middle.
     """
 
-    fov: Union[float, str, PickItem]
-    mapping: Union[FisheyeMapping, PickItem]
+    fov: Either[float, str, PickItem]
+    mapping: Either[FisheyeMapping, PickItem]
 
 
 FisheyeMapping = Literal["Equidistant", "Equisolid", "Stereographic", "Orthographic"]
@@ -193,8 +197,8 @@ class Image(TypedDict, total=False):
     height: Pixels down. Unit: pixels.
     """
 
-    width: Union[int, str, PickItem]
-    height: Union[int, str, PickItem]
+    width: Either[int, str, PickItem]
+    height: Either[int, str, PickItem]
 
 
 class Render(TypedDict, total=False):
@@ -213,14 +217,14 @@ class Render(TypedDict, total=False):
     time: The rendering ends when the program has run so long. `samples` are the most. `None`: all samples. Unit: seconds.
     """
 
-    samples: Union[int, str, PickItem]
-    max_bounces: Union[int, str, PickItem]
-    seed: Union[int, str, PickItem]
-    acceleration: Union[Acceleration, PickItem]
-    integrator: Union[Integrator, PickItem]
-    reuse: Union[Reuse, PickItem]
-    caustics: Union[Caustics, PickItem]
-    indirect: Union[Indirect, PickItem]
+    samples: Either[int, str, PickItem]
+    max_bounces: Either[int, str, PickItem]
+    seed: Either[int, str, PickItem]
+    acceleration: Either[Acceleration, PickItem]
+    integrator: Either[Integrator, PickItem]
+    reuse: Either[Reuse, PickItem]
+    caustics: Either[Caustics, PickItem]
+    indirect: Either[Indirect, PickItem]
     clamp: Any
     noise: Any
     time: Any
@@ -228,7 +232,7 @@ class Render(TypedDict, total=False):
 
 Acceleration = Any
 
-Integrator = Union[Literal["Full", "Path", "Direct"], "AmbientOcclusionItem"]
+Integrator = Either[Literal["Full", "Path", "Direct"], "AmbientOcclusionItem"]
 
 class AmbientOcclusion(TypedDict, total=False):
     """No light at all: how much of the half space above each surface that the camera sees is free, weighted by the cosine. 1 is free, 0 all closed; where nothing is seen it is 0. Materials and lights do not matter, glass and lamps are in the way like all else.
@@ -254,10 +258,10 @@ class Effects(TypedDict, total=False):
     tone_map: Curve from exposed radiance to display.
     """
 
-    antialiasing: Union[PixelFilter, PickItem]
-    depth_of_field: Union[DepthOfField, PickItem]
-    exposure: Union[float, str, PickItem]
-    tone_map: Union[ToneMap, PickItem]
+    antialiasing: Either[PixelFilter, PickItem]
+    depth_of_field: Either[DepthOfField, PickItem]
+    exposure: Either[float, str, PickItem]
+    tone_map: Either[ToneMap, PickItem]
 
 
 PixelFilter = Any
@@ -268,7 +272,7 @@ class Gaussian(TypedDict, total=False):
     sigma: Standard deviation in pixels.
     """
 
-    sigma: Union[float, str, PickItem]
+    sigma: Either[float, str, PickItem]
 
 
 class BlackmanHarris(TypedDict, total=False):
@@ -277,13 +281,13 @@ class BlackmanHarris(TypedDict, total=False):
     radius: Half width in pixels.
     """
 
-    radius: Union[float, str, PickItem]
+    radius: Either[float, str, PickItem]
 
 
 DepthOfField = Any
 
 class _ThinLensRequired(TypedDict):
-    aperture: Union[float, str, PickItem]
+    aperture: Either[float, str, PickItem]
 
 
 class ThinLens(_ThinLensRequired, total=False):
@@ -299,9 +303,9 @@ class ThinLens(_ThinLensRequired, total=False):
 
     focus_distance: Any
     focus_on: Any
-    blades: Union[int, str, PickItem]
-    rotation: Union[float, str, PickItem]
-    tilt: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    blades: Either[int, str, PickItem]
+    rotation: Either[float, str, PickItem]
+    tilt: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 ToneMap = Any
@@ -317,12 +321,12 @@ class Output(TypedDict, total=False):
     marks: Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how far away it is, and whether something hides it: for labels that are laid over the picture.
     """
 
-    layers: Sequence[Union[Layer, RepeatItem, PickItem]]
-    alpha: Union[bool, str, PickItem]
+    layers: Sequence[Either[Layer, RepeatItem, PickItem]]
+    alpha: Either[bool, str, PickItem]
     backdrop: Any
-    cryptomatte: Sequence[Union[Matte, RepeatItem, PickItem]]
-    masks: Sequence[Union[str, RepeatItem, PickItem]]
-    marks: Dict[str, Union[Sequence[Union[float, str]], Array, str]]
+    cryptomatte: Sequence[Either[Matte, RepeatItem, PickItem]]
+    masks: Sequence[Either[str, RepeatItem, PickItem]]
+    marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
 Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves"]
@@ -345,17 +349,17 @@ class Environment(_EnvironmentRequired, total=False):
     camera_visible: Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
     """
 
-    scale: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    rotation: Union[float, str, PickItem]
-    up: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    camera_visible: Union[bool, str, PickItem]
+    scale: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    rotation: Either[float, str, PickItem]
+    up: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    camera_visible: Either[bool, str, PickItem]
 
 
 Light = SphereLightItem
 
 class _SphereLightRequired(TypedDict):
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    radius: Union[float, str, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    radius: Either[float, str, PickItem]
 
 
 class SphereLight(_SphereLightRequired, total=False):
@@ -375,7 +379,7 @@ class SphereLight(_SphereLightRequired, total=False):
     name: Any
 
 
-Material = Union["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
+Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
 
 class Diffuse(TypedDict, total=False):
     """Lambert: albedo / pi.
@@ -383,10 +387,10 @@ class Diffuse(TypedDict, total=False):
     albedo: Reflected share per channel.
     """
 
-    albedo: Union[float, Sequence[Union[float, str]], Array, str, Pattern, PickItem]
+    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
-Pattern = Union["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem"]
+Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem"]
 
 class _TextureRequired(TypedDict):
     file: File
@@ -401,9 +405,9 @@ class Texture(_TextureRequired, total=False):
     mapping: Where it lies.
     """
 
-    filter: Union[TextureFilter, PickItem]
-    wrap: Union[TextureWrap, PickItem]
-    mapping: Union[Mapping, PickItem]
+    filter: Either[TextureFilter, PickItem]
+    wrap: Either[TextureWrap, PickItem]
+    mapping: Either[Mapping, PickItem]
 
 
 TextureFilter = Literal["Bilinear", "Nearest"]
@@ -420,9 +424,9 @@ class Uv(TypedDict, total=False):
     offset: Added at last.
     """
 
-    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
-    rotation: Union[float, str, PickItem]
-    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    scale: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    rotation: Either[float, str, PickItem]
+    offset: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class Checkerboard(TypedDict, total=False):
@@ -433,12 +437,12 @@ class Checkerboard(TypedDict, total=False):
     mapping: How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along a unit of length.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
-SolidMapping = Union["UvItem", "ObjectItem", "WorldItem"]
+SolidMapping = Either["UvItem", "ObjectItem", "WorldItem"]
 
 class ObjectKind(TypedDict, total=False):
     """By the coordinates that the shape is written in, before its `transform` and `placements` and those of groups: the texture goes with the object, which is turned to turn it. A `center` other than the origin is such a coordinate, too.
@@ -447,8 +451,8 @@ class ObjectKind(TypedDict, total=False):
     offset: Added at last.
     """
 
-    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
-    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    scale: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    offset: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class World(TypedDict, total=False):
@@ -458,8 +462,8 @@ class World(TypedDict, total=False):
     offset: Added at last.
     """
 
-    scale: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
-    offset: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    scale: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    offset: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class Lines(TypedDict, total=False):
@@ -472,11 +476,11 @@ class Lines(TypedDict, total=False):
     mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    width: Union[float, str, PickItem]
-    along: Union[LinesAlong, PickItem]
-    mapping: Union[Mapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    width: Either[float, str, PickItem]
+    along: Either[LinesAlong, PickItem]
+    mapping: Either[Mapping, PickItem]
 
 
 LinesAlong = Literal["Both", "U", "V"]
@@ -490,10 +494,10 @@ class Dots(TypedDict, total=False):
     mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    radius: Union[float, str, PickItem]
-    mapping: Union[Mapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    radius: Either[float, str, PickItem]
+    mapping: Either[Mapping, PickItem]
 
 
 class Gradient(TypedDict, total=False):
@@ -505,10 +509,10 @@ class Gradient(TypedDict, total=False):
     mapping: How it lies.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    axis: Union[GradientAxis, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    axis: Either[GradientAxis, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
 GradientAxis = Literal["Y", "X", "Z", "Radial"]
@@ -525,13 +529,13 @@ class Noise(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` puts four cells of noise along a unit of length.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    kind: Union[NoiseKind, PickItem]
-    octaves: Union[int, str, PickItem]
-    lacunarity: Union[float, str, PickItem]
-    gain: Union[float, str, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    kind: Either[NoiseKind, PickItem]
+    octaves: Either[int, str, PickItem]
+    lacunarity: Either[float, str, PickItem]
+    gain: Either[float, str, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
 NoiseKind = Literal["Fbm", "Perlin", "Turbulence"]
@@ -545,10 +549,10 @@ class Wood(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    distortion: Union[float, str, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    distortion: Either[float, str, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
 class Marble(TypedDict, total=False):
@@ -560,10 +564,10 @@ class Marble(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    distortion: Union[float, str, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    distortion: Either[float, str, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
 class Voronoi(TypedDict, total=False):
@@ -576,11 +580,11 @@ class Voronoi(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` puts four cells along a unit of length.
     """
 
-    a: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    b: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
-    feature: Union[VoronoiFeature, PickItem]
-    jitter: Union[float, str, PickItem]
-    mapping: Union[SolidMapping, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    feature: Either[VoronoiFeature, PickItem]
+    jitter: Either[float, str, PickItem]
+    mapping: Either[SolidMapping, PickItem]
 
 
 VoronoiFeature = Literal["F1", "F2MinusF1", "Cell"]
@@ -591,11 +595,11 @@ class Mirror(TypedDict, total=False):
     reflectance: Reflected share per channel.
     """
 
-    reflectance: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    reflectance: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class _TransparentRequired(TypedDict):
-    ior: Union[float, str, PickItem]
+    ior: Either[float, str, PickItem]
 
 
 class Transparent(_TransparentRequired, total=False):
@@ -605,12 +609,12 @@ class Transparent(_TransparentRequired, total=False):
     transmittance: Share of refracted light that passes each surface, per channel.
     """
 
-    transmittance: Union[float, Sequence[Union[float, str]], Array, str, PickItem]
+    transmittance: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class _BlinnPhongRequired(TypedDict):
-    exponent: Union[float, str, PickItem]
-    specular: Union[float, str, PickItem]
+    exponent: Either[float, str, PickItem]
+    specular: Either[float, str, PickItem]
 
 
 class BlinnPhong(_BlinnPhongRequired, total=False):
@@ -622,8 +626,8 @@ class BlinnPhong(_BlinnPhongRequired, total=False):
     energy_conserving: The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
     """
 
-    albedo: Union[float, Sequence[Union[float, str]], Array, str, Pattern, PickItem]
-    energy_conserving: Union[bool, str, PickItem]
+    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    energy_conserving: Either[bool, str, PickItem]
 
 
 class Conductor(TypedDict, total=False):
@@ -643,8 +647,8 @@ class Conductor(TypedDict, total=False):
     k: Any
     reflectance: Any
     edge_tint: Any
-    roughness: Union[float, str, PickItem]
-    multiple_scattering: Union[bool, str, PickItem]
+    roughness: Either[float, str, PickItem]
+    multiple_scattering: Either[bool, str, PickItem]
 
 
 Metal = Literal["Silver", "Gold", "Copper", "Aluminum", "Iron", "Chromium", "Nickel", "Titanium", "Brass", "Platinum", "Steel"]
@@ -659,14 +663,14 @@ class Emissive(TypedDict, total=False):
 
     radiance: Any
     power: Any
-    two_sided: Union[bool, str, PickItem]
+    two_sided: Either[bool, str, PickItem]
 
 
-Object = Union["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "GroupItem", "IncludeItem"]
+Object = Either["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "UnionItem", "IntersectionItem", "DifferenceItem", "GroupItem", "IncludeItem"]
 
 class _SphereRequired(TypedDict):
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    radius: Union[float, str, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    radius: Either[float, str, PickItem]
 
 
 class Sphere(_SphereRequired, total=False):
@@ -680,16 +684,16 @@ class Sphere(_SphereRequired, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
-Transform = Union["TranslateItem", "ScaleItem", "RotateItem", "DropToItem", "MatrixItem", "AlignItem", "FitToItem"]
+Transform = Either["TranslateItem", "ScaleItem", "RotateItem", "DropToItem", "MatrixItem", "AlignItem", "FitToItem"]
 
 class _ScaleRequired(TypedDict):
-    factor: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
+    factor: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
 
 
 class Scale(_ScaleRequired, total=False):
@@ -703,8 +707,8 @@ class Scale(_ScaleRequired, total=False):
 
 
 class _RotateRequired(TypedDict):
-    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    degrees: Union[float, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    degrees: Either[float, str, PickItem]
 
 
 class Rotate(_RotateRequired, total=False):
@@ -719,7 +723,7 @@ class Rotate(_RotateRequired, total=False):
 
 
 class _DropToRequired(TypedDict):
-    y: Union[float, str, PickItem]
+    y: Either[float, str, PickItem]
 
 
 class DropTo(_DropToRequired, total=False):
@@ -730,7 +734,7 @@ class DropTo(_DropToRequired, total=False):
 
 
 class _MatrixRequired(TypedDict):
-    rows: Union[Sequence[Union[Sequence[Union[float, str]], Array, str]], Array, PickItem]
+    rows: Either[Sequence[Either[Sequence[Either[float, str]], Array, str]], Array, PickItem]
 
 
 class Matrix(_MatrixRequired, total=False):
@@ -743,11 +747,11 @@ class Matrix(_MatrixRequired, total=False):
 _AlignRequired = TypedDict(
     "_AlignRequired",
     {
-    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "to": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
     },
 )
 _AlignFields = TypedDict("_AlignFields", {
-    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "from": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
     "about": "Any",
 }, total=False)
 
@@ -771,17 +775,17 @@ class FitTo(TypedDict, total=False):
     about: Fixed point; `None`: the shape's middle (of meshes the mean of the vertices), in `placements` the origin. Unit: the scene's unit.
     """
 
-    height: Union[float, str, PickItem]
-    width: Union[float, str, PickItem]
-    depth: Union[float, str, PickItem]
-    size: Union[float, str, PickItem]
+    height: Either[float, str, PickItem]
+    width: Either[float, str, PickItem]
+    depth: Either[float, str, PickItem]
+    size: Either[float, str, PickItem]
     about: Any
 
 
-PlacementPattern = Union["GridItem", "RingItem", "ScatterItem"]
+PlacementPattern = Either["GridItem", "RingItem", "ScatterItem"]
 
 class _GridRequired(TypedDict):
-    count: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    count: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class Grid(_GridRequired, total=False):
@@ -791,12 +795,12 @@ class Grid(_GridRequired, total=False):
     spacing: From one to the next along x, y and z. Unit: the scene's unit.
     """
 
-    spacing: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    spacing: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class _RingRequired(TypedDict):
-    count: Union[int, str, PickItem]
-    radius: Union[float, str, PickItem]
+    count: Either[int, str, PickItem]
+    radius: Either[float, str, PickItem]
 
 
 class Ring(_RingRequired, total=False):
@@ -809,15 +813,15 @@ class Ring(_RingRequired, total=False):
     turn: Whether copies turn with the circle, as the seats of a carousel do; else all look the same way.
     """
 
-    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    start: Union[float, str, PickItem]
-    turn: Union[bool, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    start: Either[float, str, PickItem]
+    turn: Either[bool, str, PickItem]
 
 
 class _ScatterRequired(TypedDict):
-    count: Union[int, str, PickItem]
-    min: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    max: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    count: Either[int, str, PickItem]
+    min: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    max: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class Scatter(_ScatterRequired, total=False):
@@ -832,10 +836,10 @@ class Scatter(_ScatterRequired, total=False):
     scale: The least and the greatest factor of the copies' sizes.
     """
 
-    seed: Union[int, str, PickItem]
+    seed: Either[int, str, PickItem]
     spacing: Any
     turn: Any
-    scale: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    scale: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class Plane(TypedDict, total=False):
@@ -849,11 +853,11 @@ class Plane(TypedDict, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    point: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    point: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    normal: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
@@ -869,12 +873,12 @@ class Rectangle(TypedDict, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    size: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    normal: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    size: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
@@ -889,11 +893,11 @@ class Box(TypedDict, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    size: Union[float, str, Sequence[Union[float, str]], Array, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    size: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
@@ -910,29 +914,29 @@ class Disk(TypedDict, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    normal: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    radius: Union[float, str, PickItem]
-    inner_radius: Union[float, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    normal: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    radius: Either[float, str, PickItem]
+    inner_radius: Either[float, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 _CylinderRequired = TypedDict(
     "_CylinderRequired",
     {
-    "radius": "Union[float, str, PickItem]",
+    "radius": "Either[float, str, PickItem]",
     },
 )
 _CylinderFields = TypedDict("_CylinderFields", {
-    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "caps": "Union[bool, str, PickItem]",
-    "material": "Union[str, Material, PickItem]",
-    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
-    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "from": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "to": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "caps": "Either[bool, str, PickItem]",
+    "material": "Either[str, Material, PickItem]",
+    "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
+    "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -954,17 +958,17 @@ class Cylinder(_CylinderRequired, _CylinderFields, total=False):
 _ConeRequired = TypedDict(
     "_ConeRequired",
     {
-    "radius": "Union[float, str, PickItem]",
+    "radius": "Either[float, str, PickItem]",
     },
 )
 _ConeFields = TypedDict("_ConeFields", {
-    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "tip_radius": "Union[float, str, PickItem]",
-    "caps": "Union[bool, str, PickItem]",
-    "material": "Union[str, Material, PickItem]",
-    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
-    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "from": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "to": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "tip_radius": "Either[float, str, PickItem]",
+    "caps": "Either[bool, str, PickItem]",
+    "material": "Either[str, Material, PickItem]",
+    "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
+    "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -987,15 +991,15 @@ class Cone(_ConeRequired, _ConeFields, total=False):
 _CapsuleRequired = TypedDict(
     "_CapsuleRequired",
     {
-    "radius": "Union[float, str, PickItem]",
+    "radius": "Either[float, str, PickItem]",
     },
 )
 _CapsuleFields = TypedDict("_CapsuleFields", {
-    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "material": "Union[str, Material, PickItem]",
-    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
-    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "from": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "to": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "material": "Either[str, Material, PickItem]",
+    "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
+    "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1014,7 +1018,7 @@ class Capsule(_CapsuleRequired, _CapsuleFields, total=False):
 
 
 class _LatheRequired(TypedDict):
-    profile: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    profile: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
 
 
 class Lathe(_LatheRequired, total=False):
@@ -1029,19 +1033,19 @@ class Lathe(_LatheRequired, total=False):
     name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
     """
 
-    curve: Union[Curve, PickItem]
-    segments: Union[int, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    curve: Either[Curve, PickItem]
+    segments: Either[int, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 Curve = Literal["Linear", "CatmullRom"]
 
 class _ExtrudeRequired(TypedDict):
-    outline: Union[Sequence[Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
-    depth: Union[float, str, PickItem]
+    outline: Either[Sequence[Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    depth: Either[float, str, PickItem]
 
 
 class Extrude(_ExtrudeRequired, total=False):
@@ -1056,16 +1060,16 @@ class Extrude(_ExtrudeRequired, total=False):
     name: What it is called: `--set objects.NAME.depth=2` finds it where no other has this name.
     """
 
-    curve: Union[Curve, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    curve: Either[Curve, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 class _TubeRequired(TypedDict):
-    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
-    radius: Union[float, str, Sequence[Union[float, str, RepeatItem, PickItem]], Array, PickItem]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    radius: Either[float, str, Sequence[Either[float, str, RepeatItem, PickItem]], Array, PickItem]
 
 
 class Tube(_TubeRequired, total=False):
@@ -1082,18 +1086,18 @@ class Tube(_TubeRequired, total=False):
     name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
     """
 
-    curve: Union[Curve, PickItem]
-    closed: Union[bool, str, PickItem]
-    segments: Union[int, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    curve: Either[Curve, PickItem]
+    closed: Either[bool, str, PickItem]
+    segments: Either[int, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 class _TorusRequired(TypedDict):
-    radius: Union[float, str, PickItem]
-    tube_radius: Union[float, str, PickItem]
+    radius: Either[float, str, PickItem]
+    tube_radius: Either[float, str, PickItem]
 
 
 class Torus(_TorusRequired, total=False):
@@ -1110,30 +1114,30 @@ class Torus(_TorusRequired, total=False):
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    axis: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    segments: Union[int, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    segments: Either[int, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 _ArrowRequired = TypedDict(
     "_ArrowRequired",
     {
-    "radius": "Union[float, str, PickItem]",
+    "radius": "Either[float, str, PickItem]",
     },
 )
 _ArrowFields = TypedDict("_ArrowFields", {
-    "from": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
-    "to": "Union[Sequence[Union[float, str]], Array, str, PickItem]",
+    "from": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
+    "to": "Either[Sequence[Either[float, str]], Array, str, PickItem]",
     "head_radius": "Any",
     "head_length": "Any",
-    "segments": "Union[int, str, PickItem]",
-    "material": "Union[str, Material, PickItem]",
-    "transform": "Sequence[Union[Transform, RepeatItem, PickItem]]",
-    "placements": "Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "segments": "Either[int, str, PickItem]",
+    "material": "Either[str, Material, PickItem]",
+    "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
+    "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1156,7 +1160,7 @@ class Arrow(_ArrowRequired, _ArrowFields, total=False):
 
 class _HeightFieldRequired(TypedDict):
     file: File
-    size: Union[Sequence[Union[float, str]], Array, str, PickItem]
+    size: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
 class HeightField(_HeightFieldRequired, total=False):
@@ -1172,16 +1176,16 @@ class HeightField(_HeightFieldRequired, total=False):
     name: What it is called: `--set objects.NAME.smooth=false` finds it where no other has this name.
     """
 
-    center: Union[Sequence[Union[float, str]], Array, str, PickItem]
-    smooth: Union[bool, str, PickItem]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    smooth: Either[bool, str, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 class _PolygonRequired(TypedDict):
-    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
 
 
 class Polygon(_PolygonRequired, total=False):
@@ -1194,9 +1198,9 @@ class Polygon(_PolygonRequired, total=False):
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name.
     """
 
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
@@ -1215,19 +1219,79 @@ class Mesh(TypedDict, total=False):
     """
 
     file: File
-    points: Union[Sequence[Union[Sequence[Union[float, str]], Array, str, RepeatItem, PickItem]], Array]
-    faces: Union[Sequence[Union[Sequence[Union[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
-    instances: Union[Instances, PickItem]
-    shading: Union[Shading, PickItem]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    instances: Either[Instances, PickItem]
+    shading: Either[Shading, PickItem]
     name: Any
 
 
 Instances = Literal["Auto", "Always", "Never"]
 
 Shading = Literal["Auto", "Smooth", "Flat"]
+
+class _UnionRequired(TypedDict):
+    objects: Sequence[Either[Object, RepeatItem, PickItem]]
+
+
+class Union(_UnionRequired, total=False):
+    """Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
+
+    objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows.
+    material: The material of those shapes in it that have none of their own.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
+    """
+
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class _IntersectionRequired(TypedDict):
+    objects: Sequence[Either[Object, RepeatItem, PickItem]]
+
+
+class Intersection(_IntersectionRequired, total=False):
+    """What closed shapes have in common: of two balls a lens. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
+
+    objects: The shapes, as those of a `Union`. Where surfaces coincide that of the first shows.
+    material: The material of those shapes in it that have none of their own.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by what the boxes of the shapes have in common.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
+    """
+
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
+
+class _DifferenceRequired(TypedDict):
+    objects: Sequence[Either[Object, RepeatItem, PickItem]]
+
+
+class Difference(_DifferenceRequired, total=False):
+    """The first of several closed shapes without the others: a wall with a window, a bowl. Where it is cut the surface is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It cannot shine.
+
+    objects: The shapes, as those of a `Union`: first what is cut, then what is taken away. Where both have a face in one place, and what is taken away lies behind it, it is gone: no skin is left.
+    material: The material of those shapes in it that have none of their own.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the box of the first shape.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
+    """
+
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    name: Any
+
 
 class Group(TypedDict, total=False):
     """Objects and lights that are moved and copied as one. What stands in it may be a group again, sixteen deep.
@@ -1240,11 +1304,11 @@ class Group(TypedDict, total=False):
     name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
     """
 
-    objects: Sequence[Union[Object, RepeatItem, PickItem]]
-    material: Union[str, Material, PickItem]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
-    lights: Sequence[Union[Light, RepeatItem, PickItem]]
+    objects: Sequence[Either[Object, RepeatItem, PickItem]]
+    material: Either[str, Material, PickItem]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    lights: Sequence[Either[Light, RepeatItem, PickItem]]
     name: Any
 
 
@@ -1264,31 +1328,31 @@ class Include(_IncludeRequired, total=False):
     """
 
     vars: Dict[str, Any]
-    materials: Dict[str, Union[str, Material]]
-    transform: Sequence[Union[Transform, RepeatItem, PickItem]]
-    placements: Union[Sequence[Union[Sequence[Union[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    materials: Dict[str, Either[str, Material]]
+    transform: Sequence[Either[Transform, RepeatItem, PickItem]]
+    placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     name: Any
 
 
 _SceneDictRequired = TypedDict(
     "_SceneDictRequired",
     {
-    "objects": "Sequence[Union[Object, RepeatItem, PickItem]]",
+    "objects": "Sequence[Either[Object, RepeatItem, PickItem]]",
     },
 )
 _SceneDictFields = TypedDict("_SceneDictFields", {
-    "version": "Union[int, str, PickItem]",
-    "include": "Sequence[Union[str, RepeatItem, PickItem]]",
+    "version": "Either[int, str, PickItem]",
+    "include": "Sequence[Either[str, RepeatItem, PickItem]]",
     "vars": "Dict[str, Any]",
     "animation": "Animation",
     "cameras": "Dict[str, Camera]",
-    "camera": "Union[str, Camera, PickItem]",
+    "camera": "Either[str, Camera, PickItem]",
     "image": "Image",
     "render": "Render",
     "effects": "Effects",
     "output": "Output",
-    "background": "Union[float, Sequence[Union[float, str]], Array, str, Background, PickItem]",
-    "lights": "Sequence[Union[Light, RepeatItem, PickItem]]",
+    "background": "Either[float, Sequence[Either[float, str]], Array, str, Background, PickItem]",
+    "lights": "Sequence[Either[Light, RepeatItem, PickItem]]",
     "materials": "Dict[str, Material]",
     "$schema": "str",
 }, total=False)
