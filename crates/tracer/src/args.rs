@@ -32,7 +32,7 @@ use std::time::Duration;
 use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
-More: inspect, repro, bench-acceleration, bench-figures, lsp, schema, completions, man
+More: inspect repro bench-acceleration bench-figures lsp schema completions man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100

@@ -195,7 +195,7 @@ mod tests {
     fn what_help_hides_its_last_lines_name() {
         let help = command().render_help().to_string();
         let more = help.lines().find_map(|line| line.strip_prefix("More: ")).expect("a line of the other commands");
-        assert!(more.split(", ").eq(MORE), "{more}");
+        assert!(more.split(' ').eq(MORE), "{more}");
     }
 
     #[test]

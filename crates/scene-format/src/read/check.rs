@@ -42,7 +42,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     let unread = |key: Item<'_, '_>, value: Item<'_, '_>, field: &str| {
         let name = key.text();
         name == field && value.kind() == Kind::Broken
-            || Scene::DEF.field(&name).is_none() && super::meant(&name, root, &Scene::DEF) == Some(field)
+            || Scene::DEF.field(&name).is_none() && super::unknown::is_meant(&name, root, &Scene::DEF, field)
     };
     let damaged = |field: &str| {
         root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value, field)) || root.is_damaged()

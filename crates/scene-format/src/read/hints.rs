@@ -81,74 +81,6 @@ fn is_group(field: &FieldDef, def: &'static StructDef) -> bool {
     field.kind.group().is_some_and(|group| group.name == def.name)
 }
 
-/// What other programs call a field of ours.
-pub(super) fn synonym(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    const SYNONYMS: &[(&str, &[&str])] = &[
-        ("objects", &["children", "items", "members", "contents", "shapes"]),
-        ("position", &["eye", "origin", "from", "pos", "location"]),
-        ("look_at", &["target", "lookat", "to"]),
-        ("matrix", &["to_world", "matrix_world", "transform", "world_matrix", "camera_to_world", "c2w", "pose"]),
-        ("cameras", &["views", "viewpoints", "camera_list"]),
-        ("animation", &["anim", "animate", "timeline", "film", "motion"]),
-        ("frames", &["frame_count", "num_frames", "frame_end", "final_frame", "count", "length", "end"]),
-        ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
-        ("frame", &["frame_current", "current_frame", "frame_number"]),
-        ("center", &["centre", "position", "pos", "origin"]),
-        ("point", &["center", "centre", "position", "pos", "origin", "location", "through"]),
-        ("radius", &["r", "size"]),
-        ("fov", &["field_of_view", "angle", "vfov"]),
-        ("focal_length", &["focal", "focallength"]),
-        ("sensor_width", &["sensor", "film_width", "sensor_size", "film_size", "horizontal_aperture"]),
-        ("near", &["clip", "near_clip", "znear", "clip_start", "near_plane"]),
-        ("shift", &["shift_x", "shift_y", "principal_point_offset", "lens_shift"]),
-        ("projection", &["type", "kind", "camera_type", "lens_type"]),
-        ("fov_axis", &["axis", "sensor_fit"]),
-        ("focus_distance", &["focus", "focal_distance", "focaldistance"]),
-        ("focus_on", &["focal_point", "focus_object", "focus_point"]),
-        ("blades", &["aperture_blades", "num_blades"]),
-        ("width", &["w", "x", "thickness", "line_width"]),
-        ("height", &["h", "y"]),
-        ("samples", &["spp", "samples_per_pixel"]),
-        ("max_bounces", &["max_depth", "depth", "bounces"]),
-        ("albedo", &["color", "colour", "diffuse", "base_color", "reflectance"]),
-        ("reflectance", &["color", "colour", "albedo"]),
-        ("ior", &["index", "eta", "refractive_index"]),
-        ("file", &["path", "filename", "mesh", "src"]),
-        ("degrees", &["angle", "deg"]),
-        ("exponent", &["shininess", "alpha", "glossiness"]),
-        ("transform", &["transforms"]),
-        ("points", &["vertices", "positions", "verts", "corners", "outline", "profile"]),
-        ("faces", &["indices", "triangles", "polygons"]),
-        ("inner_radius", &["innerradius", "inner", "hole"]),
-        ("distance", &["max_distance", "maxdistance", "radius", "range", "ao_distance"]),
-        ("tip_radius", &["radius2", "top_radius", "tipradius", "end_radius", "radius_top"]),
-        ("caps", &["cap", "closed", "capped"]),
-        ("from", &["p0", "start", "base_point", "bottom"]),
-        ("profile", &["points", "outline", "curve_points", "path", "shape", "polygon", "silhouette", "vertices"]),
-        ("outline", &["points", "profile", "shape", "path", "polygon", "rings", "contour", "contours", "vertices"]),
-        ("depth", &["height", "thickness", "length", "amount", "distance", "extrusion"]),
-        ("segments", &["sides", "resolution", "steps", "slices", "divisions", "subdivisions", "facets"]),
-        ("kind", &["type", "noise_type", "noisetype", "basis", "fractal", "fractal_type"]),
-        ("octaves", &["detail", "levels", "depth", "octave"]),
-        ("gain", &["roughness", "persistence", "persistance", "omega"]),
-        ("lacunarity", &["lambda", "frequency_multiplier"]),
-        ("distortion", &["turbulence", "turb", "warp", "wobble", "bend"]),
-        ("feature", &["type", "kind", "mode", "output"]),
-        ("jitter", &["randomness", "random"]),
-        ("a", &["color1", "colour1", "color_1", "color_a", "colour_a", "colora", "col1", "c1", "dark", "low", "even"]),
-        ("b", &["color2", "colour2", "color_2", "color_b", "colour_b", "colorb", "col2", "c2", "light", "high", "odd"]),
-        ("axis", &["direction", "dir"]),
-        ("along", &["direction", "axis", "orientation"]),
-        ("cryptomatte", &["crypto", "crypto_object", "crypto_material", "mattes", "matte", "cryptomattes"]),
-        ("layers", &["aovs", "aov", "passes", "render_passes", "channels"]),
-        ("masks", &["mask", "object_masks", "holdouts"]),
-        ("marks", &["labels", "points", "anchors", "annotations"]),
-    ];
-    let lower = name.to_ascii_lowercase();
-    let found = SYNONYMS.iter().find(|(field, others)| def.field(field).is_some() && others.contains(&lower.as_str()));
-    found.map(|(field, _)| *field)
-}
-
 /// What other programs call a kind of ours.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     const SYNONYMS: &[(&str, &[&str])] = &[
@@ -480,6 +412,12 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         }
         "lens" | "film_gate" | "aperture_blades" if camera => {
             "the lens is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
+        }
+        "f_stop" | "fstop" | "f_number" | "fnumber" | "f" if has("aperture") => {
+            "how wide the lens is is its `aperture`, in the scene's unit: the focal length over the f-number"
+        }
+        "fog" | "mist" | "haze" | "volume" | "volumetric" | "smoke" if def.name == "Scene" => {
+            "there is no fog: only surfaces are seen"
         }
         "zoom" if camera => "how much is seen is said by `fov` in degrees, or by `focal_length` in millimetres",
         "orthographic" | "ortho" | "ortho_scale" | "xmag" | "ymag" | "screenwindow" if camera => {

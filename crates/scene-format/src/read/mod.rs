@@ -18,7 +18,11 @@ mod pattern_fields;
 mod pick;
 mod repeat;
 mod shape_fields;
+mod synonyms;
+mod together;
 mod told;
+mod typed;
+mod unknown;
 mod value;
 mod variant;
 mod vars;
@@ -46,14 +50,11 @@ use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
 use crate::words::Words;
-use hints::{field_of_others, other_way, right_place, synonym};
 use materials::Materials;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
-
-/// Words that later versions of the language will give a meaning.
-const RESERVED: [&str; 4] = ["repeat", "keyframes", "for", "let"];
+use unknown::{Meant, Unknown};
 
 /// Where a value stands: a step of a field path.
 #[derive(Clone, Debug)]
@@ -73,6 +74,8 @@ pub(crate) struct Reader<'r> {
     clock: clock::Clock,
     /// The item whose kind was told to be another.
     renamed: u32,
+    /// The item whose kind a field was told to tell.
+    typed: u32,
     /// Items that repetitions have made.
     repeated: u64,
     /// Included files that are being read, one within the other.
@@ -149,6 +152,7 @@ impl<'r> Reader<'r> {
             vars: vars::Table::default(),
             clock: clock::Clock::default(),
             renamed: NOWHERE,
+            typed: NOWHERE,
             repeated: 0,
             open: Vec::new(),
             first_included: u32::MAX,
@@ -255,6 +259,7 @@ impl<'r> Reader<'r> {
         }
         let mut guess = 0;
         let mut mistyped = Vec::new();
+        let mut excused = Vec::new();
         for (key, value) in item.fields() {
             if self.sink.is_full() {
                 break;
@@ -272,9 +277,15 @@ impl<'r> Reader<'r> {
                 None => match &*key.text() {
                     // Where the schema is, for editors.
                     "$schema" if def.name == "Scene" => {}
+                    // Told of already.
+                    name if self.typed == item.index() as u32 && typed::NAMES.contains(&name) => {}
                     name => {
-                        let meant = self.unknown_field(key, value, name, item, def);
-                        mistyped.extend(meant.map(|field| (field, value)));
+                        let unknown = Unknown { key, value, name, item, def };
+                        match self.unknown_field(&unknown, &mistyped) {
+                            Meant::Field(field) => mistyped.push((field, value)),
+                            Meant::Unreadable(fields) => excused.extend(fields),
+                            Meant::Nothing => {}
+                        }
                     }
                 },
                 Some(slot) => {
@@ -297,7 +308,7 @@ impl<'r> Reader<'r> {
             }
         }
         if !item.is_damaged() {
-            self.missing_fields(item, def, &fields);
+            self.missing_fields(item, def, &fields, &excused);
         }
         Some(fields)
     }
@@ -317,9 +328,16 @@ impl<'r> Reader<'r> {
         None
     }
 
-    fn missing_fields(&mut self, item: Item<'_, '_>, def: &'static StructDef, fields: &Fields<'_, '_>) {
+    /// `excused`: fields that something else was written for, which has been told.
+    fn missing_fields(
+        &mut self,
+        item: Item<'_, '_>,
+        def: &'static StructDef,
+        fields: &Fields<'_, '_>,
+        excused: &[&'static str],
+    ) {
         for (field, &slot) in def.fields.iter().zip(&fields.slots) {
-            if slot == NOWHERE && field.default.is_none() {
+            if slot == NOWHERE && field.default.is_none() && !excused.contains(&field.name) {
                 let mut fault = Diagnostic::error(
                     codes::MISSING_FIELD,
                     item.head(),
@@ -335,7 +353,7 @@ impl<'r> Reader<'r> {
                 self.path.pop();
             }
         }
-        if def.exactly_one.is_empty() {
+        if def.exactly_one.is_empty() || def.exactly_one.iter().any(|field| excused.contains(field)) {
             return;
         }
         let written = || {
@@ -367,70 +385,6 @@ impl<'r> Reader<'r> {
                 );
             }
         }
-    }
-
-    /// Reports a field that there is not; gives the one that is meant.
-    fn unknown_field(
-        &mut self,
-        key: Item<'_, '_>,
-        value: Item<'_, '_>,
-        name: &str,
-        item: Item<'_, '_>,
-        def: &'static StructDef,
-    ) -> Option<&'static str> {
-        if RESERVED.contains(&name) {
-            let message = format!("`{name}` is kept for later versions of the language");
-            let mut fault = Diagnostic::error(codes::RESERVED_WORD, key.span(), message).expected(field_list(def));
-            if name == "keyframes" {
-                fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
-            }
-            self.report(fault);
-            return None;
-        }
-        let mut fault =
-            Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
-                .expected(field_list(def));
-        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
-            fault.hint = format!("write `{}`", shortened(&mended));
-            fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
-            self.report(fault);
-            return meant;
-        }
-        if let Some((hint, mended)) = pattern_fields::of_mapping(name, value, item, def) {
-            fault.hint = hint;
-            fault.edit = mended.map(|replacement| Edit { span: elsewhere::whole_field(key, value), replacement });
-            self.report(fault);
-            return None;
-        }
-        if let Some(of_light) = hints::strength(name, def) {
-            fault.hint = of_light.to_owned();
-            self.report(fault);
-            // Whatever it stands for: that there is none need not be said too.
-            return def.exactly_one.first().copied();
-        }
-        let quoted = key.lexeme().starts_with(['"', '\'']);
-        let meant = meant(name, item, def);
-        // A word of other programs is no typo of ours: `dof` is no `fov`.
-        let of_others = field_of_others(name, def, item.syntax()).filter(|_| synonym(name, def).is_none());
-        let meant = meant.filter(|_| of_others.is_none());
-        fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
-        if fault.hint.is_empty()
-            && let Some(way) = other_way(name, def, item.syntax())
-        {
-            fault.hint = way.into_owned();
-        }
-        if fault.hint.is_empty()
-            && let Some(hint) = of_others
-        {
-            fault.hint = hint.to_owned();
-        }
-        if fault.hint.is_empty()
-            && let Some(place) = right_place(name, def, item)
-        {
-            fault.hint = place;
-        }
-        self.report(fault);
-        meant
     }
 
     fn duplicate(&mut self, key: Item<'_, '_>, name: &str, first: Item<'_, '_>) {
@@ -577,16 +531,6 @@ impl<'r> Reader<'r> {
 
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
-}
-
-/// The field that an unknown name stands for: one that is not written yet, if one of those is near.
-fn meant(name: &str, item: Item<'_, '_>, def: &'static StructDef) -> Option<&'static str> {
-    let written = |field: &&str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == *field);
-    // A word of other programs is no typo of a word that happens to be near: `pos` is no `fov`.
-    if let Some(field) = synonym(name, def) {
-        return Some(field);
-    }
-    suggest::nearest(name, names(def).filter(|field| !written(field))).or_else(|| suggest::nearest(name, names(def)))
 }
 
 fn is_plain(key: &str) -> bool {

@@ -153,9 +153,9 @@ impl Reader<'_> {
             if off && matches!(at.kind, Type::Optional(Type::Number)) {
                 edit = Some(none(item.syntax()).to_owned());
             }
-            // A name of `vars` without its quotes.
-            if item.kind() == Kind::Word && self.knows_var(&text) {
-                edit = Some(format!("\"={text}\""));
+            // A name of `vars` without its quotes, or without its sign.
+            if self.knows_var(trimmed) {
+                edit = Some(format!("\"={trimmed}\""));
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             edit = elsewhere::number_elsewhere(item, at);
@@ -442,6 +442,13 @@ impl Reader<'_> {
             format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
         )
         .expected(expected_for(at, item));
+        if self.knows_var(text.trim()) {
+            let mended = format!("\"={}\"", text.trim());
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return None;
+        }
         if let Some(hex) = elsewhere::named_color(&text) {
             fault.hint = format!("colours have no names here: write \"{hex}\"");
             fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });

@@ -50,6 +50,9 @@ impl Reader<'_> {
                 }
                 None => return self.no_variant(item, def),
             },
+            Kind::Map if let Some(meant) = self.typed_elsewhere(item, def) => {
+                return meant.map(|variant| Chosen { variant, body: Body::Value(item), item });
+            }
             Kind::Map => {
                 let mut fields = item.fields();
                 match (fields.next(), fields.next()) {
@@ -324,7 +327,7 @@ impl Reader<'_> {
 }
 
 /// What a choice is a choice of kinds of: the noun `kind of noise` says it itself.
-fn of_kind(def: &'static EnumDef) -> &'static str {
+pub(super) fn of_kind(def: &'static EnumDef) -> &'static str {
     def.noun.strip_prefix("kind of ").unwrap_or(def.noun)
 }
 

@@ -1,9 +1,10 @@
 //! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
 use super::ron::Parser;
-use super::{constructs, span};
+use super::{arithmetic, constructs, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::expression;
 
 impl Parser<'_> {
     /// Goes to the next comma or closing bracket of this level.
@@ -286,6 +287,10 @@ impl Parser<'_> {
         let length = self.word_length();
         let (word, after) = self.rest().split_at(length);
         if !word.starts_with(|c: char| c.is_ascii_lowercase()) || matches!(word, "true" | "false" | "inf" | "nan") {
+            return None;
+        }
+        // `cos(30)` is the first number of a vector.
+        if after.starts_with('(') && expression::is_known(word) && arithmetic::ahead(self.text, self.at).is_some() {
             return None;
         }
         let value = after.trim_start_matches([' ', '\t']);

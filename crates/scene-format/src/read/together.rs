@@ -1,0 +1,133 @@
+//! Several fields of other programs that say together what one of ours says: `width` and `height`, `min` and `max`.
+
+use super::elsewhere::{Fields, numbers, whole_field};
+use super::unknown::Unknown;
+use crate::diagnostic::{Edit, Span};
+use crate::syntax::{Syntax, decode};
+use crate::tree::Item;
+
+/// What is said of such fields.
+pub(super) struct Together {
+    /// What to write; `None` where it has been said at the first of them.
+    pub hint: Option<String>,
+    pub edit: Option<Edit>,
+    /// The fields that they stand for.
+    pub fields: Vec<&'static str>,
+}
+
+/// What the values of such fields are in ours.
+type Turned = fn(&[Item<'_, '_>], Syntax) -> Option<String>;
+
+/// A kind, the names of its fields elsewhere, what they are of ours, how that is written, and it written.
+type Row = (&'static str, &'static [&'static [&'static str]], &'static [&'static str], &'static str, Turned);
+
+const MIN: &[&str] = &["min", "minimum", "pmin", "p_min", "lower", "corner1", "corner_1", "bbmin"];
+const MAX: &[&str] = &["max", "maximum", "pmax", "p_max", "upper", "corner2", "corner_2", "bbmax"];
+const INNER: &[&str] = &["inner", "inner_radius", "interior_radius"];
+const OUTER: &[&str] = &["outer", "outer_radius", "exterior_radius"];
+
+const ROWS: &[Row] = &[
+    ("Box", &[MIN, MAX], &["center", "size"], "center: (x, y, z), size: (x, y, z)", middle_and_sides),
+    ("Box", &[&["width", "w"], &["height", "h"], &["depth", "length", "d"]], &["size"], "size: (x, y, z)", size),
+    ("Rectangle", &[&["width", "w"], &["height", "h", "depth", "length"]], &["size"], "size: (x, y)", size),
+    // Where the outer edge of the ring is, or its middle: nobody knows.
+    ("Torus", &[INNER, OUTER], &["radius", "tube_radius"], "radius: .., tube_radius: ..", unclear),
+];
+
+/// What is said of a field that is one of several; `None` where the others are not there.
+pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    ROWS.iter().find_map(|row| of_row(unknown, row))
+}
+
+fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, way, turned): &Row) -> Option<Together> {
+    let Unknown { name, item, def, .. } = unknown;
+    if def.name != *kind || !theirs.iter().any(|names| names.contains(name)) {
+        return None;
+    }
+    // More fields than these are no scene.
+    const MOST: usize = 64;
+    let find = |names: &&[&str]| item.fields().take(MOST).find(|(key, _)| names.contains(&&*key.text()));
+    let found: Vec<(Item<'_, '_>, Item<'_, '_>)> = theirs.iter().map(find).collect::<Option<_>>()?;
+    let fields = ours.to_vec();
+    let start = |(key, _): &(Item<'_, '_>, Item<'_, '_>)| key.span().start;
+    if found.iter().any(|one| start(one) < unknown.key.span().start) {
+        return Some(Together { hint: None, edit: None, fields });
+    }
+    let syntax = item.syntax();
+    let values: Vec<Item<'_, '_>> = found.iter().map(|(_, value)| *value).collect();
+    let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
+    let mended = turned(&values, syntax).filter(|_| !ours.iter().any(|field| written(field)));
+    let hint = match &mended {
+        Some(mended) => format!("write `{mended}`"),
+        None if *kind == "Torus" => "a torus has the `radius` of its ring, to the middle of the tube, and a \
+                                     `tube_radius`"
+            .to_owned(),
+        None => format!("write `{}`", in_syntax(way, syntax)),
+    };
+    let edit = mended.and_then(|replacement| Some(Edit { span: all_of(&found, *item)?, replacement }));
+    Some(Together { hint: Some(hint), edit, fields })
+}
+
+/// The place of fields that stand side by side, with nothing but commas and blanks between them.
+fn all_of(found: &[(Item<'_, '_>, Item<'_, '_>)], item: Item<'_, '_>) -> Option<Span> {
+    let mut spans: Vec<Span> = found.iter().map(|(key, value)| whole_field(*key, *value)).collect();
+    spans.sort();
+    let (first, last) = (*spans.first()?, *spans.last()?);
+    let within = |at: u32| at.checked_sub(item.span().start).map(|at| at as usize);
+    let joined = spans.windows(2).all(|pair| {
+        let between = within(pair[0].end).zip(within(pair[1].start)).and_then(|(end, start)| {
+            // Tables under a header of TOML are not in one piece.
+            item.lexeme().get(end..start)
+        });
+        between.is_some_and(|between| between.bytes().all(|byte| matches!(byte, b' ' | b',' | b'\n' | b'\r' | b'\t')))
+    });
+    joined.then_some(Span { end: last.end, ..first })
+}
+
+/// `center: (x, y, z)` as TOML and JSON have it.
+fn in_syntax(way: &str, syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => way.to_owned(),
+        Syntax::Toml => way.replace(": ", " = ").replace('(', "[").replace(')', "]"),
+        Syntax::Json => {
+            let quoted = way.replace("center:", "\"center\":").replace("tube_radius:", "\"tube_radius\":");
+            let quoted = quoted.replace("size:", "\"size\":").replace(" radius:", " \"radius\":");
+            quoted.replace('(', "[").replace(')', "]")
+        }
+    }
+}
+
+fn bracketed(numbers: &[String], syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => format!("({})", numbers.join(", ")),
+        _ => format!("[{}]", numbers.join(", ")),
+    }
+}
+
+/// Lengths of sides.
+fn size(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let sides: Vec<String> =
+        values.iter().map(|value| value.number().map(|_| value.lexeme().to_owned())).collect::<Option<_>>()?;
+    Some(format!("{}{}", Fields(syntax).name("size"), bracketed(&sides, syntax)))
+}
+
+/// Two corners.
+fn middle_and_sides(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [low, high] = values else { return None };
+    let point = |item: &Item<'_, '_>| -> Option<[f64; 3]> {
+        let all: Vec<f64> = numbers(*item)?.iter().map(|number| decode::number(number)).collect();
+        all.try_into().ok()
+    };
+    let (low, high) = (point(low)?, point(high)?);
+    // What sums of decimal fractions leave over is not meant.
+    let shown = |value: f64| format!("{}", (value * 1e9).round() / 1e9 + 0.0);
+    let middle: Vec<String> = low.iter().zip(&high).map(|(low, high)| shown((low + high) / 2.0)).collect();
+    let sides: Vec<String> = low.iter().zip(&high).map(|(low, high)| shown((high - low).abs())).collect();
+    let name = |field: &str| Fields(syntax).name(field);
+    let (middle, sides) = (bracketed(&middle, syntax), bracketed(&sides, syntax));
+    Some(format!("{}{middle}, {}{sides}", name("center"), name("size")))
+}
+
+fn unclear(_: &[Item<'_, '_>], _: Syntax) -> Option<String> {
+    None
+}

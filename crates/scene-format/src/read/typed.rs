@@ -1,0 +1,112 @@
+//! Kinds that a field `type` tells, as other programs write them: `{"type": "Sphere", "radius": 1}`.
+
+use super::hints::{kind_elsewhere, other_kind};
+use super::variant::{choices, of_kind};
+use super::{Reader, shortened};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::{Content, EnumDef, VariantDef};
+use crate::suggest;
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind};
+
+/// Fields that tell a kind.
+pub(super) const NAMES: [&str; 3] = ["type", "$type", "class"];
+/// So many fields are looked at.
+const MOST: usize = 64;
+
+impl Reader<'_> {
+    /// Reports a table or object that tells its kind by a field; `None` where it does not. What is meant is read all
+    /// the same.
+    pub(super) fn typed_elsewhere(
+        &mut self,
+        item: Item<'_, '_>,
+        def: &'static EnumDef,
+    ) -> Option<Option<&'static VariantDef>> {
+        let is_one = |(key, value): &(Item<'_, '_>, Item<'_, '_>)| {
+            NAMES.contains(&&*key.text()) && matches!(value.kind(), Kind::Text | Kind::Word)
+        };
+        let (key, value) = item.fields().take(MOST).find(is_one)?;
+        let told = value.text();
+        let named = item.fields().take(2).count() == 1;
+        // What a kind of ours has one of is no kind of this choice.
+        let ours = |(key, _): (Item<'_, '_>, Item<'_, '_>)| def.variant(&key.text()).is_some();
+        if item.fields().take(MOST).any(ours) || named && def.variants.len() < 2 {
+            return None;
+        }
+        let folded = |variant: &&VariantDef| variant.name.eq_ignore_ascii_case(&told);
+        let near = || {
+            let theirs = kind_elsewhere(&told, def);
+            let guess = || other_kind(&told, def).is_none().then(|| suggest::nearest(&told, variants(def))).flatten();
+            theirs.or_else(guess).and_then(|word| def.variant(word))
+        };
+        let message = format!("the kind of {} stands before its fields, not in a field `{}`", of_kind(def), key.text());
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message).expected(choices(def, item.syntax()));
+        let meant = def.variants.iter().find(folded).or_else(near);
+        match meant {
+            Some(variant) => {
+                let written = inside_out(item, key, value, variant);
+                fault.hint = match &written {
+                    Some(written) => format!("write `{}`", shortened(&written.replace('\n', " "))),
+                    None => format!("write `{}`", way(variant, item.syntax())),
+                };
+                fault.edit = written.map(|replacement| Edit { span: item.span(), replacement });
+            }
+            None => {
+                fault.hint = match other_kind(&told, def) {
+                    Some(hint) => hint.to_owned(),
+                    None => {
+                        let example = def.variants.iter().find(|variant| matches!(variant.content, Content::Struct(_)));
+                        let example = example.map_or(String::new(), |variant| way(variant, item.syntax()));
+                        format!("there is no `{}`; a kind is written `{example}`", shortened(&told))
+                    }
+                };
+            }
+        }
+        self.report(fault);
+        self.typed = item.index() as u32;
+        Some(meant.filter(|variant| matches!(variant.content, Content::Struct(_))))
+    }
+}
+
+fn variants(def: &'static EnumDef) -> impl Iterator<Item = &'static str> {
+    def.variants.iter().map(|variant| variant.name)
+}
+
+/// How a kind is written.
+fn way(variant: &VariantDef, syntax: Syntax) -> String {
+    let name = variant.name;
+    match (&variant.content, syntax) {
+        (Content::Unit, Syntax::Ron) => name.to_owned(),
+        (Content::Unit, _) => format!("\"{name}\""),
+        (_, Syntax::Ron) => format!("{name}(..)"),
+        (_, Syntax::Toml) => format!("{{ {name} = {{ .. }} }}"),
+        (_, Syntax::Json) => format!("{{\"{name}\": {{..}}}}"),
+    }
+}
+
+/// The same fields within the name of the kind; `None` where they do not stand in one pair of braces.
+fn inside_out(item: Item<'_, '_>, key: Item<'_, '_>, value: Item<'_, '_>, variant: &VariantDef) -> Option<String> {
+    let (lexeme, syntax) = (item.lexeme(), item.syntax());
+    let Content::Struct(_) = variant.content else {
+        let alone = item.fields().take(2).count() == 1 && matches!(variant.content, Content::Unit);
+        return alone.then(|| way(variant, syntax));
+    };
+    if !lexeme.starts_with('{') || syntax == Syntax::Ron {
+        return None;
+    }
+    let at = |byte: u32| byte.checked_sub(item.span().start).map(|at| at as usize);
+    let (before, after) = (lexeme.get(..at(key.span().start)?)?, lexeme.get(at(value.span().end)?..)?);
+    // Its comma goes with it: the one that follows, else the one before.
+    let fields = match after.trim_start().strip_prefix(',') {
+        Some(after) => format!("{before}{}", after.trim_start()),
+        None => {
+            let kept = before.trim_end();
+            format!("{}{after}", kept.strip_suffix(',').unwrap_or(kept))
+        }
+    };
+    Some(match syntax {
+        Syntax::Json => format!("{{\"{}\": {fields}}}", variant.name),
+        _ => format!("{{ {} = {fields} }}", variant.name),
+    })
+}

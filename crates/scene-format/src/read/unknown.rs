@@ -1,0 +1,225 @@
+//! Fields that there are not: what is meant by them.
+
+use super::elsewhere::{self, Fields};
+use super::hints::{self, field_of_others, other_way, right_place};
+use super::synonyms::synonyms;
+use super::value::expected_for;
+use super::{LOOK_AT, Reader, field_list, is_expression, names, pattern_fields, shortened, together};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::{FieldDef, StructDef, Type};
+use crate::suggest;
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+
+/// Words that later versions of the language will give a meaning.
+const RESERVED: [&str; 4] = ["repeat", "keyframes", "for", "let"];
+
+/// A field that there is not, with its value, in what it stands.
+pub(super) struct Unknown<'u, 't, 's> {
+    pub key: Item<'t, 's>,
+    pub value: Item<'t, 's>,
+    pub name: &'u str,
+    pub item: Item<'t, 's>,
+    pub def: &'static StructDef,
+}
+
+/// What an unknown field stands for.
+pub(super) enum Meant {
+    Nothing,
+    /// This one: it is read as if it were written.
+    Field(&'static str),
+    /// These: their value says nothing of them, which is told. That they are missing need not be said too.
+    Unreadable(Vec<&'static str>),
+}
+
+/// The fields of a struct that mistyped names before stand for.
+type Mistyped<'t, 's> = [(&'static str, Item<'t, 's>)];
+
+impl Unknown<'_, '_, '_> {
+    /// Whether a field has a value already.
+    fn is_written(&self, field: &str, mistyped: &Mistyped<'_, '_>) -> bool {
+        // Another header of TOML adds to what is there.
+        let lexeme = self.value.lexeme();
+        let header = self.value.syntax() == Syntax::Toml
+            && match self.value.kind() {
+                Kind::Map => !lexeme.starts_with('{'),
+                Kind::List => {
+                    lexeme.strip_prefix("[[").is_some_and(|name| name.starts_with(|c: char| c.is_alphabetic()))
+                }
+                _ => false,
+            };
+        if header {
+            return false;
+        }
+        mistyped.iter().any(|(meant, _)| *meant == field)
+            || self.item.fields().take(LOOK_AT).any(|(key, _)| key.text() == field)
+    }
+
+    /// Fields of ours that may be meant, the most likely first. Only words of other programs are more than a guess.
+    fn candidates(&self, mistyped: &Mistyped<'_, '_>) -> Vec<&'static str> {
+        // A word of other programs is no typo of a word that happens to be near: `pos` is no `fov`.
+        let known = synonyms(self.name, self.def);
+        if !known.is_empty() {
+            return known;
+        }
+        // A word of other programs is no typo of ours: `dof` is no `fov`.
+        if field_of_others(self.name, self.def, self.item.syntax()).is_some() {
+            return Vec::new();
+        }
+        let free = names(self.def).filter(|field| !self.is_written(field, mistyped));
+        let near = suggest::nearest(self.name, free).into_iter();
+        let any = suggest::nearest(self.name, names(self.def));
+        let mut all: Vec<&'static str> = near.collect();
+        all.extend(any.filter(|any| !all.contains(any)));
+        all
+    }
+
+    fn suits(&self, field: &str) -> bool {
+        self.def.field(field).is_some_and(|field| suits(self.value, &field.kind, field))
+    }
+}
+
+impl Reader<'_> {
+    /// Reports a field that there is not; gives what is meant.
+    pub(super) fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
+        let &Unknown { key, value, name, item, def } = unknown;
+        if RESERVED.contains(&name) {
+            let message = format!("`{name}` is kept for later versions of the language");
+            let mut fault = Diagnostic::error(codes::RESERVED_WORD, key.span(), message).expected(field_list(def));
+            if name == "keyframes" {
+                fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
+            }
+            self.report(fault);
+            return Meant::Nothing;
+        }
+        let mut fault =
+            Diagnostic::error(codes::UNKNOWN_FIELD, key.span(), format!("{} has no field `{name}`", def.noun))
+                .expected(field_list(def));
+        if let Some(together) = together::of(unknown) {
+            if let Some(hint) = together.hint {
+                fault.hint = hint;
+                fault.edit = together.edit;
+                self.report(fault);
+            }
+            return Meant::Unreadable(together.fields);
+        }
+        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
+            let told = |field: &&FieldDef| {
+                let begins = mended.starts_with(&Fields(value.syntax()).name(field.name));
+                // The size of a picture is two fields.
+                begins || def.name == "Image" && matches!(field.name, "width" | "height")
+            };
+            let written = |field: &&FieldDef| unknown.is_written(field.name, mistyped);
+            if let Some(written) = def.fields.iter().filter(told).find(written) {
+                fault.hint = is_there(written.name);
+                self.report(fault);
+                return Meant::Nothing;
+            }
+            fault.hint = format!("write `{}`", shortened(&mended));
+            fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
+            self.report(fault);
+            return meant.map_or(Meant::Nothing, Meant::Field);
+        }
+        if let Some((hint, mended)) = pattern_fields::of_mapping(name, value, item, def) {
+            fault.hint = hint;
+            fault.edit = mended.map(|replacement| Edit { span: elsewhere::whole_field(key, value), replacement });
+            self.report(fault);
+            return Meant::Nothing;
+        }
+        if let Some(of_light) = hints::strength(name, def) {
+            fault.hint = of_light.to_owned();
+            self.report(fault);
+            // Whatever it stands for: that there is none need not be said too.
+            return Meant::Unreadable(def.exactly_one.to_vec());
+        }
+        let candidates = unknown.candidates(mistyped);
+        let free = |field: &&&'static str| !unknown.is_written(field, mistyped);
+        if let Some(field) = candidates.iter().filter(free).find(|field| unknown.suits(field)) {
+            let quoted = key.lexeme().starts_with(['"', '\'']);
+            fault.did_you_mean(Some(*field), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
+            self.report(fault);
+            return Meant::Field(*field);
+        }
+        let syntax = item.syntax();
+        let way = other_way(name, def, syntax)
+            .or_else(|| field_of_others(name, def, syntax).map(Into::into))
+            .or_else(|| right_place(name, def, item).map(Into::into));
+        let unreadable = candidates.iter().find(free);
+        fault.hint = match (way, unreadable, candidates.first()) {
+            (Some(way), ..) => way.into_owned(),
+            (_, Some(field), _) => {
+                let takes = def.field(field).map_or(String::new(), |field| expected_for(field, value));
+                let name = Fields(syntax).name(field);
+                format!("there is `{}`, which takes {takes}", name.trim_end_matches([':', '=', ' ']))
+            }
+            (_, None, Some(written)) => is_there(written),
+            (_, None, None) => String::new(),
+        };
+        self.report(fault);
+        match unreadable {
+            Some(field) => Meant::Unreadable(vec![*field]),
+            // An f-number is told in place of the aperture.
+            None if name.starts_with('f') && def.field("aperture").is_some() => Meant::Unreadable(vec!["aperture"]),
+            None => Meant::Nothing,
+        }
+    }
+}
+
+/// Whether an unknown name may stand for a field.
+pub(super) fn is_meant(name: &str, item: Item<'_, '_>, def: &'static StructDef, field: &str) -> bool {
+    let known = synonyms(name, def);
+    let written = |field: &&str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == **field);
+    match known.first() {
+        Some(_) => known.contains(&field),
+        None => {
+            suggest::nearest(name, names(def).filter(|field| !written(field)))
+                .or_else(|| suggest::nearest(name, names(def)))
+                == Some(field)
+        }
+    }
+}
+
+/// What is said of a name for something that is written already.
+fn is_there(field: &str) -> String {
+    format!("remove it: `{field}` is written already")
+}
+
+/// Whether a value may be one of a type: what is surely another is not. What expressions come to is not known here.
+fn suits(value: Item<'_, '_>, kind: &Type, field: &FieldDef) -> bool {
+    let value = value.without_some();
+    let item = value.kind();
+    let number = matches!(item, Kind::Integer | Kind::Float);
+    let brackets = matches!(item, Kind::List | Kind::Tuple | Kind::Struct | Kind::Map);
+    let unnamed = brackets && value.name().is_none();
+    if item == Kind::Broken || value.is_null() {
+        return true;
+    }
+    let expression = is_expression(value);
+    match kind.resolved() {
+        Type::Optional(inner) => suits(value, inner, field),
+        Type::OneOf(kinds) => kinds.iter().any(|kind| suits(value, kind, field)),
+        Type::Text | Type::File => matches!(item, Kind::Text | Kind::Char | Kind::Word),
+        Type::Bool => expression || matches!(item, Kind::Bool | Kind::Word),
+        Type::Number | Type::Integer => {
+            let numeric = || decode::number(&value.text()).is_finite();
+            match item {
+                Kind::Text => expression || numeric(),
+                Kind::Bool => false,
+                _ => !unnamed || value.children().take(2).count() < 2,
+            }
+        }
+        Type::Vector | Type::Pair => match item {
+            Kind::Text | Kind::Char => expression || field.rule.direction && value.text().chars().count() < 3,
+            Kind::Bool => false,
+            _ => !number,
+        },
+        Type::Rows => brackets,
+        Type::Color => item != Kind::Bool,
+        Type::List(inner) => brackets || matches!((item, inner), (Kind::Text, Type::File)),
+        Type::Map(_) => brackets,
+        Type::Struct(def) => def.bare.is_some() || !number && item != Kind::Bool,
+        Type::Enum(_) => !number && item != Kind::Bool && (item != Kind::Text || value.syntax() != Syntax::Ron),
+        _ => true,
+    }
+}

@@ -1,0 +1,182 @@
+//! Words of other programs whose edits are offered: each edit is made, and makes the file better.
+
+use scene_format::render::apply_edits;
+use scene_format::{Diagnostic, LoadError, Severity, Syntax, load_str, mend};
+use std::path::Path;
+
+fn errors(text: &str, syntax: Syntax) -> Vec<Diagnostic> {
+    match load_str("scene", text, syntax, Path::new(""), &[]) {
+        Err(LoadError::Invalid { diagnostics, .. }) => {
+            diagnostics.into_iter().filter(|fault| fault.severity == Severity::Error).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A scene of this object.
+fn scene(object: &str, syntax: Syntax) -> String {
+    match syntax {
+        Syntax::Ron => format!("Scene(background: 1, vars: {{ \"gap\": 2 }}, objects: [{object}])"),
+        Syntax::Toml => format!("background = 1\nvars = {{ gap = 2 }}\nobjects = [{object}]\n"),
+        Syntax::Json => {
+            format!("{{\"background\": 1, \"vars\": {{\"gap\": 2}}, \"objects\": [{object}]}}")
+        }
+    }
+}
+
+/// All edits that are offered, one after the other, each of which has to leave fewer errors.
+fn mended(object: &str, syntax: Syntax) -> String {
+    let mut text = scene(object, syntax);
+    for _ in 0..9 {
+        let before = errors(&text, syntax);
+        let Some(edit) = before.iter().find_map(|fault| fault.edit.clone()) else { break };
+        let after = apply_edits(&text, std::slice::from_ref(&edit));
+        let left = errors(&after, syntax);
+        assert!(left.len() < before.len(), "{text}\nbecomes\n{after}\n{left:#?}");
+        text = after;
+    }
+    // As `check --fix` does it.
+    let at_once = mend("scene", &scene(object, syntax), syntax, Path::new("")).text;
+    assert_eq!(at_once, text, "{object}");
+    text
+}
+
+/// What is written, what it becomes.
+fn check(cases: &[(&str, &str)], syntax: Syntax) {
+    let mut wrong = Vec::new();
+    for (written, right) in cases {
+        let now = mended(written, syntax);
+        let left = errors(&now, syntax);
+        if now != scene(right, syntax) || !left.is_empty() {
+            wrong.push(format!("{written}\nbecomes {now}\n{left:#?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn fields_of_shapes() {
+    check(
+        &[
+            (
+                "Cylinder(base: (0, 0, 0), cap: (0, 1, 0), radius: 1)",
+                "Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1)",
+            ),
+            ("Cylinder(p0: (0, 0, 0), p1: (0, 1, 0), r: 1)", "Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1)"),
+            ("Cylinder(end: (0, 2, 0), radius: 1, cap: false)", "Cylinder(to: (0, 2, 0), radius: 1, caps: false)"),
+            ("Cone(base: (0, 0, 0), apex: (0, 1, 0), radius: 1)", "Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1)"),
+            ("Cone(tip: (0, 1, 0), r: 1)", "Cone(to: (0, 1, 0), radius: 1)"),
+            (
+                "Capsule(start: (0, 0, 0), end: (0, 1, 0), radius: 1)",
+                "Capsule(from: (0, 0, 0), to: (0, 1, 0), radius: 1)",
+            ),
+            (
+                "Arrow(tail: (0, 0, 0), head: (0, 1, 0), radius: 0.1)",
+                "Arrow(from: (0, 0, 0), to: (0, 1, 0), radius: 0.1)",
+            ),
+            ("Torus(R: 1, r: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),
+            ("Torus(major: 1, minor: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),
+            ("Torus(major_radius: 1, minor_radius: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),
+            ("Disk(outer_radius: 2, inner: 1)", "Disk(radius: 2, inner_radius: 1)"),
+            ("Sphere(location: (0, 1, 0), r: 1)", "Sphere(center: (0, 1, 0), radius: 1)"),
+            ("Sphere(pos: (0, 1, 0), radius: 1)", "Sphere(center: (0, 1, 0), radius: 1)"),
+            ("Box(dimensions: (1, 2, 3))", "Box(size: (1, 2, 3))"),
+            ("Box(min: (0, 0, -0.1), max: (1, 2, 0.2))", "Box(center: (0.5, 1, 0.05), size: (1, 2, 0.3))"),
+            ("Box(width: 1, height: 2, depth: 3)", "Box(size: (1, 2, 3))"),
+            ("Rectangle(width: 2, height: 3, normal: (0, 0, 1))", "Rectangle(size: (2, 3), normal: (0, 0, 1))"),
+        ],
+        Syntax::Ron,
+    );
+    check(&[("{ Rectangle = { width = 2, height = 3 } }", "{ Rectangle = { size = [2, 3] } }")], Syntax::Toml);
+    check(
+        &[(
+            r#"{"Box": {"min": [0, 0, 0], "max": [1, 2, 3]}}"#,
+            r#"{"Box": {"center": [0.5, 1, 1.5], "size": [1, 2, 3]}}"#,
+        )],
+        Syntax::Json,
+    );
+}
+
+/// Where a value does not fit, or stands there already, nothing is edited, and the field is told of once.
+#[test]
+fn what_does_not_fit_is_no_edit() {
+    let lens = |lens: &str| {
+        format!(
+            "Sphere(center: (0, 0, 0), radius: 1)], effects: Effects(depth_of_field: {lens}), lights: \
+             [SphereLight(center: (0, 9, 0), radius: 1, radiance: 1)"
+        )
+    };
+    let cases = [
+        (lens("ThinLens(aperture: 1, focus: \"bottle\")"), "`focus_distance`, which takes a length"),
+        (lens("ThinLens(focus_distance: 5, f_stop: 2.8)"), "focal length over"),
+        ("Cylinder(from: (0, 0, 0), base: (0, 0, 0), radius: 1)".to_owned(), "`from` is written already"),
+        ("Sphere(center: (0, 0, 0), radius: 1, r: 2)".to_owned(), "`radius` is written already"),
+        ("Sphere(center: (0, 0, 0), radius: 1, diameter: 2)".to_owned(), "`radius` is written already"),
+        ("Sphere(center: (0, 0, 0), raduis: (1, 2))".to_owned(), "`radius`, which takes a length"),
+        ("Torus(outer: 1, inner: 0.5)".to_owned(), "`tube_radius`"),
+        ("Box(min: (0, 0, 0), size: 1, max: (1, 1, 1))".to_owned(), "write `center: (x, y, z), size: (x, y, z)`"),
+    ];
+    let mut wrong = Vec::new();
+    for (object, way) in &cases {
+        let found = errors(&scene(object, Syntax::Ron), Syntax::Ron);
+        let good = matches!(found.as_slice(), [only] if only.edit.is_none() && only.hint.contains(way));
+        if !good {
+            wrong.push(format!("{object}, not {way}: {found:#?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn expressions_without_quotes_or_sign() {
+    check(
+        &[
+            ("Sphere(center: (cos(30), 0, 0), radius: 1)", "Sphere(center: (\"=cos(30)\", 0, 0), radius: 1)"),
+            ("Sphere(center: (0, cos(30), 0), radius: 1)", "Sphere(center: (0, \"=cos(30)\", 0), radius: 1)"),
+            ("Sphere(center: (0, \"gap\", 0), radius: \"gap\")", "Sphere(center: (0, \"=gap\", 0), radius: \"=gap\")"),
+        ],
+        Syntax::Ron,
+    );
+    for (object, count) in
+        [("Sphere(center: (max(1, 2), 0, 0), radius: 1)", 1), ("Sphere(center: (0, \"gpa\", 0), radius: 1)", 1)]
+    {
+        let found = errors(&scene(object, Syntax::Ron), Syntax::Ron);
+        assert_eq!(found.len(), count, "{found:#?}");
+    }
+}
+
+#[test]
+fn kinds_told_by_a_field() {
+    check(
+        &[
+            (
+                r#"{"type": "Sphere", "center": [0, 0, 0], "radius": 1}"#,
+                r#"{"Sphere": {"center": [0, 0, 0], "radius": 1}}"#,
+            ),
+            (r#"{"size": 1, "type": "box"}"#, r#"{"Box": {"size": 1}}"#),
+            (
+                r#"{"Box": {"size": 1, "material": {"type": "diffuse", "albedo": 0.5}}}"#,
+                r#"{"Box": {"size": 1, "material": {"Diffuse": {"albedo": 0.5}}}}"#,
+            ),
+        ],
+        Syntax::Json,
+    );
+    check(&[("{ type = \"Box\", size = 2 }", "{ Box = { size = 2 } }")], Syntax::Toml);
+    let rest = "\"objects\": [{\"Box\": {\"size\": 1}}]";
+    let light = "{\"type\": \"SphereLight\", \"center\": [0, 5, 0], \"radius\": 1, \"radiance\": 5}";
+    let text = format!("{{\"lights\": [{light}], {rest}}}");
+    let found = errors(&text, Syntax::Json);
+    assert!(matches!(found.as_slice(), [only] if only.hint.starts_with("write `{\"SphereLight\": {")), "{found:#?}");
+    // A header of TOML is not edited: it does not stand in one piece.
+    let found = errors("background = 1\n[[objects]]\ntype = \"Box\"\nsize = 1\n", Syntax::Toml);
+    assert!(
+        matches!(found.as_slice(), [only] if only.edit.is_none() && only.hint.contains("{ Box = { .. } }")),
+        "{found:#?}"
+    );
+    // What else is wrong is told in the same run.
+    let found = errors(&scene("{\"type\": \"Sphere\", \"raduis\": 1}", Syntax::Json), Syntax::Json);
+    let codes: Vec<&str> = found.iter().map(|fault| fault.code.as_str()).collect();
+    assert_eq!(codes, ["E0202", "E0203", "E0201"], "{found:#?}");
+    let found = errors(&scene("{\"type\": \"spotlight\", \"radius\": 1}", Syntax::Json), Syntax::Json);
+    assert!(matches!(found.as_slice(), [only] if only.hint.contains("`lights`")), "{found:#?}");
+}
