@@ -48,8 +48,8 @@ fn bits_of(film: &Film, wanted: impl Fn(Layer) -> bool) -> Vec<Vec<u32>> {
     (0..(width * height) as usize).map(pixel).collect()
 }
 
-/// Around a fisheye's circle there is no camera ray, and in the corners of a wide picture not one of a whole batch: there
-/// nothing is, for every layer, and not what the batch before has found.
+/// Around a fisheye's circle there is no camera ray, and in the corners of a wide picture not one of a whole batch:
+/// there nothing is, for every layer, and not what the batch before has found.
 #[test]
 fn around_a_fisheye_nothing_is() {
     let mut desc = everything();

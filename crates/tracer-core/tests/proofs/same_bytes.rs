@@ -130,8 +130,10 @@ fn planes() -> SceneDesc {
                 placements: [[], [Scale((-0.8, 1, 1)), Translate((0.6, 0, 1.2))]],
             ),
             Intersection(material: Transparent(ior: 1.5), objects: [
-                Sphere(center: (1.5, 0.6, 2), radius: 0.6), Union(objects: [
-                    Box(center: (1.2, 0.6, 2), size: (0.6, 0.7, 0.8)), Box(center: (1.7, 0.5, 2), size: (0.4, 0.9, 0.5)),
+                Sphere(center: (1.5, 0.6, 2), radius: 0.6),
+                Union(objects: [
+                    Box(center: (1.2, 0.6, 2), size: (0.6, 0.7, 0.8)),
+                    Box(center: (1.7, 0.5, 2), size: (0.4, 0.9, 0.5)),
                 ]),
             ]),
             Disk(center: (0, 3, 1), radius: 0.4, normal: (0, -1, 0), material: "lamp"),
