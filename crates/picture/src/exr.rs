@@ -19,8 +19,7 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
     let mut channels = vec![channel("R", 0), channel("G", 1), channel("B", 2)];
     channels.extend(image.alpha.iter().map(|alpha| AnyChannel::new("A", FlatSamples::F32(alpha.clone()))));
     channels.extend(image.layers.iter().flat_map(channels_of));
-    let of_matte =
-        |(name, values): &(String, Vec<f32>)| AnyChannel::new(name.as_str(), FlatSamples::F32(values.clone()));
+    let of_matte = |(name, values): &(String, Vec<f32>)| AnyChannel::new(text(name), FlatSamples::F32(values.clone()));
     channels.extend(image.mattes.channels.iter().map(of_matte));
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(channels));
@@ -100,7 +99,7 @@ fn channels_of(layer: &LayerImage) -> impl Iterator<Item = AnyChannel<FlatSample
     let count = layer.channels.len();
     layer.channels.iter().enumerate().map(move |(c, channel)| {
         let values = layer.values.iter().skip(c).step_by(count).copied().collect();
-        AnyChannel::new(format!("{}.{channel}", layer.name).as_str(), FlatSamples::F32(values))
+        AnyChannel::new(text(&format!("{}.{channel}", layer.name)), FlatSamples::F32(values))
     })
 }
 

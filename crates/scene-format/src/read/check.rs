@@ -190,17 +190,27 @@ impl Reader<'_> {
         let names: BTreeSet<&str> = objects.chain(lights).collect();
         for (k, mask) in scene.output.masks.iter().enumerate() {
             let name = mask.value.0.as_str();
+            self.path = vec![Step::Field("output"), Step::Field("masks"), Step::Index(k)];
+            // OpenEXR's names of channels have 255 bytes at most, with `mask.` and `.Y`, and end at a zero.
+            if name.len() > MASK_NAME || name.chars().any(char::is_control) {
+                let message = format!("\"{}\" cannot name a layer of a picture", super::shortened(name));
+                let expected = format!("a name of at most {MASK_NAME} bytes without control characters");
+                self.report(Diagnostic::error(codes::UNKNOWN_MASK, mask.span, message).expected(expected));
+                continue;
+            }
             if names.contains(name) {
                 continue;
             }
-            self.path = vec![Step::Field("output"), Step::Field("masks"), Step::Index(k)];
             let message = format!("no object has the name \"{}\"", super::shortened(name));
             let mut fault = Diagnostic::error(codes::UNKNOWN_MASK, mask.span, message)
                 .expected("a name that an object or a light has")
                 .hint("give it one: `name: \"lamp\"`; of a group or an include the objects in it need it");
             fault.did_you_mean(suggest::nearest(name, names.iter().copied()), |name| format!("{name:?}"));
             self.report(fault);
-            self.path.clear();
         }
+        self.path.clear();
     }
 }
+
+/// Bytes of a mask's name at most.
+const MASK_NAME: usize = 240;

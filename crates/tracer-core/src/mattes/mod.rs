@@ -120,7 +120,7 @@ impl Mattes {
                 let shares = film.matte(MatteOf::Objects, x, y);
                 shares.iter().filter(|&&(number, _)| is_of(number)).map(|&(_, share)| share).sum()
             };
-            let values = of_pixels(film, |x, y| covered(x, y).min(1.0) as f32);
+            let values = of_pixels(film, |x, y| covered(x, y).min(1.0) as f32 + 0.0);
             image.channels.push((format!("mask.{mask}.Y"), values));
         }
         image

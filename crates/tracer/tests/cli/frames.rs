@@ -168,3 +168,36 @@ fn a_matrix_is_a_camera() {
         ran.out_text()
     );
 }
+
+/// What another frame picks is an input of the film.
+#[test]
+fn no_frame_replaces_what_another_is_made_of() {
+    let sandbox = Sandbox::new();
+    let scene = r#"Scene(
+        animation: Animation(frames: 4), background: 1, image: Image(width: 8, height: 8), render: Render(samples: 1),
+        objects: [Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: Texture(
+            file: Pick(from: ["wood1.png", "wood2.png"], index: "=frame")))) ],
+    )"#;
+    let plain = FILM.replace("samples: 2", "samples: 1");
+    sandbox.write("plain.ron", &plain);
+    for name in ["wood1.png", "wood2.png"] {
+        sandbox.run(&["render", "plain.ron", "-o", name]).ends(0);
+    }
+    let before = [sandbox.read("wood1.png"), sandbox.read("wood2.png")];
+    sandbox.write("wood.ron", scene);
+    sandbox.write("still.ron", &scene.replace("\"=frame\"", "0").replace("animation: Animation(frames: 4),", ""));
+    for line in [
+        &["wood.ron", "--frames", "0-3", "-o", "wood#.png"][..],
+        &["wood.ron", "--frames", "0-3", "-o", "a#.png", "--report", "wood#.png"],
+        &["wood.ron", "--frames", "0-3", "-o", "a#.png", "--checkpoint", "wood#.png"],
+        &["wood.ron", "--frame", "0", "-o", "wood2.png"],
+        &["still.ron", "-o", "./wood2.png"],
+    ] {
+        let ran = sandbox.run(&[&["render"], line].concat()).ends(2);
+        assert!(ran.err.contains("would replace a file"), "{}", ran.err);
+        assert!(!sandbox.files().iter().any(|name| name.starts_with('a')), "{line:?}: something was rendered");
+    }
+    assert!(before == [sandbox.read("wood1.png"), sandbox.read("wood2.png")]);
+    sandbox.run(&["render", "wood.ron", "--frames", "0-3", "-o", "a#.png"]).ends(0);
+    sandbox.run(&["render", "wood.ron", "--frames", "0-3", "-o", "a#.png"]).ends(0);
+}

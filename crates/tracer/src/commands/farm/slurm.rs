@@ -30,7 +30,7 @@ pub(super) fn run(args: &FarmSlurmArgs, shell: &Shell) -> Result<ExitCode, Failu
         frames::expect_number(path)?;
     }
     // A farm for each frame: what is wrong with one is told before any is submitted, and the same line goes on.
-    let (first, last) = frames::range(&args.as_render(), asked, shell)?;
+    let (first, last, _) = frames::range(&args.as_render(), asked, shell)?;
     for frame in first..=last {
         one(&of_frame(frame), shell)?;
     }

@@ -1,6 +1,6 @@
 //! `--frames`: one picture after the other. Assets and trees are kept from frame to frame.
 
-use super::one;
+use super::{one, outputs};
 use crate::args::{self, RenderArgs};
 use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
@@ -10,7 +10,7 @@ use crate::{frames, interrupt};
 use scene_format::SceneDesc;
 use scene_format::diagnostic::Source;
 use std::cell::OnceCell;
-use std::ops::{Deref, DerefMut};
+use std::ops::{Deref, DerefMut, RangeInclusive};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -141,7 +141,9 @@ pub(super) fn run(
         expect_number(path)?;
     }
     interrupt::listen(*shell)?;
-    let (first, last) = range(&args, frames, shell)?;
+    let (first, last, desc) = range(&args, frames, shell)?;
+    spare_inputs(&args, first..=last, &desc)?;
+    drop(desc);
     let session = Frames::default();
     let all = last - first + 1;
     let (mut made, mut skipped) = (0, 0);
@@ -225,10 +227,11 @@ fn example(path: &Path) -> PathBuf {
 }
 
 /// The first and the last frame; all are looked at, so that what is wrong with one is told before any is rendered.
+/// The scene goes with them, as its first frame is.
 ///
 /// # Errors
 /// A frame is wrong.
-pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32), Failure> {
+pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32, SceneDesc), Failure> {
     let mut scene = args.scene.clone();
     if let args::Frames::Range(first, _) = frames {
         scene.frame = Some(first);
@@ -239,7 +242,20 @@ pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(
         args::Frames::All => (0, desc.animation.frames.value - 1),
     };
     frames::told(&args.scene, &desc, Some((first, last)), shell)?;
-    Ok((first, last))
+    Ok((first, last, desc))
+}
+
+/// Sees that no file of any frame would replace one that the scene names, before the first is rendered.
+///
+/// # Errors
+/// The first that would.
+fn spare_inputs(args: &RenderArgs, frames: RangeInclusive<u32>, desc: &SceneDesc) -> Result<(), Failure> {
+    let named = if args.part.is_some() { super::parts::named(args)? } else { args.clone() };
+    let written = frames.flat_map(|frame| {
+        let numbered = move |path: &Path| Some(PathBuf::from(with_number(path.to_str()?, frame)?));
+        outputs::written(&named).filter_map(move |(option, path)| Some((option, numbered(path)?)))
+    });
+    outputs::spare_mentioned(&written.collect::<Vec<_>>(), desc)
 }
 
 /// What is left of a frame that was interrupted: its checkpoint. A picture would be taken for a whole one.

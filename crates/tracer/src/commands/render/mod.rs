@@ -78,6 +78,10 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     }
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
     outputs::spare_inputs(&outputs, args, &named)?;
+    if frames.is_none() {
+        let written: Vec<_> = outputs::written(args).map(|(option, path)| (option, path.to_owned())).collect();
+        outputs::spare_mentioned(&written, &desc)?;
+    }
     let read = clock.lap();
 
     let kept = frames.map(|frames| &frames.kept);

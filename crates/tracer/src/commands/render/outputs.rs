@@ -8,6 +8,7 @@ use crate::report::FileReport;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
+use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use tracer_core::Mattes;
@@ -220,6 +221,35 @@ pub fn spare_inputs(outputs: &[Output], args: &RenderArgs, files: &[PathBuf]) ->
         )));
     }
     Ok(())
+}
+
+/// Files that are written, with their options.
+pub(super) fn written(args: &RenderArgs) -> impl Iterator<Item = (&'static str, &Path)> {
+    let pictures = args.output.iter().map(|path| ("-o", path.as_path()));
+    let report = args.report.as_deref().map(|path| ("--report", path));
+    pictures.chain(report).chain(kept(args)).filter(|(_, path)| !is_dash(path))
+}
+
+/// Sees that nothing that is written would replace a file that the scene names anywhere: what this frame does not pick,
+/// another one may.
+///
+/// # Errors
+/// The first place that would.
+pub(super) fn spare_mentioned(written: &[(&str, PathBuf)], desc: &SceneDesc) -> Result<(), Failure> {
+    // Texts are looked through only where something can be replaced.
+    let there = written.iter().filter_map(|(option, path)| Some((option, path, path.canonicalize().ok()?)));
+    let there: Vec<_> = there.filter(|(_, _, real)| real.is_file()).collect();
+    if there.is_empty() {
+        return Ok(());
+    }
+    let mentioned: HashSet<PathBuf> = desc.mentioned().iter().filter_map(|path| path.canonicalize().ok()).collect();
+    let Some((option, path, _)) = there.into_iter().find(|(_, _, real)| mentioned.contains(real)) else {
+        return Ok(());
+    };
+    Err(Failure::wrong(format!(
+        "{option} {} would replace a file that the scene names; name another file",
+        path.display()
+    )))
 }
 
 /// Whether two places are one: by name, or because both names lead to the same file.
