@@ -62,6 +62,7 @@ mod include;
 mod json_schema;
 mod load;
 mod mend;
+mod mentioned;
 mod overrides;
 pub mod path;
 pub mod plane;

@@ -41,9 +41,10 @@ fn count(disassembly: &str) -> BTreeMap<&'static str, Counted> {
         counted.zmm += usize::from(line.contains("%zmm"));
         counted.ymm += usize::from(line.contains("%ymm"));
         let inlined = ["core_arch", "lanes::", "engine::stages::", "math::vector"];
-        // Curved shapes are looked up one by one in double precision, by a call on purpose; so are parts of stages,
-        // which count themselves.
-        let one_by_one = line.contains("engine::stages::shapes::find") || line.contains(PART);
+        // Curved shapes and curved lights are looked up one by one in double precision, by a call on purpose; so are
+        // parts of stages, which count themselves.
+        let on_purpose = ["engine::stages::shapes::find", "engine::stages::lights::curved::", PART];
+        let one_by_one = on_purpose.iter().any(|word| line.contains(word));
         if line.contains("call") && !one_by_one && inlined.iter().any(|word| line.contains(word)) {
             counted.calls.push(line.to_owned());
         }

@@ -6,7 +6,7 @@ use super::synonyms::synonyms;
 use super::value::expected_for;
 use super::{LOOK_AT, Reader, field_list, is_expression, names, pattern_fields, shortened, together};
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Syntax, decode};
@@ -85,12 +85,7 @@ impl Reader<'_> {
     pub(super) fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
         if RESERVED.contains(&name) {
-            let message = format!("`{name}` is kept for later versions of the language");
-            let mut fault = Diagnostic::error(codes::RESERVED_WORD, key.span(), message).expected(field_list(def));
-            if name == "keyframes" {
-                fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
-            }
-            self.report(fault);
+            self.report(reserved(name, key.span(), def));
             return Meant::Nothing;
         }
         let mut fault =
@@ -164,6 +159,16 @@ impl Reader<'_> {
             None => Meant::Nothing,
         }
     }
+}
+
+/// The fault of a word that no field has yet.
+fn reserved(name: &str, at: Span, def: &'static StructDef) -> Diagnostic {
+    let message = format!("`{name}` is kept for later versions of the language");
+    let mut fault = Diagnostic::error(codes::RESERVED_WORD, at, message).expected(field_list(def));
+    if name == "keyframes" {
+        fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
+    }
+    fault
 }
 
 /// Whether an unknown name may stand for a field.

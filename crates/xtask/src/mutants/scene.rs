@@ -44,8 +44,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "coplanar-lamps-lose",
         file: COPLANAR_FIND,
-        find: "let rank = |face: &Face| (face.rank, face.id());",
-        replace: "let rank = |face: &Face| (0, face.id());",
+        find: "(self.rank, self.is_endless(), self.id())",
+        replace: "(0, self.is_endless(), self.id())",
         caught_by: proofs(&["coplanar::"]),
     },
     Mutant {
@@ -297,8 +297,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "exposure-sign",
         file: DEVELOP,
-        find: "libm::exp2(look.exposure)",
-        replace: "libm::exp2(-look.exposure)",
+        find: "libm::exp2(look.exposure);\n    let backdrop",
+        replace: "libm::exp2(-look.exposure);\n    let backdrop",
         caught_by: proofs(&["analytic::exposure_and_tone_maps"]),
     },
     Mutant {

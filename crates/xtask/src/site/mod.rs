@@ -21,7 +21,7 @@ use tracer_core::{RenderOptions, Unobserved, compile, develop, render};
 use tracer_picture::{Bits, Encoding, Provenance, encode};
 
 /// The chapters: title and document, in this order.
-const CHAPTERS: [(&str, &str); 25] = [
+const CHAPTERS: [(&str, &str); 26] = [
     ("tracer", "README.md"),
     ("Tutorial", "docs/tutorial.md"),
     ("Cookbook", "docs/cookbook.md"),
@@ -31,6 +31,7 @@ const CHAPTERS: [(&str, &str); 25] = [
     ("Preview", "docs/preview.md"),
     ("Animation", "docs/animation.md"),
     ("Layers and mattes", "docs/layers.md"),
+    ("Teaching", "docs/teaching.md"),
     ("Noise", "docs/noise.md"),
     ("Denoising", "docs/denoise.md"),
     ("Checkpoints", "docs/checkpoints.md"),
