@@ -62,7 +62,8 @@ fn lanes_have_lights_of_their_own() {
         s.primitive.store(&mut primitives);
         let front = M::from_bits((0..8).map(|lane| u32::from(wz[lane] < 0.0) << lane).sum());
         let met = LightHit { direction: s.wi, distance: s.distance, cos: s.wi.2.abs(), front, lanes: S::first(8) };
-        let at = Receiver { p, n: V3::splat([0.0, 1.0, 0.0]) };
+        // It faces what it has chosen: lights below its horizon are never chosen.
+        let at = Receiver { p, n: s.wi };
         let density = stored(pdf(&table, k, at, &met));
         let sent = stored(radiance(&table, k, &met).0);
         for lane in 0..8 {
