@@ -192,9 +192,9 @@ impl Reader<'_> {
             let name = mask.value.0.as_str();
             self.path = vec![Step::Field("output"), Step::Field("masks"), Step::Index(k)];
             // OpenEXR's names of channels have 255 bytes at most, with `mask.` and `.Y`, and end at a zero.
-            if name.len() > MASK_NAME || name.chars().any(char::is_control) {
+            if name.len() > MASK_NAME || name.contains('\0') {
                 let message = format!("\"{}\" cannot name a layer of a picture", super::shortened(name));
-                let expected = format!("a name of at most {MASK_NAME} bytes without control characters");
+                let expected = format!("a name of at most {MASK_NAME} bytes without a zero byte");
                 self.report(Diagnostic::error(codes::UNKNOWN_MASK, mask.span, message).expected(expected));
                 continue;
             }

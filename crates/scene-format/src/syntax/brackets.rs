@@ -96,6 +96,20 @@ pub(super) fn fate(text: &str, open: &[Open], at: usize, close: u8) -> Fate {
     }
 }
 
+/// Whether the closing bracket at `at` stands behind another one at the end of its line, and the next line begins with
+/// a field's name, deeper than `indent`.
+pub(super) fn goes_on(text: &str, at: usize, indent: usize) -> bool {
+    if !text[..at].ends_with([')', ']', '}']) {
+        return false;
+    }
+    let rest = text[at + 1..].strip_prefix(',').unwrap_or(&text[at + 1..]);
+    let Some((end, next)) = rest.split_once('\n') else { return false };
+    let next = next.lines().next().unwrap_or("");
+    let name = next.trim_start();
+    let length = name.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
+    end.trim().is_empty() && next.len() - name.len() > indent && length > 0 && name[length..].starts_with(':')
+}
+
 /// `close` at `at` stands where the innermost bracket should be closed.
 pub(super) fn wrong_closer(source: u16, open: Open, at: usize, close: u8) -> Diagnostic {
     let right = char::from(closer_of(open.bracket));

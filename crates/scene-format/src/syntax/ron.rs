@@ -378,7 +378,13 @@ impl<'p> Parser<'p> {
             && fate == Fate::ClosesOuter
             && self.open.last().is_some_and(|open| open.line < self.line)
             && self.at > self.line + self.indent;
-        if stray { Fate::Stray } else { fate }
+        // So is one that closes what its line has opened, if the next line goes on with its fields.
+        let too_early = self.trust == Trust::Indentation
+            && fate == Fate::Closes
+            && self.open.last().is_some_and(|open| {
+                open.bracket == b'(' && open.line == self.line && brackets::goes_on(self.text, self.at, open.indent)
+            });
+        if stray || too_early { Fate::Stray } else { fate }
     }
 
     /// Whether a new line begins here that is indented no deeper than the one that opened the innermost bracket.
