@@ -56,7 +56,7 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, way, turned): &Row
     let syntax = item.syntax();
     let values: Vec<Item<'_, '_>> = found.iter().map(|(_, value)| *value).collect();
     let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
-    let mended = turned(&values, syntax).filter(|_| !ours.iter().any(|field| written(field)));
+    let mended = turned(&values, syntax).filter(|_| !ours.iter().any(&written));
     let hint = match &mended {
         Some(mended) => format!("write `{mended}`"),
         None if *kind == "Torus" => "a torus has the `radius` of its ring, to the middle of the tube, and a \

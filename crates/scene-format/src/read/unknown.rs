@@ -134,7 +134,7 @@ impl Reader<'_> {
             let quoted = key.lexeme().starts_with(['"', '\'']);
             fault.did_you_mean(Some(*field), |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
             self.report(fault);
-            return Meant::Field(*field);
+            return Meant::Field(field);
         }
         let syntax = item.syntax();
         let way = other_way(name, def, syntax)

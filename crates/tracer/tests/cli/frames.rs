@@ -185,7 +185,7 @@ fn no_frame_replaces_what_another_is_made_of() {
     }
     let before = [sandbox.read("wood1.png"), sandbox.read("wood2.png")];
     sandbox.write("wood.ron", scene);
-    sandbox.write("still.ron", &scene.replace("\"=frame\"", "0").replace("animation: Animation(frames: 4),", ""));
+    sandbox.write("still.ron", scene.replace("\"=frame\"", "0").replace("animation: Animation(frames: 4),", ""));
     for line in [
         &["wood.ron", "--frames", "0-3", "-o", "wood#.png"][..],
         &["wood.ron", "--frames", "0-3", "-o", "a#.png", "--report", "wood#.png"],
