@@ -2,13 +2,14 @@
 
 use super::Random;
 use super::solid::solid;
+use super::textures::albedo;
 use scene_format::SceneDesc;
 use scene_format::desc::*;
 use scene_format::diagnostic::{Span, Spanned};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-fn number(random: &mut Random, low: f64, high: f64) -> f64 {
+pub(super) fn number(random: &mut Random, low: f64, high: f64) -> f64 {
     match random.below(6) {
         0 => (low + (high - low) * random.unit()).round().clamp(low, high),
         1 if low <= 0.0 && high >= 0.0 => 0.0,
@@ -26,74 +27,14 @@ pub(super) fn vector(random: &mut Random) -> Vec3 {
     [(); 3].map(|()| number(random, -1e6, 1e6))
 }
 
-fn share(random: &mut Random) -> Color {
+pub(super) fn share(random: &mut Random) -> Color {
     if random.below(3) == 0 { [random.unit(); 3] } else { [(); 3].map(|()| random.unit()) }
 }
 
-fn text(random: &mut Random) -> String {
+pub(super) fn text(random: &mut Random) -> String {
     const LETTERS: [&str; 12] = ["a", "Z", "0", "_", "-", " ", "é", "赤", "\"", "\\", "\t", "\u{1}"];
     let letters: String = (0..1 + random.below(8)).map(|_| *random.pick(&LETTERS)).collect();
     format!("n{letters}")
-}
-
-fn mapping(random: &mut Random) -> Mapping {
-    if random.below(2) == 0 {
-        return Mapping::default();
-    }
-    let uniform = number(random, -100.0, 100.0);
-    let scale = [uniform, if random.below(2) == 0 { uniform } else { number(random, -100.0, 100.0) }];
-    let offset = if random.below(2) == 0 { [0.0; 2] } else { [random.unit(), number(random, -9.0, 9.0)] };
-    Mapping::uv(scale, number(random, -360.0, 360.0), offset)
-}
-
-fn solid_mapping(random: &mut Random) -> SolidMapping {
-    let (scale, offset) = (PerAxis([(); 3].map(|()| number(random, -9.0, 9.0))), vector(random));
-    match random.below(4) {
-        0 => SolidMapping::object(),
-        1 => SolidMapping::Object { scale, offset },
-        2 => SolidMapping::World { scale, offset },
-        _ => mapping(random).into(),
-    }
-}
-
-fn reckoned(random: &mut Random) -> Albedo {
-    let (a, b, solid) = (share(random).into(), share(random).into(), solid_mapping(random));
-    match random.below(8) {
-        0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
-        1 => {
-            let along = *random.pick(&[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
-            Albedo::Lines(Box::new(Lines { a, b, width: random.unit(), along, mapping: mapping(random) }))
-        }
-        2 => Albedo::Dots(Box::new(Dots { a, b, radius: 0.5 * random.unit(), mapping: mapping(random) })),
-        3 => {
-            let axis = *random.pick(&[GradientAxis::X, GradientAxis::Y, GradientAxis::Z, GradientAxis::Radial]);
-            Albedo::Gradient(Box::new(Gradient { a, b, axis, mapping: solid }))
-        }
-        4 => {
-            let kind = *random.pick(&[NoiseKind::Fbm, NoiseKind::Perlin, NoiseKind::Turbulence]);
-            let (octaves, lacunarity, gain) = (1 + random.below(16) as u32, number(random, 1.0, 8.0), random.unit());
-            Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
-        }
-        5 => Albedo::Wood(Box::new(Wood { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
-        6 => Albedo::Marble(Box::new(Marble { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
-        _ => {
-            let feature = *random.pick(&[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
-            Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: random.unit(), mapping: solid }))
-        }
-    }
-}
-
-fn albedo(random: &mut Random) -> Albedo {
-    match random.below(6) {
-        0 => Albedo::Texture(Texture {
-            file: PathBuf::from(text(random)).into(),
-            filter: *random.pick(&[TextureFilter::Bilinear, TextureFilter::Nearest]),
-            wrap: *random.pick(&[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]),
-            mapping: mapping(random),
-        }),
-        1 | 2 => reckoned(random),
-        _ => Albedo::Color(share(random).into()),
-    }
 }
 
 fn material(random: &mut Random) -> Material {

@@ -4,6 +4,7 @@
 
 pub mod generated;
 mod solid;
+mod textures;
 
 use scene_format::{Diagnostic, LoadError, Loaded, Severity, Syntax, load_str};
 use std::path::Path;

@@ -152,6 +152,22 @@ fn the_same_bytes_by_checkpoints_and_parts() {
     ran.says(&["the choice of mattes is CryptoObject, CryptoMaterial, mask.lamp there"]);
 }
 
+/// Names of channels are bytes of UTF-8, in manifests they are JSON; and where a mask shows nothing it is 0, not -0.
+#[test]
+fn names_may_be_of_any_script() {
+    let sandbox = sandbox();
+    sandbox.write("scene.ron", SCENE.replace("\"lamp\"", "\"日本 é\""));
+    let masks = ["--set", "output.masks=[\"日本 é\", \"ball\"]", "--set", "output.cryptomatte=[Objects]"];
+    sandbox.run(&[&["render", "scene.ron", "-q", "-o", "a.exr"][..], &masks].concat()).ends(0).silent();
+    let name = "mask.日本 é.Y\0".as_bytes();
+    assert!(sandbox.read("a.exr").windows(name.len()).any(|window| window == name));
+    let (channels, attributes) = picture(&sandbox, "a.exr");
+    assert!(decoded(&channels, &attributes, "CryptoObject", "日本 é").iter().any(|&share| share > 0.5));
+    let masks: Vec<&f32> = channels.iter().filter(|(name, _)| name.starts_with("mask.")).flat_map(|of| of.1).collect();
+    assert_eq!(masks.len(), 2 * 32 * 32);
+    assert!(masks.iter().any(|&&x| x == 0.0) && masks.iter().all(|x| x.is_sign_positive()));
+}
+
 #[test]
 fn what_is_no_mask_is_told_and_so_is_no_place() {
     let sandbox = sandbox();
