@@ -24,7 +24,7 @@ def ours(arguments, word, folder, seeds):
     pictures = []
     for seed in seeds:
         picture = os.path.join(folder, "ours.exr")
-        command = [arguments.tracer, "render", file, "-o", picture, "--samples", str(arguments.samples), "--seed", str(seed)]
+        command = [arguments.tracer, "render", file, "-o", picture, "--samples", str(arguments.samples * word.times), "--seed", str(seed)]
         subprocess.run(command + ["--quiet", "--threads", str(arguments.threads)], check=True)
         bitmap = mi.Bitmap(picture).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=False)
         pictures.append(np.array(bitmap, dtype=np.float64))
@@ -69,6 +69,9 @@ def main():
     arguments = parser.parse_args()
     mi.set_variant(arguments.variant)
     import drjit as dr
+    import correlated
+
+    correlated.register()
 
     dr.set_thread_count(arguments.threads)
     counts = (arguments.samples, arguments.peer_samples)
@@ -81,13 +84,14 @@ def main():
             if arguments.scene not in word.name:
                 continue
             scene = mi.load_dict(word.mitsuba(mi))
-            b = np.array([np.array(mi.render(scene, spp=arguments.peer_samples, seed=1000 + k))[:, :, :3] for k in range(arguments.seeds)], dtype=np.float64)
+            b = np.array([np.array(mi.render(scene, spp=arguments.peer_samples * word.times, seed=1000 + k))[:, :, :3] for k in range(arguments.seeds)], dtype=np.float64)
             a = ours(arguments, word, folder, range(arguments.seeds))
             larger = ours(arguments, grown[word.name], folder, range(arguments.seeds))
             if arguments.pictures:
                 save(arguments.pictures, word.name, a.mean(axis=0), b.mean(axis=0))
-            p, z, rms, ratio = against(a, b, counts)
-            seen, *_ = against(larger, b, counts)
+            each = [count * word.times for count in counts]
+            p, z, rms, ratio = against(a, b, each)
+            seen, *_ = against(larger, b, each)
             wrong = p < FALSE_ALARM or abs(ratio - 1) > 0.005
             blind = seen >= FALSE_ALARM
             mark = " **differs**" if wrong else " **would not notice**" if blind else ""

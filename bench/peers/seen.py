@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+import correlated
 import surfaces as of
 from words import RED, TILT, Word, area, at, diffuse, matrix, mesh, rectangle, sky, spin, t3
 
@@ -127,10 +128,10 @@ def materials(mi, folder, g):
     eta, k = (0.2, 0.9, 1.4), (3.9, 2.4, 1.6)
     metal = {"type": "conductor", "eta": {"type": "rgb", "value": list(eta)}, "k": {"type": "rgb", "value": list(k)}}
     yield one("Conductor", f"Conductor(ior: {t3(eta)}, k: {t3(k)})", metal)
-    rough = {**metal, "type": "roughconductor", "distribution": "ggx"}
+    # Mitsuba's own `roughconductor` is darker at grazing angles, noticeably so from a roughness of 0.7.
     for r in (0.3, 0.7):
         yield one(f"Conductor, roughness {r}", f"Conductor(ior: {t3(eta)}, k: {t3(k)}, roughness: {r}, multiple_scattering: false)",
-                  {**rough, "alpha": r * r})
+                  correlated.of(r * r, eta, k))
 
 
 def patterns(mi, folder, g):
@@ -142,13 +143,13 @@ def patterns(mi, folder, g):
     to_world = matrix(mi, *rectangle((0, 0, 0), TILT, (1.8, 1.8)))
     place = (u[..., None] - 0.5) * 1.8 * s + (v[..., None] - 0.5) * 1.8 * t
 
-    def one(name, texture, colours):
+    def one(name, texture, colours, **more):
         file = os.path.join(folder, name.replace(" ", "-").replace(",", "") + ".exr")
         # Row 0 of ours is v = 1, of theirs v = 0.
         mi.Bitmap(colours[::-1].astype(np.float32)).write(file)
         bitmap = {"type": "bitmap", "filename": file, "raw": True, "filter_type": "nearest"}
         text = f"Rectangle(normal: {t3(TILT)}, size: 1.8, material: Diffuse(albedo: {texture}))"
-        return Word(name, text, {"it": {"type": "rectangle", "to_world": to_world, "bsdf": diffuse(bitmap)}})
+        return Word(name, text, {"it": {"type": "rectangle", "to_world": to_world, "bsdf": diffuse(bitmap)}}, **more)
 
     def mixed(t):
         return a + (b - a) * np.asarray(t, dtype=float)[..., None]
@@ -168,8 +169,8 @@ def patterns(mi, folder, g):
     yield one("Dots", f"Dots({colours}, radius: 0.35, {uv})", mixed(np.hypot(x % 1 - 0.5, y % 1 - 0.5) < 0.35))
     x1, y1 = mapped(u, v, (1.2, 0.9))
     uv1 = f"mapping: Uv(scale: ({1.2 * g}, {0.9 * g}), rotation: 20, offset: (0.3, 0.1))"
-    yield one("Gradient, Y", f"Gradient({colours}, {uv1})", mixed(np.clip(y1, 0, 1)))
-    yield one("Gradient, Radial", f"Gradient({colours}, axis: Radial, {uv1})", mixed(np.clip(np.hypot(x1, y1), 0, 1)))
+    yield one("Gradient, Y", f"Gradient({colours}, {uv1})", mixed(np.clip(y1, 0, 1)), times=4)
+    yield one("Gradient, Radial", f"Gradient({colours}, axis: Radial, {uv1})", mixed(np.clip(np.hypot(x1, y1), 0, 1)), times=4)
     p = 3 * place + (0.3, 0.2, 0.7)
     solid = f"mapping: Object(scale: {3 * g}, offset: (0.3, 0.2, 0.7))"
     yield one("Checkerboard of cubes", f"Checkerboard({colours}, {solid})", mixed(np.floor(p).sum(axis=2) % 2))

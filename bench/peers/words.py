@@ -36,6 +36,8 @@ class Word:
     size: tuple = (48, 48)
     assets: dict = field(default_factory=dict)
     emitters: dict = None
+    # How many times as many samples as others: what it is about shows in few pixels, or hardly.
+    times: int = 1
 
     def ron(self):
         floor = "Rectangle(center: (0, -1, 0), size: 7, material: Diffuse(albedo: (0.5, 0.6, 0.4)))," if self.floor else ""
@@ -128,8 +130,8 @@ def shapes(mi, folder, g):
     """Shapes as such: each is red, on a green floor."""
     m = f"material: Diffuse(albedo: {t3(RED)})"
 
-    def by_mesh(name, text, part, smooth=True):
-        return Word(name, text, {"it": mesh(folder, name.replace(" ", "-"), part, smooth=smooth)})
+    def by_mesh(name, text, part, smooth=True, **more):
+        return Word(name, text, {"it": mesh(folder, name.replace(" ", "-"), part, smooth=smooth)}, **more)
 
     def native(name, text, shape):
         return Word(name, text, {"it": {**shape, "bsdf": diffuse(RED)}})
@@ -177,7 +179,7 @@ def shapes(mi, folder, g):
                   of.moved(of.pushed(STAR, 0.5), spin((0, 1, 0), 40)), smooth=False)
     yield by_mesh("Extrude with a hole",
                   f"Extrude(outline: [{points(STAR)}, {points([(x * g, y * g) for x, y in HOLE])}], depth: 0.5, {turn}, {m})",
-                  of.moved(of.pushed(STAR, 0.5, [HOLE]), spin((0, 1, 0), 40)), smooth=False)
+                  of.moved(of.pushed(STAR, 0.5, [HOLE]), spin((0, 1, 0), 40)), smooth=False, times=4)
     heights = (np.add.outer(np.arange(9) * 3, np.arange(9) * 5) % 16) / 15.0
     picture = os.path.join(folder, "heights.exr")
     mi.Bitmap(np.repeat(heights[:, :, None], 3, 2).astype(np.float32)).write(picture)
