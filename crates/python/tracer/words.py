@@ -887,6 +887,7 @@ class Box(TypedDict, total=False):
 
     center: Its middle. Unit: the scene's unit.
     size: Lengths of its sides along x, y and z, or one number for all. Unit: the scene's unit.
+    rounding: Radius of its edges and corners, at most half the shortest side; 0: they are sharp. A box with round edges is made of triangles, shaded as round; of a face's texture the rounded border shows what lies inwards of it. Unit: the scene's unit.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -895,6 +896,7 @@ class Box(TypedDict, total=False):
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
     size: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+    rounding: Either[float, str, PickItem]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
@@ -1240,7 +1242,7 @@ class _UnionRequired(TypedDict):
 class Union(_UnionRequired, total=False):
     """Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
 
-    objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows.
+    objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`, too, which is all of space behind it, as seen from where its normal points.
     material: The material of those shapes in it that have none of their own.
     transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.

@@ -195,7 +195,9 @@ fn fields_of_shapes() {
     let cases = [
         (format!("Extrude({outline}, height: 1)"), "did you mean `depth`?"),
         (format!("Extrude({outline}, depth: 1, holes: [1])"), "holes are rings of the `outline`"),
-        (format!("Extrude({outline}, depth: 1, bevel: 0.1)"), "no bevels yet"),
+        (format!("Extrude({outline}, depth: 1, bevel: 0.1)"), "only a `Box` has round ones"),
+        ("Box(size: 1, bevel: 0.1)".to_owned(), "its `rounding`"),
+        ("Box(size: 1, roundness: 0.1)".to_owned(), "rounding"),
         (format!("Extrude({outline}, depth: 1, bezier: true)"), "its `curve`"),
         ("Extrude(points: [(0, 0), (1, 0), (0, 1)], depth: 1)".to_owned(), "outline: [[(0, 0)"),
         ("Extrude(points: [[(0, 0), (1, 0), (0, 1)]], depth: 1)".to_owned(), "did you mean `outline`?"),

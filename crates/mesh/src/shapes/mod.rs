@@ -11,6 +11,7 @@ mod height_field;
 mod lathe;
 mod outline;
 mod polygon;
+mod rounded_box;
 mod skew;
 mod torus;
 mod tube;
@@ -58,6 +59,7 @@ pub fn of_object(object: &Object) -> Option<&dyn Triangulated> {
         Object::Tube(tube) => &**tube,
         Object::Torus(torus) => &**torus,
         Object::Arrow(arrow) => &**arrow,
+        Object::Box(cuboid) if cuboid.is_rounded() => &**cuboid,
         _ => return None,
     })
 }

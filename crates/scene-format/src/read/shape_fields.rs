@@ -17,6 +17,22 @@ pub(super) fn one_ring(name: &str, value: Item<'_, '_>, def: &'static StructDef)
     is_ring.then(|| format!("{}[{}]", Fields(value.syntax()).name("outline"), value.lexeme()))
 }
 
+/// What round edges are called.
+const ROUND: [&str; 12] = [
+    "bevel",
+    "bevels",
+    "chamfer",
+    "fillet",
+    "rounded",
+    "round",
+    "roundness",
+    "rounding",
+    "bevel_depth",
+    "bevel_radius",
+    "corner_radius",
+    "edge_radius",
+];
+
 /// What is said of fields that shapes do not have.
 pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
     let shape = def.field("material").is_some() && def.field("transform").is_some();
@@ -28,8 +44,9 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
     let ends = def.field("from").is_some() && def.field("to").is_some();
     let side = matches!(name, "height" | "width" | "depth" | "length" | "thickness");
     Some(match (name, def.name) {
-        ("bevel" | "bevels" | "chamfer" | "fillet" | "rounded" | "rounding" | "bevel_depth" | "bevel_radius", _) => {
-            "there are no bevels yet, edges are sharp: make a mesh of it elsewhere, and name its file in a `Mesh`"
+        (name, "Box") if ROUND.contains(&name) => "the radius of its edges and corners is its `rounding`",
+        (name, _) if ROUND.contains(&name) => {
+            "of shapes with edges only a `Box` has round ones: make a mesh of it elsewhere, and name its file in a `Mesh`"
         }
         ("holes" | "hole" | "inner" | "cutouts" | "windows", "Extrude") => {
             "holes are rings of the `outline`, after the outer one: [[outer points ..], [points of a hole ..]]"

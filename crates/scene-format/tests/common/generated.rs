@@ -392,6 +392,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 center: vector(random).into(),
                 size: PerAxis(if random.below(2) == 0 { [length(random); 3] } else { [1.0, length(random), 2.0] })
                     .into(),
+                rounding: if random.below(2) == 0 { 0.0 } else { 1e-3 }.into(),
                 material,
                 transform: transforms(random),
                 placements,

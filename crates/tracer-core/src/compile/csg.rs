@@ -208,7 +208,8 @@ fn bounds(node: &Node, operands: &[OperandWritten], map: &DAffine3) -> Box3 {
     match node {
         Node::Operand(k) => {
             let operand = &operands[*k];
-            operand.unit.bounds(&(*map * operand.moved * operand.local))
+            let map = *map * operand.moved * operand.local;
+            if operand.unit.is_endless() { behind(&map) } else { operand.unit.bounds(&map) }
         }
         Node::Made(operation, nodes) => {
             let boxes = nodes.iter().map(|node| bounds(node, operands, map));
@@ -223,10 +224,23 @@ fn bounds(node: &Node, operands: &[OperandWritten], map: &DAffine3) -> Box3 {
     }
 }
 
+/// The box of what is behind a plane: it ends where the plane is across an axis.
+fn behind(map: &DAffine3) -> Box3 {
+    let normal = map.matrix3.x_axis.cross(map.matrix3.y_axis) * map.matrix3.determinant().signum();
+    let mut corners = [DVec3::NEG_INFINITY, DVec3::INFINITY];
+    for axis in 0..3 {
+        if normal[(axis + 1) % 3] == 0.0 && normal[(axis + 2) % 3] == 0.0 {
+            corners[usize::from(normal[axis] > 0.0)][axis] = map.translation[axis];
+        }
+    }
+    corners
+}
+
 /// The surfaces of all operands, those that are one and the same with the same numbers.
 fn parts(operands: &[OperandWritten]) -> Vec<PartWritten> {
     let [low, high] = operands
         .iter()
+        .filter(|operand| !operand.unit.is_endless())
         .map(|operand| operand.unit.bounds(&(operand.moved * operand.local)))
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
         .unwrap_or([DVec3::ZERO; 2]);
@@ -262,8 +276,9 @@ fn surfaces(unit: &UnitShape) -> Vec<(Surface, DAffine3)> {
         }
         UnitShape::Capsule { half } => vec![(Surface::Capsule { half }, DAffine3::IDENTITY)],
         UnitShape::Cube => (0..3).flat_map(|axis| [plane(axis, 0.5), plane(axis, -0.5)]).collect(),
+        UnitShape::Plane => vec![(Surface::Plane, DAffine3::IDENTITY)],
         // Others are no operands.
-        UnitShape::Sphere | UnitShape::Disk { .. } | UnitShape::Plane | UnitShape::Solid(_) => {
+        UnitShape::Sphere | UnitShape::Disk { .. } | UnitShape::Solid(_) => {
             vec![(Surface::Ball, DAffine3::IDENTITY)]
         }
     }

@@ -82,7 +82,7 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
         };
         match &object.value {
             Object::Rectangle(rectangle) => of_unit(UnitShape::Square, of_rectangle(rectangle), "rectangle"),
-            Object::Box(cuboid) => of_unit(UnitShape::Cube, of_box(cuboid), "box"),
+            Object::Box(cuboid) if !cuboid.is_rounded() => of_unit(UnitShape::Cube, of_box(cuboid), "box"),
             Object::Mesh(mesh) => Some(Polygonal {
                 number,
                 geometry: match &mesh.source {
@@ -138,6 +138,9 @@ fn of_rectangle(rectangle: &Rectangle) -> DAffine3 {
 /// A box as an operand of a solid.
 pub(super) fn cube(object: &Object) -> Option<super::curved::Written> {
     let Object::Box(cuboid) = object else { return None };
+    if cuboid.is_rounded() {
+        return None;
+    }
     Some(super::curved::Written { unit: tracer_kernels::shapes::UnitShape::Cube, local: of_box(cuboid), noun: "box" })
 }
 

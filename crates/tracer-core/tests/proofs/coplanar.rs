@@ -189,6 +189,7 @@ fn glass_on_a_table_shows_the_table() {
         let cube = Object::Box(Box::new(RectBox {
             center: [0.1, 0.6, 0.0].into(),
             size: PerAxis([1.2; 3]).into(),
+            rounding: 0.0.into(),
             material: of(glass(1.0)),
             transform: Vec::new(),
             placements: Placements::One,
@@ -291,6 +292,7 @@ fn block(center: [f64; 3], size: [f64; 3], material: Material, transform: Vec<Tr
     Object::Box(Box::new(RectBox {
         center: center.into(),
         size: PerAxis(size).into(),
+        rounding: 0.0.into(),
         material: of(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements: Placements::One,

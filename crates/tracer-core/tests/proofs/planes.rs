@@ -292,6 +292,7 @@ fn what_lies_in_it_does_not_speckle() {
         Object::Box(Box::new(RectBox {
             center: [0.0, 0.6, 0.0].into(),
             size: PerAxis([1.2; 3]).into(),
+            rounding: 0.0.into(),
             material: of(material),
             transform: steps.into_iter().map(Spanned::from).collect(),
             placements: Placements::One,

@@ -42,6 +42,7 @@ fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform
     Object::Box(Box::new(RectBox {
         center: center.into(),
         size: PerAxis(size).into(),
+        rounding: 0.0.into(),
         material: inline(material),
         transform: transform.into_iter().map(Into::into).collect(),
         placements: Placements::One,

@@ -35,6 +35,12 @@ const BODIES: &str = r#"
         Box(center: (1.8, 0.6, 0.6), size: 1, transform: [Rotate(axis: (0, 1, 0), degrees: 25)]),
         Sphere(center: (1.8, 0.6, 0.6), radius: 0.65, transform: [Scale((1, 0.9, 1))]),
     ]),
+    Difference(material: "it", objects: [
+        Intersection(objects: [
+            Sphere(center: (0.4, 0.4, 1.6), radius: 0.5), Plane(point: (0, 0.5, 0)), Plane(point: (0.5, 0, 1.5), normal: (1, 0.3, 0.2)),
+        ]),
+        Plane(point: (0, 0.2, 1.4), normal: (-0.3, -0.2, -1), transform: [Scale((1, 2, 1))]),
+    ]),
 "#;
 
 fn view(material: &str, bodies: &str, size: u32) -> SceneDesc {
@@ -222,6 +228,9 @@ fn solids_that_are_one_of_their_shapes() {
             format!("Intersection(objects: [Box(size: 20), {shape}])"),
             format!("Union(objects: [{shape}, {shape}])"),
             format!("Union(objects: [{shape}, Box(center: (0, 0.6, 0), size: 0.01)])"),
+            format!("Intersection(objects: [{shape}, Plane(point: (0, 3, 0))])"),
+            format!("Intersection(objects: [Plane(point: (0, 3, 0), normal: (0.1, 1, 0.2)), {shape}])"),
+            format!("Difference(objects: [{shape}, Plane(point: (0, -1, 0))])"),
         ] {
             let share = differing(&alone, &with(&solid));
             assert!(share < 0.01, "{solid}: {share} of the pixels differ");

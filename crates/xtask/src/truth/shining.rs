@@ -41,9 +41,14 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
     let size = [0; 3].map(|_| random.between(0.2, 1.15) * radius);
     let copied = once_in(random, 3);
     let there = vec![Transform::Translate(center).into()];
+    let size = if once_in(random, 3) { [1.1 * radius; 3] } else { size };
+    let shortest = size.into_iter().fold(f64::INFINITY, f64::min);
+    // Up to where nothing of its sides is left.
+    let rounding = if once_in(random, 4) { 0.5 * shortest * random.between(0.1, 1.1).min(1.0) } else { 0.0 };
     let cuboid = RectBox {
         center: if copied { [0.0; 3] } else { center }.into(),
-        size: PerAxis(if once_in(random, 3) { [1.1 * radius; 3] } else { size }).into(),
+        size: PerAxis(size).into(),
+        rounding: rounding.into(),
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
         placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },

@@ -6,7 +6,7 @@ use super::meshes::Point;
 use super::world::{World, inline};
 use scene_format::desc::{
     Capsule, Cone, Cylinder, Difference, Intersection, Material, MaterialRef, Name, Object, Operands, PerAxis,
-    Placements, RectBox, Sphere, Transform, Union,
+    Placements, Plane, RectBox, Sphere, Transform, Union,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -42,13 +42,28 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
 fn solid(middle: Point, radius: f64, material: &Material, depth: usize, random: &mut Random) -> Object {
     let count = 2 + random.below(2);
     let first = operand(middle, radius, material, depth, random);
-    let others = (1..count).map(|_| {
+    let mut objects = vec![first];
+    objects.extend((1..count).map(|_| {
         let beside = [0, 1, 2].map(|k: usize| middle[k] + random.between(-0.3, 0.3) * radius);
         operand(beside, 0.7 * radius, material, depth, random)
-    });
-    let objects = Operands(std::iter::once(first).chain(others).map(Into::into).collect());
+    }));
+    let kind = random.below(3);
+    // What is behind a plane that passes near the middle.
+    if kind > 0 && once_in(random, 4) {
+        let point = [0, 1, 2].map(|k: usize| middle[k] + random.between(-0.3, 0.3) * radius);
+        let normal = if once_in(random, 2) { random.direction().to_array() } else { [0.0, 1.0, 0.0] };
+        objects.push(Object::Plane(Box::new(Plane {
+            point: point.into(),
+            normal: normal.into(),
+            material: if once_in(random, 2) { inline(material.clone()) } else { MaterialRef::Default },
+            transform: Vec::new(),
+            placements: Placements::One,
+            name: Name::default(),
+        })));
+    }
+    let objects = Operands(objects.into_iter().map(Into::into).collect());
     let (transform, placements, name, own) = (Vec::new(), Placements::One, Name::default(), MaterialRef::Default);
-    match random.below(3) {
+    match kind {
         0 => Object::Union(Box::new(Union { objects, material: own, transform, placements, name })),
         1 => Object::Intersection(Box::new(Intersection { objects, material: own, transform, placements, name })),
         _ => Object::Difference(Box::new(Difference { objects, material: own, transform, placements, name })),
@@ -74,6 +89,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
         1 => Object::Box(Box::new(RectBox {
             center: middle.into(),
             size: PerAxis([0; 3].map(|_| random.between(0.5, 1.1) * radius)).into(),
+            rounding: 0.0.into(),
             material: material_ref,
             transform,
             placements,

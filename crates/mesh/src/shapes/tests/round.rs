@@ -1,8 +1,10 @@
-//! Tubes, tori and arrows.
+//! Tubes, tori, arrows, and boxes with round edges.
 
 use super::{Vector, check, dot, made, open_edges, volume};
 use crate::shapes::Triangulated;
-use scene_format::desc::{Arrow, Curve, MaterialRef, Name, PathPoints, Placements, Radii, Torus, Tube};
+use scene_format::desc::{
+    Arrow, Curve, MaterialRef, Name, PathPoints, PerAxis, Placements, Radii, RectBox, Torus, Tube,
+};
 use scene_format::diagnostic::Span;
 use std::f64::consts::{PI, TAU};
 
@@ -248,4 +250,56 @@ fn arrows() {
     assert_eq!(open_edges(&cone), 0);
     assert!((volume(&cone) / (PI * 0.09 / 3.0) - 1.0).abs() < 1e-3);
     assert_eq!(message(&arrow(up, 0.1, Some([0.05, 0.5]))), "the head of the arrow is thinner than its shaft: 0.05");
+}
+
+/// Vertices lie on the surface of what is within `rounding` of the inner box, which may have no length in one, two or
+/// three directions; flat sides are flat, and a face's texture goes once over it.
+#[test]
+fn boxes_with_round_edges() {
+    let center = [3.0, -1.0, 0.5];
+    for (size, rounding) in [
+        ([1.0, 2.0, 3.0], 0.2),
+        ([1.0, 2.0, 3.0], 0.5),
+        ([2.0, 1.0, 1.0], 0.5),
+        ([0.3, 0.3, 0.3], 0.15),
+        ([1.0, 1.0, 1.0], 1e-6),
+    ] {
+        let cuboid = RectBox {
+            center: center.into(),
+            size: PerAxis(size).into(),
+            rounding: rounding.into(),
+            material: MaterialRef::Default,
+            transform: Vec::new(),
+            placements: Placements::One,
+            name: Name::default(),
+        };
+        let mesh = made(&cuboid);
+        assert_eq!(open_edges(&mesh), 0, "{size:?}");
+        let inner = size.map(|side| 0.5 * side - rounding);
+        for (at, normal) in mesh.positions.iter().zip(&mesh.normals) {
+            let off = [0, 1, 2].map(|k: usize| {
+                let x = at[k] - center[k];
+                x - x.clamp(-inner[k], inner[k])
+            });
+            assert!((dot(off, off).sqrt() - rounding).abs() < 1e-12, "{at:?} {size:?}");
+            let along = dot(off, normal.map(f64::from)) / rounding;
+            assert!((along - 1.0).abs() < 1e-6, "{at:?} {normal:?}");
+        }
+        // Steiner's formula: the inner box, its sides, edges and corners, each `rounding` thick. Chords take little.
+        let [a, b, c] = inner.map(|half| 2.0 * half);
+        let (r, sides) = (rounding, 2.0 * (a * b + b * c + c * a));
+        let truth = a * b * c + sides * r + PI * r * r * (a + b + c) + 4.0 / 3.0 * PI * r * r * r;
+        let share = volume(&mesh) / truth;
+        assert!((0.995..=1.0 + 1e-12).contains(&share), "{size:?}: {share}");
+        let [u, v] = [0, 1].map(|k: usize| {
+            let all = mesh.uvs.iter().map(|uv| uv[k]);
+            [all.clone().fold(1.0, f32::min), all.fold(0.0, f32::max)]
+        });
+        // Faces meet at 45 degrees, where the corner is missing.
+        let missing = (1.0 - libm::cos(PI / 4.0)) * rounding / size.into_iter().fold(f64::INFINITY, f64::min);
+        for [low, high] in [u, v].map(|ends| ends.map(f64::from)) {
+            assert!(low >= 0.0 && low <= missing + 1e-6, "{low}");
+            assert!(high <= 1.0 && high >= 1.0 - missing - 1e-6, "{high}");
+        }
+    }
 }

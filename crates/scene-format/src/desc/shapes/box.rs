@@ -1,8 +1,9 @@
 //! Boxes.
 
 use super::Placements;
+use crate::codes;
 use crate::desc::{Faulty, MaterialRef, Name, PerAxis, ShapeWords, Transform, Vec3};
-use crate::diagnostic::Spanned;
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::files::FileKind;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -16,6 +17,9 @@ scene_struct! {
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
         /// Lengths of its sides along x, y and z, or one number for all.
         size: Spanned<PerAxis<3>> = PerAxis([1.0; 3]) => Rule::length("a length");
+        /// Radius of its edges and corners, at most half the shortest side; 0: they are sharp. A box with round edges is
+        /// made of triangles, shaded as round; of a face's texture the rounded border shows what lies inwards of it.
+        rounding: Spanned<f64> = 0.0 => Rule::within("a radius", 0.0, 1e12).unit("in the scene's unit");
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
@@ -37,4 +41,23 @@ impl ShapeWords for RectBox {
     const MANY: &'static str = "boxes";
 }
 
-impl Faulty for RectBox {}
+impl RectBox {
+    /// Whether its edges are round.
+    pub fn is_rounded(&self) -> bool {
+        self.rounding.value > 0.0
+    }
+}
+
+impl Faulty for RectBox {
+    fn faults(&self, span: Span) -> Vec<Diagnostic> {
+        let shortest = self.size.value.0.into_iter().fold(f64::INFINITY, f64::min);
+        if self.rounding.value <= 0.5 * shortest {
+            return Vec::new();
+        }
+        let at = if self.rounding.span == Span::NONE { span } else { self.rounding.span };
+        let message =
+            format!("the edges of the box are rounder than it is thick: its `rounding` is {}", self.rounding.value);
+        let fault = Diagnostic::error(codes::OUT_OF_RANGE, at, message);
+        vec![fault.expected(format!("at most half the shortest side, which is {}", 0.5 * shortest))]
+    }
+}

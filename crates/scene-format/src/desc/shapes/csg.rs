@@ -63,7 +63,8 @@ scene_struct! {
     pub struct Union as "Union", "a union" {
         /// The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`,
         /// `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each
-        /// other counted. Where surfaces coincide that of the first shows.
+        /// other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`,
+        /// too, which is all of space behind it, as seen from where its normal points.
         objects: Operands;
         /// The material of those shapes in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
@@ -169,7 +170,7 @@ impl Faulty for Difference {
 }
 
 const CLOSED: &str =
-    "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection` or `Difference`";
+    "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Plane`, `Union`, `Intersection` or `Difference`";
 
 fn no_operand(at: Span, message: String, expected: &str) -> Diagnostic {
     Diagnostic::error(codes::NO_OPERAND, at, message).expected(expected)
@@ -187,6 +188,17 @@ fn faults(objects: &Operands, noun: &str, span: Span) -> Vec<Diagnostic> {
     found
 }
 
+/// A plane in a solid is all of space behind it: whether the solid has an end, by which of its shapes have one.
+fn has_end(objects: &Operands, noun: &str) -> bool {
+    // Solids in it have one, or are told themselves.
+    let mut ends = objects.0.iter().map(|object| !matches!(object.value, Object::Plane(_)));
+    match noun {
+        "union" => ends.all(|end| end),
+        "intersection" => ends.any(|end| end),
+        _ => ends.next().unwrap_or(true),
+    }
+}
+
 fn count(objects: &Operands) -> usize {
     objects.0.iter().map(|object| object.value.operands().map_or(1, count)).sum()
 }
@@ -194,6 +206,15 @@ fn count(objects: &Operands) -> usize {
 fn collect(objects: &Operands, noun: &str, span: Span, found: &mut Vec<Diagnostic>) {
     if objects.0.is_empty() {
         found.push(no_operand(span, format!("the {noun} is made of nothing"), "at least one shape in `objects`"));
+    } else if !has_end(objects, noun) {
+        let message = format!("the {noun} has no end: a plane in it is all of space behind the plane");
+        let expected = match noun {
+            "union" => "shapes that have an end",
+            "intersection" => "one shape at least that has an end",
+            _ => "a first shape that has an end",
+        };
+        let hint = "a `Box` has an end; planes cut an `Intersection` or a `Difference`";
+        found.push(no_operand(span, message, expected).hint(hint));
     }
     for object in &objects.0 {
         let at = if object.span == Span::NONE { span } else { object.span };
@@ -217,16 +238,17 @@ fn collect(objects: &Operands, noun: &str, span: Span, found: &mut Vec<Diagnosti
 fn unfit(object: &Object) -> Option<(String, &'static str)> {
     let closed = "close it: `caps: true`";
     Some(match object {
-        Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) => return None,
+        Object::Box(cuboid) if cuboid.is_rounded() => {
+            let message = "a box with round edges is made of triangles, and cannot be part of a solid";
+            (message.to_owned(), "leave `rounding` out, or let it stand beside the solid")
+        }
+        Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) | Object::Plane(_) => return None,
         Object::Cylinder(cylinder) if matches!(**cylinder, Cylinder { caps: true, .. }) => return None,
         Object::Cone(cone) if matches!(**cone, Cone { caps: true, .. }) => return None,
         Object::Cylinder(_) => ("an open cylinder has no inside".to_owned(), closed),
         Object::Cone(_) => ("an open cone has no inside".to_owned(), closed),
         Object::Rectangle(_) => ("a rectangle has no inside".to_owned(), "a thin `Box` has one"),
         Object::Disk(_) => ("a disk has no inside".to_owned(), "a short `Cylinder` has one"),
-        Object::Plane(_) => {
-            ("a plane has no end and no inside".to_owned(), "a large `Box`, one side in the plane, has one")
-        }
         other => {
             let kind = other.kind();
             let article = if kind.starts_with(['A', 'E']) { "an" } else { "a" };
