@@ -274,6 +274,10 @@ impl Studio<'_> {
         }
         self.shared.change(State::begin);
         let film = tracer_core::render(&stage.scene, &self.options(), &self.observer(number, None));
+        if let Some(faults) = &film.fault {
+            let faults = told(faults, &stage.desc.sources, &self.shared.options.scene, self.width());
+            self.shared.change(|state| state.told.extend(faults));
+        }
         self.is_done(number, film);
     }
 

@@ -165,6 +165,9 @@ fn made(held: &Held, settings: &Settings, shared: &Shared) -> Result<Made, Fault
         ..RenderOptions::default()
     };
     let film = tracer_core::render(&scene, &options, &Watch(shared));
+    if let Some(diagnostics) = film.fault {
+        return Err(Faults { diagnostics, sources: desc.sources.clone() });
+    }
     let look = Look { exposure: desc.effects.exposure.value, ..scene.look };
     let mut note = None;
     let filtered = denoised.then(|| tracer_core::denoise(&film)).transpose().unwrap_or_else(|error: DenoiseError| {

@@ -28,6 +28,7 @@ pub use first_hit::{FirstHit, first_hits};
 use glam::DVec3;
 use materials::{Incident, Materials, Rough, Scattered};
 pub use random::Random;
+use scene_format::Diagnostics;
 use tracer_core::Scene;
 use world::World;
 
@@ -68,24 +69,74 @@ impl<'a> Reference<'a> {
     }
 
     /// Mean radiance of a pixel over this many independent samples, at least two, and the variance of that mean.
-    pub fn pixel(&self, [x, y]: [u32; 2], samples: u32, seed: u64) -> [DVec3; 2] {
+    pub fn pixel(&self, pixel: [u32; 2], samples: u32, seed: u64) -> [DVec3; 2] {
+        let mut sums = Sums::default();
+        self.add(pixel, samples, seed, &mut sums);
+        sums.mean_and_variance()
+    }
+
+    /// Adds this many independent samples of a pixel.
+    pub fn add(&self, [x, y]: [u32; 2], samples: u32, seed: u64, sums: &mut Sums) {
         let Reference(tracer) = self;
         let scene = tracer.scene;
-        let n = f64::from(samples);
         let mut random = Random::new(seed ^ (u64::from(y) << 32 | u64::from(x)) << 16);
-        let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
         for _ in 0..samples {
             let ray = camera::ray(&scene.camera, scene.size, [x, y], &mut random);
             let radiance = ray.map_or(DVec3::ZERO, |ray| tracer.radiance(ray, 0, &mut random));
-            sum += radiance;
-            squares += radiance * radiance;
+            sums.sum += radiance;
+            sums.squares += radiance * radiance;
         }
-        let mean = sum / n;
-        [mean, (squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0)]
+        sums.samples += samples;
     }
 }
 
-/// Renders the scene with this many independent samples per pixel, at least two.
+/// What samples of a pixel have brought.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sums {
+    sum: DVec3,
+    squares: DVec3,
+    samples: u32,
+}
+
+impl Sums {
+    /// Their mean, and the variance of that mean, if they are independent and two at least.
+    pub fn mean_and_variance(&self) -> [DVec3; 2] {
+        let n = f64::from(self.samples);
+        let mean = self.sum / n;
+        [mean, (self.squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0)]
+    }
+}
+
+/// A scene in which something moves while the shutter is open, as so many samples see it: one at random in each of as
+/// many equal parts of the time, and a seed for each. The engine has other times.
+pub fn moments(scene: &Scene, samples: u32, seed: u64) -> impl Iterator<Item = (u64, Result<Scene, Diagnostics>)> {
+    let mut random = Random::new(seed ^ 0x5b_077e);
+    (0..samples).filter_map(move |k| {
+        let part = (f64::from(k) + random.number()) / f64::from(samples);
+        Some((seed.wrapping_add(u64::from(k).wrapping_mul(0x9e37_79b9_7f4a_7c15)), scene.at(part)?))
+    })
+}
+
+/// Renders a scene in which something moves while the shutter is open, with this many samples per pixel, at least two,
+/// at [`moments`] of their own. The variance is an upper bound: times are more even than by chance.
+///
+/// # Errors
+/// What is wrong with the scene at one of the moments.
+pub fn render_moving(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> Result<Picture, Diagnostics> {
+    let [width, height] = scene.size;
+    let mut sums = vec![Sums::default(); width as usize * height as usize];
+    for (seed, now) in moments(scene, samples, seed) {
+        let now = now?;
+        let reference = Reference::new(&now, smoothing);
+        for (k, sums) in (0..).zip(&mut sums) {
+            reference.add([k % width, k / width], 1, seed, sums);
+        }
+    }
+    let [mean, variance] = [0, 1].map(|k| sums.iter().map(|sums| sums.mean_and_variance()[k]).collect());
+    Ok(Picture { size: scene.size, mean, variance })
+}
+
+/// Renders the scene with this many independent samples per pixel, at least two, as it is when its shutter opens.
 pub fn render(scene: &Scene, samples: u32, seed: u64, smoothing: Smoothing) -> Picture {
     let reference = Reference::new(scene, smoothing);
     let [width, height] = scene.size;

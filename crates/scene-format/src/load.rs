@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
+use crate::moments::Moments;
 use crate::overrides::{self, Override};
 use crate::read::{self, Whole};
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
@@ -115,50 +116,93 @@ fn load_string(
     }
     let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
     let library = Library::of(&text, syntax, base_dir, overrides);
-    let mut sink = Sink::default();
-    let scene = analyse(&text, syntax, overrides, &library, &mut sink);
-    for file in &library.files {
-        sink.files.add(FileKind::Scene, &file.path, file.from);
-    }
     let mut sources = vec![Source { name: name.to_owned(), text }];
     sources.extend(overrides.iter().map(|set| Source { name: set.option.to_owned(), text: set.argument.clone() }));
-    let first_included = sources.len();
     sources.extend(library.files.iter().map(|file| file.source.clone()));
-    sink.diagnostics.iter_mut().for_each(|fault| library.say_where(fault, first_included));
-    if sink.errors > 0
-        && let Some(fault) = foreign::whole(&sources[0].text, syntax)
-    {
-        return Err(LoadError::Invalid { diagnostics: vec![fault], sources, files: Vec::new() });
-    }
-    // What could be read of a wrong scene is of no use any more, and may be large.
-    let scene = scene.filter(|_| sink.errors == 0);
-    let mut diagnostics = sink.diagnostics;
-    let broken = files::broken_lines(&sources[0].text, &diagnostics);
-    if sink.errors > 1 {
-        follow_ups::leave_out(&sources[0].text, &mut diagnostics, |text| {
-            let mut sink = Sink::default();
-            analyse(text, syntax, overrides, &library, &mut sink);
-            sink.diagnostics.retain(|fault| fault.severity == Severity::Error);
-            sink.diagnostics
-        });
-    }
-    diagnostics.sort_by_key(|diagnostic| diagnostic.span);
-    follow_ups::withhold(&sources[0].text, &mut diagnostics);
-    match scene {
-        Some(scene) => {
-            let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();
-            let scene = SceneDesc { base_dir: base_dir.to_owned(), sources, includes, ..described(scene) };
-            Ok(Loaded { scene, warnings: diagnostics })
+    let texts = Texts { sources, syntax, base_dir: base_dir.to_owned(), overrides: overrides.to_vec(), library };
+    let (read, moves) = match texts.read(0.0) {
+        Ok(read) => read,
+        Err(Faults { diagnostics, files }) => {
+            return Err(LoadError::Invalid { diagnostics, sources: texts.sources, files });
         }
-        None => {
-            let files = sink.files.outside(&broken);
-            Err(LoadError::Invalid { diagnostics, sources, files })
+    };
+    let Loaded { mut scene, warnings } = read;
+    if !moves {
+        scene.sources = texts.sources;
+        return Ok(Loaded { scene, warnings });
+    }
+    scene.sources.clone_from(&texts.sources);
+    scene.moments = Moments::new(texts, &scene);
+    // What is wrong between two frames is told before anything is rendered.
+    for share in [0.5, 1.0].map(|part| part * scene.camera.shutter.value) {
+        if let Err(diagnostics) = scene.at(share) {
+            return Err(LoadError::Invalid { diagnostics, sources: scene.sources, files: Vec::new() });
         }
+    }
+    Ok(Loaded { scene, warnings })
+}
+
+/// A scene's texts, as they are read.
+#[derive(Debug)]
+pub(crate) struct Texts {
+    /// The scene, the arguments of the command line, the files that are included.
+    pub sources: Vec<Source>,
+    syntax: Syntax,
+    base_dir: PathBuf,
+    overrides: Vec<Override>,
+    library: Library,
+}
+
+/// What is wrong with them.
+pub(crate) struct Faults {
+    pub diagnostics: Diagnostics,
+    /// The files that the text names, as far as it could be read.
+    files: Vec<NamedFile>,
+}
+
+impl Texts {
+    /// The scene as it is so large a share of a frame after its frame's beginning, without its sources; and whether
+    /// anything moves in it while the shutter is open.
+    pub fn read(&self, share: f64) -> Result<(Loaded, bool), Faults> {
+        let Texts { sources, syntax, base_dir, overrides, library } = self;
+        let text = &sources[0].text;
+        let mut sink = Sink::default();
+        let scene = analyse(text, *syntax, overrides, library, share, &mut sink);
+        for file in &library.files {
+            sink.files.add(FileKind::Scene, &file.path, file.from);
+        }
+        sink.diagnostics.iter_mut().for_each(|fault| library.say_where(fault, 1 + overrides.len()));
+        if sink.errors > 0
+            && let Some(fault) = foreign::whole(text, *syntax)
+        {
+            return Err(Faults { diagnostics: vec![fault], files: Vec::new() });
+        }
+        // What could be read of a wrong scene is of no use any more, and may be large.
+        let scene = scene.filter(|_| sink.errors == 0);
+        let mut diagnostics = sink.diagnostics;
+        let broken = files::broken_lines(text, &diagnostics);
+        if sink.errors > 1 {
+            follow_ups::leave_out(text, &mut diagnostics, |text| {
+                let mut sink = Sink::default();
+                analyse(text, *syntax, overrides, library, share, &mut sink);
+                sink.diagnostics.retain(|fault| fault.severity == Severity::Error);
+                sink.diagnostics
+            });
+        }
+        diagnostics.sort_by_key(|diagnostic| diagnostic.span);
+        follow_ups::withhold(text, &mut diagnostics);
+        let Some(scene) = scene else {
+            return Err(Faults { diagnostics, files: sink.files.outside(&broken) });
+        };
+        let moves = scene.moves;
+        let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();
+        let scene = SceneDesc { base_dir: base_dir.clone(), includes, ..described(scene) };
+        Ok((Loaded { scene, warnings: diagnostics }, moves))
     }
 }
 
 /// The description that a scene's words give.
-fn described(Whole { scene, camera }: Whole) -> SceneDesc {
+fn described(Whole { scene, camera, .. }: Whole) -> SceneDesc {
     SceneDesc {
         version: scene.version,
         animation: scene.animation.0,
@@ -176,6 +220,7 @@ fn described(Whole { scene, camera }: Whole) -> SceneDesc {
         base_dir: PathBuf::new(),
         sources: Vec::new(),
         includes: Vec::new(),
+        moments: Moments::default(),
     }
 }
 
@@ -254,9 +299,18 @@ fn with_texts(json: String) -> String {
     out
 }
 
-/// The scene of a text, or what could be read of it; what is wrong goes to `sink`.
-fn analyse(text: &str, syntax: Syntax, overrides: &[Override], library: &Library, sink: &mut Sink) -> Option<Whole> {
+/// The scene of a text, or what could be read of it, so large a share of a frame after its beginning; what is wrong
+/// goes to `sink`.
+fn analyse(
+    text: &str,
+    syntax: Syntax,
+    overrides: &[Override],
+    library: &Library,
+    share: f64,
+    sink: &mut Sink,
+) -> Option<Whole> {
     let mut tree = parse(text, syntax, sink);
+    tree.share = share;
     overrides::apply(&mut tree, overrides, sink);
     library.append_to(&mut tree, sink);
     read::scene(&tree, sink)

@@ -112,6 +112,8 @@ pub(crate) struct Tree<'s> {
     pub damaged: bool,
     /// Included files, whose nodes stand after the scene's.
     pub included: Vec<Root>,
+    /// The moment that it is read at: so large a share of a frame after the frame's beginning.
+    pub share: f64,
 }
 
 impl<'s> Tree<'s> {

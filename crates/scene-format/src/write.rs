@@ -69,11 +69,19 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
 /// A field that has its default counts as not written, so that a field that the language gets later changes no hash of
 /// today. (A default never changes within a version of the language.) Two scenes have the same hash when they have the
 /// same fields with the same numbers, whatever the syntax, the order of materials and of fields, the comments, or the
-/// form of the numbers. Files that a scene names count by their names alone.
+/// form of the numbers. Files that a scene names count by their names alone. Where something moves while the shutter is
+/// open, what the scene says at several moments counts.
 pub fn hash(scene: &SceneDesc) -> [u8; 32] {
     let mut hasher = Sha256::new();
     hasher.update(b"tracer scene 1");
     feed(&mut hasher, &form(scene, Defaults::Hidden));
+    if scene.moves() {
+        // Two ways to move that agree here are the same for all practical purposes.
+        for k in 0..8 {
+            let later = scene.at(scene.camera.shutter.value * (f64::from(k) + 0.5) / 8.0);
+            feed(&mut hasher, &later.map_or(Form::Absent, |later| form(&later, Defaults::Hidden)));
+        }
+    }
     hasher.finalize().into()
 }
 

@@ -345,6 +345,10 @@ fn fields_of_the_scene_and_of_the_camera() {
         ("direction: (0, 0, -1)", "`look_at`"),
     ];
     check(&of_camera, |field| scene("", field, ""));
+    let of_motion = ["motion_blur: true", "shutter_open: 0", "shutter_close: 0.5", "shutter_angle: 180"];
+    let of_motion = of_motion.map(|field| (field, "the camera's `shutter`, a share of a frame"));
+    check(&of_motion, |field| scene("", field, ""));
+    check(&of_motion, |field| scene(&format!("{field},"), "", ""));
 }
 
 #[test]

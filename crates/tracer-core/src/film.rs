@@ -34,6 +34,7 @@ use tracer_kernels::sampling::blocks::TILE;
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
+use scene_format::Diagnostics;
 use std::alloc::{Layout, handle_alloc_error};
 use std::ops::Range;
 use tracer_kernels::layers::{Kept, Layer, LayerSet};
@@ -280,6 +281,9 @@ pub struct Film {
     /// The most that the largest channel of a sample counts, where samples are clamped: the picture is then too dark
     /// where they were.
     pub clamp: Option<f32>,
+    /// Why it was ended early: what is wrong with the scene at the moment of the next sample index, where something
+    /// moves while the shutter is open ([`crate::Scene::at_sample`]).
+    pub fault: Option<Diagnostics>,
     /// Lane type that was used.
     pub level: Level,
     /// Threads that were used.
@@ -322,6 +326,7 @@ impl Film {
             reuse: false,
             caustics: false,
             clamp,
+            fault: None,
             level: Level::best(),
             threads: 1,
         }

@@ -59,7 +59,7 @@ pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};
 pub use marks::{MarkSeen, marks};
 pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};
-pub use scene::{CompileTimes, Scene, film_layers, layer_set, layer_word};
+pub use scene::{CompileTimes, Moments, Scene, film_layers, layer_set, layer_word};
 pub use tracer_denoise::Told as DenoiseTold;
 pub use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::level::Level;

@@ -48,6 +48,8 @@ pub struct MarkSeen {
 /// # }
 /// ```
 pub fn marks(scene: &mut Scene, desc: &SceneDesc) -> Vec<MarkSeen> {
+    // They are told of as the shutter opens.
+    let moments = scene.moments.take();
     let of = |mark: &scene_format::desc::Mark| {
         let point = scene.frame.point(DVec3::from(mark.point.value));
         let size = scene.size.map(f64::from);
@@ -58,7 +60,9 @@ pub fn marks(scene: &mut Scene, desc: &SceneDesc) -> Vec<MarkSeen> {
         let seen = within && depth >= scene.camera.near && is_free(scene, point);
         MarkSeen { name: mark.name.value.clone(), pixel, depth: depth / scene.frame.scale, seen }
     };
-    desc.output.marks.iter().map(of).collect()
+    let seen = desc.output.marks.iter().map(of).collect();
+    scene.moments = moments;
+    seen
 }
 
 /// In render units.

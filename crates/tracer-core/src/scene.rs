@@ -2,10 +2,12 @@
 
 use crate::develop::{Backdrop, Look};
 use crate::mattes::{Mattes, mattes_kept};
-use scene_format::{Diagnostic, desc};
+use scene_format::{Diagnostic, Diagnostics, desc};
 use std::ops::{Deref, DerefMut};
 use std::path::PathBuf;
+use std::sync::Arc;
 use tracer_kernels::layers::{Layer, LayerSet};
+use tracer_kernels::sampling::sampler::{Pair, Purpose, hash3};
 pub use tracer_kernels::scene::{
     Albedo, Between, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis,
     Instance, Integrator, Lens, Light, Made, Material, Mesh, NONE, NoiseKind, Op, Operand, Pattern, PatternKind,
@@ -26,6 +28,8 @@ pub struct Scene {
     pub mattes: Mattes,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,
+    /// Where something moves while the camera's shutter is open: what it is compiled of at other times.
+    pub moments: Option<Arc<dyn Moments>>,
     /// How long compiling took.
     pub times: CompileTimes,
 }
@@ -52,6 +56,79 @@ impl Deref for Scene {
 impl DerefMut for Scene {
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.rendered
+    }
+}
+
+/// A scene at other times, where something moves while its camera's shutter is open. [`crate::compile`] makes it of the
+/// scene's texts; a program that has other ways to move things may put its own there ([`Scene::moments`]).
+pub trait Moments: Send + Sync {
+    /// The scene as it is so large a part, from 0 to 1, of the time that the shutter is open after the shutter opens.
+    /// It has the [`Frame`] and the unit of radiance of the scene that this stands in, and as many materials and
+    /// objects where these are told apart.
+    ///
+    /// # Errors
+    /// What is wrong with it then.
+    fn at(&self, part: f64) -> Result<Scene, Diagnostics>;
+}
+
+/// When a sample index sees the scene: a part, from 0 to 1, of the time that the shutter is open. Each run of 2^k of
+/// them that begins at a multiple of that has one in each of 2^k equal parts of the time.
+///
+/// Points of the sampler with a shuffle of their own: by the index's own bits in reverse, times would be tied to the
+/// first of each two dimensions that a pixel draws.
+fn moment(seed: u32, sample: u32) -> f64 {
+    let pair = Pair::new(hash3(seed, 0, 0x005b_077e) as u32, Purpose::Grid);
+    f64::from(pair.point(0, 0, sample)[0])
+}
+
+impl Scene {
+    /// Whether something moves while the camera's shutter is open: then its picture is of many scenes, of which this is
+    /// the one when the shutter opens ([`Scene::at_sample`]).
+    pub fn moves(&self) -> bool {
+        self.moments.is_some()
+    }
+
+    /// The scene as it is so large a part, from 0 to 1, of the time that its shutter is open after the shutter opens;
+    /// `None` where nothing moves. Nothing moves in it. Its render space and its unit of radiance are this scene's; so
+    /// is what is rendered of it.
+    ///
+    /// # Errors
+    /// What is wrong with it then.
+    pub fn at(&self, part: f64) -> Option<Result<Scene, Diagnostics>> {
+        let moments = self.moments.as_deref()?;
+        Some(moments.at(part).map(|scene| self.rendered_as(scene)))
+    }
+
+    /// The scene as a sample index of its picture sees it, with a seed; `None` where nothing moves.
+    ///
+    /// ```
+    /// use scene_format::{Syntax, load_str};
+    /// use std::path::Path;
+    /// use tracer_core::compile;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let text = "Scene(background: 1, camera: Camera(shutter: 0.5), \
+    ///     objects: [Sphere(center: (\"=24*time\", 0, 0), radius: 1)])";
+    /// let scene = compile(&load_str("s.ron", text, Syntax::Ron, Path::new(""), &[])?.scene)?;
+    /// let later = scene.at_sample(7, 0).ok_or("it moves")?.map_err(|faults| faults[0].message.clone())?;
+    /// assert_ne!(later.spheres[0].center, scene.spheres[0].center);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// What is wrong with it then.
+    pub fn at_sample(&self, sample: u32, seed: u32) -> Option<Result<Scene, Diagnostics>> {
+        self.at(moment(seed, sample))
+    }
+
+    /// Another scene, of which is rendered what is rendered of this one.
+    fn rendered_as(&self, mut other: Scene) -> Scene {
+        (other.size, other.samples, other.max_bounces) = (self.size, self.samples, self.max_bounces);
+        (other.seed, other.integrator, other.clamp) = (self.seed, self.integrator, self.clamp);
+        (other.noise, other.time) = (self.noise, self.time);
+        (other.layers, other.backdrop, other.look) = (self.layers, self.backdrop, self.look);
+        other
     }
 }
 
@@ -104,3 +181,43 @@ words!(
     Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance, Alpha, Noise, PathLength, Nodes,
     Leaves
 );
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every aligned run of a power of two is stratified, whatever the seed; so are both halves that denoising keeps.
+    #[test]
+    fn moments_are_stratified() {
+        for seed in 0..20 {
+            for (power, run) in (0..8).flat_map(|power| (0..4).map(move |run| (power, run))) {
+                let count = 1u32 << power;
+                let mut seen = vec![false; count as usize];
+                for sample in run * count..(run + 1) * count {
+                    let at = moment(seed, sample);
+                    assert!((0.0..1.0).contains(&at));
+                    seen[(at * f64::from(count)) as usize] = true;
+                }
+                assert!(seen.iter().all(|&seen| seen), "seed {seed}, {count} from {}", run * count);
+            }
+        }
+    }
+
+    /// Times and the places in a pixel at the same indices fill the square.
+    #[test]
+    fn moments_know_nothing_of_places_in_pixels() {
+        let mut worst: f64 = 0.0;
+        for seed in 0..20 {
+            let pixel = Pair::new(seed, Purpose::Pixel);
+            let mut cells = [0u32; 64];
+            for sample in 0..1024 {
+                let [x, _] = pixel.point(5, 9, sample);
+                cells[(moment(seed, sample) * 8.0) as usize * 8 + (f64::from(x) * 8.0) as usize] += 1;
+            }
+            let chi2: f64 = cells.iter().map(|&n| (f64::from(n) - 16.0).powi(2) / 16.0).sum();
+            worst = worst.max(chi2);
+        }
+        // 63 degrees of freedom: 130 is beyond one in a million of the twenty.
+        assert!(worst < 130.0, "{worst}");
+    }
+}

@@ -12,7 +12,17 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tracer_core::mesh::MeshFormat;
-use tracer_core::{CompileError, Kept, Scene};
+use tracer_core::{CompileError, Film, Kept, Scene};
+
+/// Sees that nothing is wrong with a scene at a moment that a film was to show; else it has been printed.
+///
+/// # Errors
+/// Something is.
+pub fn expect_all_moments(film: &Film, desc: &SceneDesc, form: DiagnosticsForm, shell: &Shell) -> Result<(), Failure> {
+    let Some(faults) = &film.fault else { return Ok(()) };
+    shell.diagnostics(faults, &desc.sources, form);
+    Err(Failure::WrongScene)
+}
 
 /// The name that stands for standard input, and output.
 pub fn is_dash(path: &Path) -> bool {

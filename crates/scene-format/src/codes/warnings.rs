@@ -133,7 +133,8 @@ codes! {
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNUSED_VAR "W0402" "a var is not used";
-    /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0.
+    /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0. Or the camera
+    /// has a `shutter`, and no expression asks for `time`, so that nothing is blurred by motion.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Sphere(center: ("=time", 0, 0), radius: 1)])

@@ -9,7 +9,7 @@ use crate::words::{Words, scene_struct};
 
 scene_struct! {
     /// A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its
-    /// seconds from the start. Each frame is a picture of its own: nothing moves while one is taken.
+    /// seconds from the start. Each frame is a picture of its own; `shutter` of the camera blurs what moves in it.
     pub struct Animation as "Animation", "the animation" {
         /// How many frames there are.
         frames: Spanned<u32> = 1 => Rule::within("a whole number", 1.0, 1e6);
@@ -29,7 +29,12 @@ impl Default for Animation {
 impl Animation {
     /// Seconds from the start to the frame that is seen.
     pub fn time(&self) -> f64 {
-        f64::from(self.frame.value) / self.fps.value
+        self.time_at(0.0)
+    }
+
+    /// Seconds from the start to a moment so large a share of a frame later.
+    pub fn time_at(&self, share: f64) -> f64 {
+        (f64::from(self.frame.value) + share) / self.fps.value
     }
 }
 

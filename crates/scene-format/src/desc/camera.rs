@@ -39,6 +39,10 @@ scene_struct! {
         /// What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It
         /// still shades and shows in mirrors.
         near: Option<Spanned<f64>> = None => Rule::length("a length");
+        /// Motion blur: the shutter is open from the frame's `time` on, for this share of a frame. What is an expression
+        /// of `time` moves meanwhile; each sample sees the scene at a moment of its own. 0.5 is what films have. 0:
+        /// nothing moves while a picture is taken.
+        shutter: Spanned<f64> = 0.0 => Rule::within("a number", 0.0, 1.0).unit("of a frame");
         /// How directions become places in the picture.
         projection: Projection = Projection::Perspective;
     }
@@ -124,6 +128,8 @@ pub struct Camera {
     pub shift: Spanned<[f64; 2]>,
     /// What is nearer than this along the view is not seen by the camera.
     pub near: Option<Spanned<f64>>,
+    /// The share of a frame that the shutter is open for.
+    pub shutter: Spanned<f64>,
     /// How directions become places in the picture.
     pub projection: Projection,
 }
@@ -144,6 +150,7 @@ impl Words for Camera {
             sensor_width: words.sensor_width,
             shift: words.shift,
             near: words.near,
+            shutter: words.shutter,
             projection: words.projection,
         };
         if let Some(matrix) = words.matrix {
@@ -175,6 +182,7 @@ impl Words for Camera {
             sensor_width: camera.sensor_width,
             shift: camera.shift,
             near: camera.near,
+            shutter: camera.shutter,
             projection: camera.projection,
         }
         .form(all);
@@ -199,6 +207,7 @@ impl Default for Camera {
             sensor_width: 36.0.into(),
             shift: [0.0, 0.0].into(),
             near: None,
+            shutter: 0.0.into(),
             projection: Projection::Perspective,
         }
     }

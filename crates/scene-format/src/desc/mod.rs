@@ -69,6 +69,7 @@ pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reus
 
 use crate::diagnostic::{Source, Spanned};
 use crate::files::FileKind;
+use crate::moments::Moments;
 use crate::read::{Includes, Vars};
 use crate::schema::Rule;
 use crate::words::scene_struct;
@@ -119,6 +120,8 @@ pub struct SceneDesc {
     pub sources: Vec<Source>,
     /// The scene files that it includes, relative to `base_dir`.
     pub includes: Vec<Arc<Path>>,
+    /// Where it moves while the shutter is open: what it is read of again ([`SceneDesc::at`]).
+    pub moments: Moments,
 }
 
 scene_struct! {
@@ -177,6 +180,7 @@ impl Default for SceneDesc {
             base_dir: PathBuf::new(),
             sources: Vec::new(),
             includes: Vec::new(),
+            moments: Moments::default(),
         }
     }
 }

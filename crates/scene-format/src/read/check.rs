@@ -18,6 +18,8 @@ pub(super) static ROOT: FieldDef =
 pub(crate) struct Whole {
     pub scene: Scene,
     pub camera: Chosen,
+    /// Whether anything moves while the camera's shutter is open.
+    pub moves: bool,
 }
 
 /// Reads a whole scene. What is wrong goes to `sink`; the result counts only when that holds no error.
@@ -36,7 +38,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         return None;
     }
     let mut reader = Reader::new(sink);
-    reader.clock = super::clock::Clock::of(root);
+    reader.clock = super::clock::Clock::of(root, tree.share);
     reader.first_included = (tree.texts.len() - tree.included.len()) as u32;
     // Names of materials may be missing where `materials` itself is mistyped or could not be read.
     let unread = |key: Item<'_, '_>, value: Item<'_, '_>, field: &str| {
@@ -82,7 +84,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     if !reader.sink.diagnostics.iter().any(structure) {
         reader.unused_materials();
         reader.unused_vars();
-        reader.nothing_moves();
+        reader.nothing_moves(&chosen.camera.shutter);
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
         let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
@@ -114,7 +116,8 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     scene.materials = reader.materials.take();
     scene.cameras = reader.cameras.take();
     reader.shapes(&scene);
-    Some(Whole { scene, camera: chosen })
+    let moves = reader.moves(&chosen.camera.shutter);
+    Some(Whole { scene, camera: chosen, moves })
 }
 
 fn no_objects(span: Span, message: &str, syntax: Syntax) -> Diagnostic {

@@ -4,7 +4,7 @@
 use super::{Reader, Step};
 use crate::codes;
 use crate::desc::{Animation, Scene};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::expression::{Named, Value};
 use crate::schema::FieldDef;
 use crate::tree::{Item, NOWHERE};
@@ -15,8 +15,12 @@ pub(super) struct Clock {
     /// Where the animation stands on the tape.
     slot: u32,
     state: State,
+    /// The share of a frame that has gone by since the frame began.
+    share: f64,
     /// An expression of the scene itself that asks for it.
     asked: Option<(Span, &'static str)>,
+    /// Some expression asks for `time`.
+    goes_by: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -30,15 +34,15 @@ enum State {
 
 impl Default for Clock {
     fn default() -> Self {
-        Clock { slot: NOWHERE, state: State::NotYet, asked: None }
+        Clock { slot: NOWHERE, state: State::NotYet, share: 0.0, asked: None, goes_by: false }
     }
 }
 
 impl Clock {
-    /// That of a scene.
-    pub fn of(root: Item<'_, '_>) -> Self {
+    /// That of a scene, so large a share of a frame after the frame's beginning.
+    pub fn of(root: Item<'_, '_>, share: f64) -> Self {
         let animation = root.fields().find(|(key, _)| key.text() == "animation");
-        Clock { slot: animation.map_or(NOWHERE, |(_, value)| value.index() as u32), ..Clock::default() }
+        Clock { slot: animation.map_or(NOWHERE, |(_, value)| value.index() as u32), share, ..Clock::default() }
     }
 }
 
@@ -90,6 +94,7 @@ impl Reader<'_> {
     /// What `frame` and `time` stand for; `None` for other names.
     pub(super) fn moment(&mut self, name: &str, item: Item<'_, '_>) -> Option<Named> {
         let name = if name == "frame" { "frame" } else { (name == "time").then_some("time")? };
+        self.clock.goes_by |= name == "time";
         if self.clock.asked.is_none() && !self.is_included(item.span()) {
             self.clock.asked = Some((item.span(), name));
         }
@@ -115,13 +120,36 @@ impl Reader<'_> {
                 return Some(Named::Failed);
             }
         };
-        let value = if name == "frame" { f64::from(animation.frame.value) } else { animation.time() };
+        let value = match name {
+            "frame" => f64::from(animation.frame.value),
+            _ => animation.time_at(self.clock.share),
+        };
         Some(Named::Value(Value::Number(value)))
     }
 
-    /// Warns where time is asked for that does not go by.
-    pub(super) fn nothing_moves(&mut self) {
+    /// Whether anything goes by `time`, and the shutter is open while it does.
+    pub(super) fn moves(&self, shutter: &Spanned<f64>) -> bool {
+        shutter.value > 0.0 && self.clock.goes_by
+    }
+
+    /// Warns where time is asked for that does not go by, and where it goes by and nobody asks for it.
+    pub(super) fn nothing_moves(&mut self, shutter: &Spanned<f64>) {
+        if shutter.value > 0.0 && !self.clock.goes_by {
+            let message = "nothing moves while the shutter is open: no expression asks for `time`";
+            self.path.extend([Step::Field("camera"), Step::Field("shutter")]);
+            let fault = Diagnostic::warning(codes::NOTHING_MOVES, shutter.span, message);
+            self.report(fault.hint(match self.clock.asked {
+                Some(_) => "`frame` stays what it is within a frame; `time` goes on",
+                None => "write what moves as an expression of `time`, or leave `shutter` out",
+            }));
+            self.path.truncate(self.path.len() - 2);
+        }
         let Some((span, name)) = self.clock.asked.filter(|_| self.clock.slot == NOWHERE) else { return };
+        // A shutter that is wrong is one all the same.
+        let is_wrong = || self.sink.diagnostics.iter().any(|fault| fault.path == "camera.shutter");
+        if name == "time" && (shutter.value > 0.0 || is_wrong()) {
+            return;
+        }
         let message = format!("`{name}` is always 0: the scene has no `animation`");
         let fault = Diagnostic::warning(codes::NOTHING_MOVES, span, message);
         self.report(fault.hint("`animation: Animation(frames: 48)` says how many frames there are"));

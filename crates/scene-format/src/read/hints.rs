@@ -435,7 +435,20 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         }
         "fisheye" | "dome" if camera => "a round picture: `projection: Fisheye(fov: 180)`",
         "far" | "far_clip" | "zfar" | "clip_end" if camera => "nothing is too far away to be seen: leave it out",
-        "shutter" | "motion_blur" if camera => "nothing moves while a picture is taken: leave it out",
+        "motion_blur"
+        | "motionblur"
+        | "shutter_open"
+        | "shutter_close"
+        | "shutter_speed"
+        | "shutter_time"
+        | "shutter_angle"
+        | "exposure_time"
+        | "motion_blur_shutter"
+        | "shutter"
+            if !has("shutter") && (camera || def.name == "Effects" || has("frames")) || def.name == "Camera" =>
+        {
+            "how long the shutter is open is the camera's `shutter`, a share of a frame: 0.5 for 180 degrees"
+        }
         "rotation" | "direction" | "forward" if camera => {
             "the camera's direction is said by `look_at`, the point that it looks at, or by `matrix`"
         }
@@ -446,7 +459,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
              --frames 0-47"
         }
         "duration" | "seconds" if has("frames") => "the duration is `frames` over `fps`",
-        "motion_keys" if has("frames") => "nothing moves while a frame is taken: leave it out",
+        "motion_keys" | "motion_steps" if has("frames") => {
+            "each sample sees the scene at a moment of its own while the camera's `shutter` is open: leave it out"
+        }
         "bump" | "bump_map" | "normal_map" | "normal" | "displacement" | "normals" if surface => {
             "surfaces have no bumps: they need to be in the mesh; `shading: Smooth` rounds a mesh"
         }

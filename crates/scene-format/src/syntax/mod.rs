@@ -199,7 +199,7 @@ pub(crate) fn parse_as<'s>(source: u16, text: &'s str, syntax: Syntax, sink: &mu
         }
     };
     let texts = vec![Text { text, syntax, folder: Path::new("") }];
-    Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, included: Vec::new() }
+    Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, ..Tree::default() }
 }
 
 #[cfg(test)]

@@ -90,7 +90,7 @@ impl From<Pixels> for Asset {
 }
 
 /// Where compiling takes what it reads: memory, what was kept, the disk.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Sources<'a> {
     /// What the last compiling has kept.
     pub kept: Option<&'a Kept>,
@@ -123,6 +123,16 @@ impl<'a> Sources<'a> {
         Sources { kept: Some(kept), ..Sources::default() }
     }
 
+    /// The same without what was kept.
+    pub fn in_memory(&self) -> Sources<'static> {
+        Sources { kept: None, meshes: self.meshes.clone(), pixels: self.pixels.clone(), files: self.files.clone() }
+    }
+
+    /// The same with what was kept.
+    pub fn with<'k>(&self, kept: &'k Kept) -> Sources<'k> {
+        Sources { kept: Some(kept), ..self.in_memory() }
+    }
+
     pub fn mesh(&self, path: &Path) -> Result<Arc<MeshData>, MeshError> {
         if let Some(arrays) = self.meshes.get(&plain(path)) {
             return arrays.mesh(path).map(Arc::new);
@@ -132,7 +142,7 @@ impl<'a> Sources<'a> {
             return Err(MeshError::Arrays { path: path.to_owned(), message, expected });
         }
         match self.kept {
-            Some(kept) => kept::load_mesh(kept, path),
+            Some(kept) => kept::load_mesh(kept, path, &self.files),
             None => mesh::load_from(path, &self.files).map(Arc::new),
         }
     }
@@ -163,9 +173,10 @@ impl<'a> Sources<'a> {
         if let Some(pixels) = self.pixels(path)? {
             return Ok(pixels.panorama(path));
         }
-        match self.files.get(path) {
-            Some(bytes) => texture::decode_environment(bytes, path),
-            None => texture::load_environment(path),
+        match (self.files.get(path), self.kept) {
+            (Some(bytes), _) => texture::decode_environment(bytes, path),
+            (None, Some(kept)) => kept::load_environment(kept, path).map(|picture| (*picture).clone()),
+            (None, None) => texture::load_environment(path),
         }
     }
 

@@ -1,13 +1,13 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::texture::{self, Landscape, Reading, Texture, TextureError};
+use crate::texture::{self, Landscape, Panorama, Reading, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
-use tracer_mesh::{self as mesh, MeshData, MeshError};
+use tracer_mesh::{self as mesh, Files, MeshData, MeshError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
@@ -18,10 +18,14 @@ pub struct Kept {
     meshes: Mutex<BTreeMap<PathBuf, Entry<MeshData>>>,
     textures: Mutex<BTreeMap<(PathBuf, Reading), Entry<Texture>>>,
     heights: Mutex<BTreeMap<PathBuf, Entry<Landscape>>>,
+    environments: Mutex<BTreeMap<PathBuf, Entry<Panorama>>>,
+    /// Files are as they were when they were read, whatever became of them since.
+    is_frozen: bool,
     /// By what they were built of.
     trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
 }
 
+/// What was made of a file.
 struct Entry<T> {
     /// The files that it was made of, and what tells that they are the same.
     stamps: Vec<(PathBuf, Stamp)>,
@@ -41,9 +45,18 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What was made of a file, if it would be made again as it was; else it is made, and kept. `key`: the file, and how it
-/// is read.
+/// Entries that share their values with these.
+fn of_last_scene<K: Ord + Clone, T>(entries: &Mutex<BTreeMap<K, Entry<T>>>) -> Mutex<BTreeMap<K, Entry<T>>> {
+    let entries = lock(entries);
+    let used = entries.iter().filter(|(_, entry)| entry.used);
+    let shared = |entry: &Entry<T>| Entry { stamps: Vec::new(), value: Arc::clone(&entry.value), used: true };
+    Mutex::new(used.map(|(key, entry)| (key.clone(), shared(entry))).collect())
+}
+
+/// What was made of a file, if it would be made again as it was, or files are frozen; else it is made, and kept. `key`:
+/// the file, and how it is read.
 fn file<K: Ord, T, E>(
+    is_frozen: bool,
     entries: &Mutex<BTreeMap<K, Entry<T>>>,
     key: K,
     path: &Path,
@@ -51,7 +64,7 @@ fn file<K: Ord, T, E>(
     others: impl FnOnce(&T) -> Vec<PathBuf>,
 ) -> Result<Arc<T>, E> {
     if let Some(entry) = lock(entries).get_mut(&key)
-        && entry.stamps.iter().all(|(path, known)| known.is_some() && stamp(path) == *known)
+        && (is_frozen || entry.stamps.iter().all(|(path, known)| known.is_some() && stamp(path) == *known))
     {
         entry.used = true;
         return Ok(Arc::clone(&entry.value));
@@ -68,25 +81,30 @@ fn file<K: Ord, T, E>(
 }
 
 /// A mesh file, read or kept.
-pub(super) fn load_mesh(kept: &Kept, path: &Path) -> Result<Arc<MeshData>, MeshError> {
+pub(super) fn load_mesh(kept: &Kept, path: &Path, files: &Files) -> Result<Arc<MeshData>, MeshError> {
     // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read
     // again.
     let others = |mesh: &MeshData| {
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()
     };
-    file(&kept.meshes, path.to_owned(), path, || mesh::load(path), others)
+    file(kept.is_frozen, &kept.meshes, path.to_owned(), path, || mesh::load_from(path, files), others)
 }
 
 /// A texture, read or kept.
 pub(super) fn load_texture(kept: &Kept, path: &Path, reading: Reading) -> Result<Arc<Texture>, TextureError> {
     let load = || texture::load_as(path, reading);
-    file(&kept.textures, (path.to_owned(), reading), path, load, |_| Vec::new())
+    file(kept.is_frozen, &kept.textures, (path.to_owned(), reading), path, load, |_| Vec::new())
 }
 
 /// Heights, read or kept.
 pub(super) fn load_heights(kept: &Kept, path: &Path) -> Result<Arc<Landscape>, TextureError> {
-    file(&kept.heights, path.to_owned(), path, || texture::load_heights(path), |_| Vec::new())
+    file(kept.is_frozen, &kept.heights, path.to_owned(), path, || texture::load_heights(path), |_| Vec::new())
+}
+
+/// The picture of a background, read or kept.
+pub(super) fn load_environment(kept: &Kept, path: &Path) -> Result<Arc<Panorama>, TextureError> {
+    file(kept.is_frozen, &kept.environments, path.to_owned(), path, || texture::load_environment(path), |_| Vec::new())
 }
 
 /// A tree, built or kept.
@@ -109,12 +127,33 @@ pub(super) fn build_tree(
 }
 
 impl Kept {
+    /// What the last scene has used, its files as they are now for ever.
+    pub(super) fn frozen(&self) -> Kept {
+        let trees = lock(&self.trees);
+        let used = trees.iter().filter(|(_, (used, _))| *used);
+        let trees = used.map(|(key, (_, tree))| (*key, (true, Arc::clone(tree)))).collect();
+        Kept {
+            meshes: of_last_scene(&self.meshes),
+            textures: of_last_scene(&self.textures),
+            heights: of_last_scene(&self.heights),
+            environments: of_last_scene(&self.environments),
+            is_frozen: true,
+            trees: Mutex::new(trees),
+        }
+    }
+
+    /// Lets go of the trees that the last scene did not use.
+    pub(super) fn sweep_trees(&self) {
+        lock(&self.trees).retain(|_, (used, _)| std::mem::take(used));
+    }
+
     /// Lets go of what the last scene did not use.
     pub(super) fn sweep(&self) {
         lock(&self.meshes).retain(|_, entry| std::mem::take(&mut entry.used));
         lock(&self.textures).retain(|_, entry| std::mem::take(&mut entry.used));
         lock(&self.heights).retain(|_, entry| std::mem::take(&mut entry.used));
-        lock(&self.trees).retain(|_, (used, _)| std::mem::take(used));
+        lock(&self.environments).retain(|_, entry| std::mem::take(&mut entry.used));
+        self.sweep_trees();
     }
 }
 

@@ -13,6 +13,7 @@ mod kept;
 mod loading;
 mod materials;
 mod meshes;
+mod moments;
 mod nearby;
 mod patterns;
 mod placing;
@@ -107,6 +108,17 @@ fn integrator(words: &Integrator, frame: &Frame) -> scene::Integrator {
 }
 
 fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, CompileError> {
+    if desc.moves() { moments::compile(desc, sources) } else { compile_like(desc, sources, Like::default()) }
+}
+
+/// What a scene has in common with another, so that one film can be of both.
+#[derive(Clone, Copy, Debug, Default)]
+struct Like {
+    frame: Option<Frame>,
+    radiance_unit: Option<f64>,
+}
+
+fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<Scene, CompileError> {
     let start = Instant::now();
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
@@ -134,13 +146,14 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
-    let frame = Frame::choose(eye, &marks(&curved, &solid_objects, &placed, look_at));
+    let chosen = || Frame::choose(eye, &marks(&curved, &solid_objects, &placed, look_at));
+    let frame = like.frame.unwrap_or_else(chosen);
     let camera = camera::camera(desc, &frame);
     unmeant::far_view(desc, &camera, &frame, &mut diagnostics);
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
     let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
     let behind = background.brightest();
-    let radiance_unit = radiances::unit(desc, &shining, behind);
+    let radiance_unit = like.radiance_unit.unwrap_or_else(|| radiances::unit(desc, &shining, behind));
     diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
     let is_dark = behind == [0.0; 3];
     let (background, environment) = background.build(radiance_unit);
@@ -266,6 +279,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         files: files.into_iter().collect(),
         mattes,
         warnings: diagnostics,
+        moments: None,
         times: CompileTimes { assets, tables: tables_seconds, tree },
     })
 }

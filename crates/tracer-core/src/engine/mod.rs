@@ -7,6 +7,7 @@
 mod counting;
 mod grid;
 mod inspect;
+mod moments;
 mod observer;
 mod options;
 mod passes;
@@ -22,9 +23,11 @@ pub use inspect::{
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
-use crate::film::{Crop, Film};
+use crate::film::{Crop, Film, Keeper};
+use crate::scene::Scene;
 use grid::Grid;
 use passes::{Painter, Passes, SAMPLES, is_looked_at};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use technique::Engine;
@@ -34,7 +37,7 @@ use tracer_kernels::engine::pass::{Pass, Task};
 use tracer_kernels::engine::pool::{Counted, Pool};
 use tracer_kernels::layers::Layer;
 use tracer_kernels::level::Level;
-use tracer_kernels::scene::{Integrator, Scene};
+use tracer_kernels::scene::Integrator;
 
 /// Why a film cannot be gone on with ([`resume`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -53,7 +56,9 @@ pub enum Misfit {
     },
 }
 
-/// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early.
+/// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early. Where
+/// something moves while the shutter is open, each sample index sees a scene of its own ([`Scene::at_sample`]), and what
+/// is wrong with one of these ends it early, too ([`Film::fault`]).
 pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
     let film = new_film(scene, options);
     go_on(scene, options, film, observer).unwrap_or_else(|misfit| unreachable!("a new film: {misfit}"))
@@ -92,7 +97,7 @@ fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
 }
 
 /// A film without samples.
-fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
+fn new_film(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Film {
     let crop =
         options.part.map(|part| part.crop).or(options.crop).unwrap_or(Crop::whole(scene.size)).within(scene.size);
     let clamp = options.clamp.or(scene.clamp).filter(|&limit| limit > 0.0 && limit.is_finite());
@@ -109,7 +114,7 @@ fn new_film(scene: &Scene, options: &RenderOptions) -> Film {
 }
 
 /// The sample index that a rendering ends before.
-fn samples(scene: &Scene, options: &RenderOptions) -> u32 {
+fn samples(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> u32 {
     options.part.map(|part| part.end).or(options.samples).unwrap_or(scene.samples)
 }
 
@@ -124,35 +129,67 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     }
     let kernels = Kernels::new(film.level);
     let pool = Pool::new(film.threads, options.statistics);
-    let mut painter = painter(Engine { scene, kernels: &kernels }, options, &film, samples, &pool, observer);
-    take_up(&mut film, &mut painter)?;
+    let engine = Engine { scene, kernels: &kernels };
     let before = Counted { counters: film.counters, costs: film.costs, ..Counted::default() };
     let goals = Goals::new(scene, options);
-    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(goals.noise.is_some());
-    let mut keeper = None;
-    while !goals.are_met(&film)
+    let mut work = Work { options, observer, pool: &pool, samples, before, goals, keeper: None };
+    if scene.moves() {
+        return moments::go_on(scene, &kernels, film, work);
+    }
+    let mut painter = painter(engine, options, &film, samples, &pool, observer);
+    take_up(&mut film, &mut painter)?;
+    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(work.goals.noise.is_some());
+    while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
         let started = Instant::now();
-        painter.until = goals.until.filter(|_| film.whole > film.first());
+        if !work.add(&mut film, &mut painter, pass) {
+            break;
+        }
+        passes.took(started.elapsed(), options.longest_pass);
+        work.offer_state(&film);
+    }
+    Ok(film)
+}
+
+/// What a rendering does pass by pass.
+struct Work<'a> {
+    options: &'a RenderOptions,
+    observer: &'a dyn Observer,
+    pool: &'a Pool,
+    /// The sample index that it ends before.
+    samples: u32,
+    /// What was counted before.
+    before: Counted,
+    goals: Goals,
+    keeper: Option<Keeper>,
+}
+
+impl Work<'_> {
+    /// Adds a pass, or what is left of it; whether the rendering goes on.
+    fn add(&mut self, film: &mut Film, painter: &mut Painter<'_>, pass: Range<u32>) -> bool {
+        painter.until = self.goals.until.filter(|_| film.whole > film.first());
         painter.prepare(&pass);
-        film.unfinished = painter.paint(&mut film, pass.clone(), keeper.take());
-        note(&mut film, &before, &pool.counted());
+        film.unfinished = painter.paint(film, pass.clone(), self.keeper.take());
+        note(film, &self.before, &self.pool.counted());
         if film.unfinished.is_none() {
             film.whole = pass.end;
         }
         if painter.stopped.load(Ordering::Relaxed) {
-            break;
+            return false;
         }
-        observer.pass(&film);
-        passes.took(started.elapsed(), options.longest_pass);
-        if film.whole < samples && observer.wants_state() {
+        self.observer.pass(film);
+        true
+    }
+
+    /// Gives the film as it is to whoever wants to keep it.
+    fn offer_state(&mut self, film: &Film) {
+        if film.whole < self.samples && self.observer.wants_state() {
             let (end, state) = film.state();
-            keeper = Some(end);
-            observer.state(state);
+            self.keeper = Some(end);
+            self.observer.state(state);
         }
     }
-    Ok(film)
 }
 
 /// What adds passes to the film, with the techniques that are worth it in this scene.
@@ -199,9 +236,7 @@ fn take_up(film: &mut Film, painter: &mut Painter<'_>) -> Result<(), Misfit> {
     if film.is_begun() {
         fits("reuse", film.reuse == reuse)?;
         fits("caustics", film.caustics == caustics)?;
-        let places = painter.grid.len();
-        let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
-        fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= places))?;
+        has_places(film, painter)?;
     }
     if let Some(last) = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end).checked_sub(1) {
         // What was made before is made again, and counted no second time.
@@ -210,6 +245,13 @@ fn take_up(film: &mut Film, painter: &mut Painter<'_>) -> Result<(), Misfit> {
     }
     (film.reuse, film.caustics) = (reuse, caustics);
     Ok(())
+}
+
+/// Whether what is left of a pass is of blocks that there are.
+fn has_places(film: &Film, painter: &Painter<'_>) -> Result<(), Misfit> {
+    let places = painter.grid.len();
+    let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
+    fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= places))
 }
 
 /// When a rendering ends before it has its samples.
@@ -221,7 +263,7 @@ struct Goals {
 }
 
 impl Goals {
-    fn new(scene: &Scene, options: &RenderOptions) -> Self {
+    fn new(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Self {
         let of_scene = options.part.is_none();
         // A time that no clock can hold is none.
         let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());

@@ -5,6 +5,7 @@
 //! and vertex, never by lane.
 
 use crate::film::Cells;
+use std::any::Any;
 use std::ops::Range;
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::engine::kernels::Kernels;
@@ -63,6 +64,21 @@ pub trait Technique: Send + Sync {
 
     /// After the last vertex of a batch.
     fn after_batch(&self, _: Engine<'_>, _: Pass<'_>, _: &mut Batch) {}
+
+    /// The sample index at which is made what it works with at this one. Where the scene moves, that is made of the
+    /// scene as the former sees it.
+    fn made_at(&self, sample: u32) -> u32 {
+        sample
+    }
+
+    /// What it was made ready with, for the technique of its name at the next moment of a scene that moves: there are
+    /// new ones for each.
+    fn hand_on(&mut self) -> Option<Box<dyn Any + Send>> {
+        None
+    }
+
+    /// Goes on with what the one of the moment before has handed on.
+    fn take_over(&mut self, _: Box<dyn Any + Send>) {}
 
     /// If it brings light to the film beside the samples: how many sample indices it works on at a time. At most one
     /// technique does: the film counts one such sum ([`crate::film`]).

@@ -25,6 +25,7 @@ mod marks;
 mod matrix;
 mod mattes;
 mod metals;
+mod motion;
 mod patterns;
 mod planes;
 mod random_scenes;

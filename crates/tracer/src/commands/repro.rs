@@ -10,7 +10,7 @@ use crate::command_line::printable;
 use crate::compare::Picture;
 use crate::denoising;
 use crate::failure::{Failure, exit};
-use crate::loading::{compile, is_dash, told as told_load, use_threads, with_faults_of_files};
+use crate::loading::{compile, expect_all_moments, is_dash, told as told_load, use_threads, with_faults_of_files};
 use crate::progress::Watch;
 use crate::shell::Shell;
 use crate::write::{Encoding, encode, is_one_file, probe, save, sha256};
@@ -223,6 +223,7 @@ fn again(
     };
     let film = render(&scene, &options, &watch);
     watch.finish();
+    expect_all_moments(&film, &desc, DiagnosticsForm::Text, shell)?;
     if interrupt::requested().is_some() {
         return Ok(None);
     }

@@ -23,6 +23,7 @@ mod interrupt;
 mod kubernetes;
 mod layers;
 mod mattes;
+mod motion;
 mod parts;
 mod render;
 mod report;

@@ -18,15 +18,17 @@ use super::RenderOptions;
 use super::passes::Painter;
 use super::technique::Engine;
 use crate::film::{Crop, Part};
+use crate::scene::Scene;
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::engine::kernels::Kernels;
 use tracer_kernels::layers::LayerSet;
 use tracer_kernels::level::Level;
 use tracer_kernels::sampling::blocks::ITEM_PIXELS;
-use tracer_kernels::scene::{Integrator, Scene};
+use tracer_kernels::scene::Integrator;
 
 /// Explains a sample of a pixel; `None` where the picture has no such pixel or is of no light
-/// (`render.integrator: AmbientOcclusion`).
+/// (`render.integrator: AmbientOcclusion`), or something is wrong with the scene as the sample sees it
+/// ([`Scene::at_sample`]).
 ///
 /// # Examples
 ///
@@ -58,11 +60,12 @@ pub fn inspect(scene: &Scene, options: &RenderOptions, pixel: [u32; 2], sample: 
     let crop = Crop { x: pixel[0], y: pixel[1], width: 1, height: 1 };
     let part = Part { crop, first: sample, end: sample + 1, of_crop: crop, of_samples: sample + 1 };
     let kernels = Kernels::new(options.level.unwrap_or_else(Level::best));
-    let engine = Engine { scene, kernels: &kernels };
+    let now = scene.at_sample(sample, options.seed.unwrap_or(scene.seed)).transpose().ok()?;
+    let engine = Engine { scene: now.as_ref().unwrap_or(scene), kernels: &kernels };
     let all = RenderOptions { part: Some(part), layers: Some(LayerSet::default()), ..*options };
     let plain = RenderOptions { reuse: Some(false), caustics: Some(false), ..all };
     let path = path::follow(engine, &plain, pixel, sample)?;
-    let whole = whole::explain(engine, &all, pixel, sample)?;
+    let whole = whole::explain(engine, scene, &all, pixel, sample)?;
     Some(Inspection { pixel, sample, path, whole })
 }
 

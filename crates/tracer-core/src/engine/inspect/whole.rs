@@ -1,14 +1,16 @@
 //! A sample with all techniques at work: what each of them brings to it.
 
+use super::super::moments::handed_before;
 use super::super::observer::Unobserved;
 use super::super::technique::Engine;
 use super::super::trace::trace;
 use super::super::watcher::{Unwatched, Watcher};
-use super::super::{RenderOptions, new_film, painter};
+use super::super::{Goals, RenderOptions, Work, new_film, painter};
 use super::told::{Brought, Shared, Whole};
 use super::{fill, radiance};
+use crate::scene::Scene;
 use tracer_kernels::engine::batch::{Batch, path};
-use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::engine::pool::{Counted, Pool};
 use tracer_kernels::sampling::blocks::ITEM_PIXELS;
 
 /// Sees what techniques bring to a slot. Rays that were aimed from it get another one, of an item with the same pixels
@@ -72,7 +74,14 @@ fn shared(slot: u32, batch: &Batch) -> Option<Shared> {
 }
 
 /// Explains it; the outer `None`: there is no such pixel; the inner: no technique is at work.
-pub fn explain(engine: Engine<'_>, options: &RenderOptions, pixel: [u32; 2], sample: u32) -> Option<Option<Whole>> {
+/// `whole`: the scene as the shutter opens, of which the engine's is what the sample sees.
+pub fn explain(
+    engine: Engine<'_>,
+    whole: &Scene,
+    options: &RenderOptions,
+    pixel: [u32; 2],
+    sample: u32,
+) -> Option<Option<Whole>> {
     let scene = engine.scene;
     let threads = if options.threads == 0 { super::super::available_threads() } else { options.threads };
     let pool = Pool::new(threads, false);
@@ -80,6 +89,18 @@ pub fn explain(engine: Engine<'_>, options: &RenderOptions, pixel: [u32; 2], sam
     let mut painter = painter(engine, options, &film, sample + 1, &pool, &Unobserved);
     if painter.techniques.is_empty() {
         return Some(None);
+    }
+    if whole.moves() {
+        let work = Work {
+            options,
+            observer: &Unobserved,
+            pool: &pool,
+            samples: sample + 1,
+            before: Counted::default(),
+            goals: Goals::new(scene, options),
+            keeper: None,
+        };
+        handed_before(whole, engine.kernels, &film, &work, sample).ok()?.give(&mut painter);
     }
     painter.prepare(&(sample..sample + 1));
     film.unfinished = painter.paint(&mut film, sample..sample + 1, None);

@@ -7,6 +7,7 @@
 use super::Trial;
 use super::photons::photons;
 use crate::engine::technique::{Engine, Technique, Vertex};
+use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -40,11 +41,18 @@ struct Guides {
     more: Option<u32>,
     stage: u32,
     guide: Guide,
+    /// It was made at the first sample index that has it.
+    is_of_stage: bool,
 }
 
 /// Which guide a sample index has: a new one at every power of two.
 fn stage_of(sample: u32) -> u32 {
     sample.checked_ilog2().map_or(0, |k| k + 1)
+}
+
+/// The first sample index that has a guide.
+fn first_of(stage: u32) -> u32 {
+    stage.checked_sub(1).map_or(0, |k| 1 << k)
 }
 
 /// Guides, where photons are wanted and have a way to go.
@@ -62,7 +70,14 @@ impl Guides {
         }
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let first = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
-        Guides { plan, seed, first, more: None, stage: u32::MAX, guide: Guide { cells: Cells::default(), casters } }
+        let guide = Guide { cells: Cells::default(), casters };
+        Guides { plan, seed, first, more: None, stage: u32::MAX, guide, is_of_stage: false }
+    }
+
+    /// The guide of a sample index.
+    fn stage(&self, sample: u32) -> u32 {
+        let largest = (MOST_PHOTONS / self.first).ilog2() + 1;
+        stage_of(sample).min(largest)
     }
 }
 
@@ -73,9 +88,8 @@ impl Technique for Guides {
 
     /// Makes the guide of these sample indices, which have the same one, if it is not at hand.
     fn before_pass(&mut self, engine: Engine<'_>, samples: &Range<u32>, pool: &Pool) {
-        let largest = (MOST_PHOTONS / self.first).ilog2() + 1;
-        let stage = stage_of(samples.start).min(largest);
-        debug_assert_eq!(stage_of(samples.end.max(1) - 1).min(largest), stage, "a pass has one guide");
+        let stage = self.stage(samples.start);
+        debug_assert_eq!(self.stage(samples.end.max(1) - 1), stage, "a pass has one guide");
         if stage == self.stage {
             return;
         }
@@ -96,7 +110,25 @@ impl Technique for Guides {
             batch.watch.costs.photons_since(start);
             cells
         });
-        self.stage = stage;
+        (self.stage, self.is_of_stage) = (stage, samples.start == first_of(stage));
+    }
+
+    fn made_at(&self, sample: u32) -> u32 {
+        first_of(self.stage(sample))
+    }
+
+    /// The cells: photons cost too much for a sample each, and a guide only says where to look. One that was not made
+    /// at the first index of its stage (there were no ways for photons then) is not handed on, so that it does not
+    /// matter at which index a rendering begins.
+    fn hand_on(&mut self) -> Option<Box<dyn Any + Send>> {
+        self.is_of_stage.then(|| Box::new((self.stage, std::mem::take(&mut self.guide.cells))) as Box<dyn Any + Send>)
+    }
+
+    fn take_over(&mut self, handed: Box<dyn Any + Send>) {
+        if let Ok(handed) = handed.downcast::<(u32, Cells)>() {
+            (self.stage, self.guide.cells) = *handed;
+            self.is_of_stage = true;
+        }
     }
 
     fn tell<'a>(&'a self, pass: &mut Pass<'a>) {

@@ -6,7 +6,7 @@ use scene_format::desc::{Caustics, Reuse};
 use tracer_core::scene::Sharing;
 use tracer_core::{Film, Scene};
 use tracer_reference::statistics::{Estimate, sidak};
-use tracer_reference::{Smoothing, render};
+use tracer_reference::{Smoothing, render, render_moving};
 
 /// Pixels along a tile's side.
 const TILE: u32 = 8;
@@ -64,7 +64,12 @@ pub fn assert_same_picture(name: &str, desc: &SceneDesc, samples: Samples) {
     let scene = super::compiled(desc);
     let engine_samples = (samples.engine * effort()).div_ceil(SEEDS).max(1);
     let engine = Renderings::new(&scene, engine_samples, 1000);
-    let reference = render(&scene, samples.reference * effort(), 7, Smoothing::Hanika);
+    let theirs = samples.reference * effort();
+    let reference = if scene.moves() {
+        render_moving(&scene, theirs, 7, Smoothing::Hanika).expect("it is right at all times")
+    } else {
+        render(&scene, theirs, 7, Smoothing::Hanika)
+    };
     let at = |(x, y): (u32, u32)| (y * scene.size[0] + x) as usize;
     let theirs = |rectangle: Rectangle, channel: usize| Estimate {
         mean: pixels(rectangle).map(|p| reference.mean[at(p)][channel]).sum::<f64>() / area(rectangle),

@@ -118,6 +118,10 @@ pub fn make(case: &Case, settings: &Settings, threads: usize, level: Level) -> R
     if interrupt::requested().is_some() {
         return Err(NoPicture::Interrupted);
     }
+    if let Some(faults) = &film.fault {
+        let what = text(faults, &desc.sources, STYLE).trim_end().to_owned();
+        return Err(NoPicture::Wrong { what, files });
+    }
     let left_out = film.counters.dropped;
     if left_out > 0 {
         let what = format!("{left_out} samples were not finite, which is a fault of this program; please report it");

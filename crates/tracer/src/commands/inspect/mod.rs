@@ -54,6 +54,11 @@ pub(super) fn run(args: &InspectArgs, shell: &Shell) -> Result<ExitCode, Failure
     let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
     spare_inputs(args, &scene.files)?;
     let options = RenderOptions { level: Some(level), ..RenderOptions::default() };
+    let seed = options.seed.unwrap_or(scene.seed);
+    if let Some(Err(faults)) = scene.at_sample(args.sample, seed) {
+        shell.diagnostics(&faults, &desc.sources, args.scene.diagnostics);
+        return Err(Failure::WrongScene);
+    }
     let told = inspect(&scene, &options, args.pixel, args.sample)
         .ok_or_else(|| Failure::could_not("the picture has no such pixel"))?;
     let explained = Explained { desc, scene, told };

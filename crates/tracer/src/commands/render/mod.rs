@@ -13,7 +13,7 @@ pub(super) mod rescue;
 use crate::args::{IntegratorName, RenderArgs};
 use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile, is_dash, load, use_threads};
+use crate::loading::{asset_files, compile, expect_all_moments, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
@@ -125,6 +125,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         None => render(&scene, &options, &watch),
     };
     watch.finish();
+    expect_all_moments(&film, &desc, args.scene.diagnostics, shell)?;
     let rendered = clock.lap();
 
     let (fewest, most) = film.samples().into_inner();

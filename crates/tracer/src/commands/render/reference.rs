@@ -12,14 +12,14 @@ use crate::shell::Shell;
 use crate::write::{Provenance, Setting};
 use crate::{interrupt, memory};
 use rayon::prelude::*;
-use scene_format::SceneDesc;
 use scene_format::desc::Integrator;
+use scene_format::{Diagnostics, SceneDesc};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use tracer_core::{Backdrop, Observer, Progress, Scene, develop_radiance};
-use tracer_reference::{Reference, Smoothing};
+use tracer_reference::{Reference, Smoothing, Sums, moments};
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     if let Some(option) = of_no_use(args) {
@@ -51,7 +51,15 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     }
     interrupt::listen(*shell)?;
     let rendering = Instant::now();
-    let Some((radiance, relative)) = rendered(&scene, &desc, shell) else {
+    let pixels_told = if scene.moves() {
+        rendered_moving(&scene, &desc, shell).map_err(|faults| {
+            shell.diagnostics(&faults, &desc.sources, args.scene.diagnostics);
+            Failure::WrongScene
+        })?
+    } else {
+        rendered(&scene, &desc, shell)
+    };
+    let Some((radiance, relative)) = pixels_told.map(told) else {
         shell.say("interrupted: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     };
@@ -88,9 +96,12 @@ fn of_no_use(args: &RenderArgs) -> Option<&'static str> {
     options.into_iter().find(|(is_there, _)| *is_there).map(|(_, option)| option)
 }
 
-/// Radiance row by row from the top, and the noise of the picture; `None` where the rendering was ended. Rows go to
-/// whatever thread is free; each pixel has its own random numbers.
-fn rendered(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Option<(Vec<[f64; 3]>, f64)> {
+/// A pixel's mean radiance, and the variance of that.
+type PixelTold = [[f64; 3]; 2];
+
+/// Pixels row by row from the top; `None` where the rendering was ended. Rows go to whatever thread is free; each pixel
+/// has its own random numbers.
+fn rendered(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Option<Vec<PixelTold>> {
     let [width, height] = scene.size;
     let samples = desc.render.samples.value;
     let of_row = u64::from(width) * u64::from(samples);
@@ -106,9 +117,37 @@ fn rendered(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Option<(Vec<[f64;
         }
         Some((0..width).map(|x| reference.pixel([x, y], samples, seed).map(|rgb| rgb.to_array())).collect::<Vec<_>>())
     };
-    let rows: Option<Vec<Vec<[[f64; 3]; 2]>>> = (0..height).into_par_iter().map(row).collect();
+    let rows: Option<Vec<Vec<PixelTold>>> = (0..height).into_par_iter().map(row).collect();
     watch.finish();
-    let pixels = rows?.concat();
+    Some(rows?.concat())
+}
+
+/// The same where something moves while the shutter is open: a sample of all pixels at each moment.
+fn rendered_moving(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Result<Option<Vec<PixelTold>>, Diagnostics> {
+    let [width, height] = scene.size;
+    let samples = desc.render.samples.value;
+    let pixels = u64::from(width) * u64::from(height);
+    let samples_total = pixels * u64::from(samples);
+    let watch = Watch::new(shell, samples_total);
+    let mut sums = vec![Sums::default(); pixels as usize];
+    for (samples_done, (seed, now)) in (0..).zip(moments(scene, samples, u64::from(desc.render.seed.value))) {
+        if watch.progress(Progress { samples_done: samples_done * pixels, samples_total }).is_break() {
+            watch.finish();
+            return Ok(None);
+        }
+        let now = now?;
+        let reference = Reference::new(&now, Smoothing::Hanika);
+        let row = |(y, row): (usize, &mut [Sums])| {
+            (0..).zip(row).for_each(|(x, sums)| reference.add([x, y as u32], 1, seed, sums));
+        };
+        sums.par_chunks_mut(width as usize).enumerate().for_each(row);
+    }
+    watch.finish();
+    Ok(Some(sums.iter().map(|sums| sums.mean_and_variance().map(|rgb| rgb.to_array())).collect()))
+}
+
+/// Radiance of the pixels, and the noise of the picture.
+fn told(pixels: Vec<PixelTold>) -> (Vec<[f64; 3]>, f64) {
     let luminance = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     // Of three numbers that go together, at most; as the engine's own estimate an upper bound.
     let error = |variance: [f64; 3]| luminance(variance.map(f64::sqrt)).powi(2);
@@ -116,7 +155,7 @@ fn rendered(scene: &Scene, desc: &SceneDesc, shell: &Shell) -> Option<(Vec<[f64;
     let mean = pixels.iter().map(|[mean, _]| luminance(*mean)).sum::<f64>() / n;
     let variance = pixels.iter().map(|[_, variance]| error(*variance)).sum::<f64>() / n;
     let relative = if mean > 0.0 { variance.sqrt() / mean } else { 0.0 };
-    Some((pixels.into_iter().map(|[mean, _]| mean).collect(), relative))
+    (pixels.into_iter().map(|[mean, _]| mean).collect(), relative)
 }
 
 /// What the pictures tell of themselves, if they may; no record: `repro` is for what the engine makes.

@@ -1,0 +1,82 @@
+//! `camera.shutter` on the command line: however a picture is rendered, it is the same.
+
+use crate::support::Sandbox;
+
+const FILM: &str = r#"Scene(
+    animation: Animation(frames: 4, fps: 2),
+    camera: Camera(position: (0, 1, 6), shutter: 0.5),
+    image: Image(width: 24, height: 16), render: Render(samples: 8),
+    background: 0.8,
+    objects: [
+        Sphere(center: "=(2*time - 1, 0, 0)", radius: 0.6, material: Diffuse(albedo: 0.4)),
+        Box(center: (0, -1.5, 0), size: (4, 1, 4), material: Diffuse(albedo: (0.2, 0.4, 0.3))),
+    ],
+)"#;
+
+fn film() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("film.ron", FILM);
+    sandbox
+}
+
+#[test]
+fn frames_parts_and_checkpoints_are_the_picture() {
+    let sandbox = film();
+    sandbox.run(&["render", "film.ron", "--frames", "1-2", "-o", "row_#.pfm"]).ends(0);
+    let line = ["render", "film.ron", "--frame", "2", "--no-metadata"];
+    let run = |more: &[&str]| sandbox.run(&[&line[..], more].concat()).ends(0);
+    run(&["-o", "alone.pfm", "-o", "alone.exr"]);
+    assert_eq!(sandbox.read("alone.pfm"), sandbox.read("row_2.pfm"));
+    assert_ne!(sandbox.read("row_1.pfm"), sandbox.read("row_2.pfm"));
+    run(&["--set", "camera.shutter=0", "-o", "still.pfm"]);
+    assert_ne!(sandbox.read("alone.pfm"), sandbox.read("still.pfm"));
+    // More samples later.
+    run(&["--samples", "3", "--checkpoint", "c.film", "-o", "few.pfm"]);
+    run(&["--resume", "c.film", "-o", "more.pfm"]);
+    assert_eq!(sandbox.read("more.pfm"), sandbox.read("alone.pfm"));
+    for part in ["1/2", "2/2"] {
+        run(&["--part", part, "-o", &format!("p{}.film", &part[..1])]);
+    }
+    sandbox.run(&["merge", "p1.film", "p2.film", "-o", "merged.pfm"]).ends(0);
+    assert_eq!(sandbox.read("merged.pfm"), sandbox.read("alone.pfm"));
+}
+
+/// Where things are at the frame's beginning says nothing of where they go.
+#[test]
+fn another_way_is_another_scene() {
+    let sandbox = film();
+    sandbox.run(&["render", "film.ron", "--samples", "2", "--checkpoint", "c.film", "-o", "a.pfm"]).ends(0);
+    sandbox.write("film.ron", FILM.replace("2*time", "3*time"));
+    sandbox.run(&["render", "film.ron", "--resume", "c.film", "-o", "b.pfm"]).ends(2);
+}
+
+#[test]
+fn what_is_wrong_later_is_told_with_the_moment() {
+    let sandbox = Sandbox::new();
+    let wrong = FILM.replace("radius: 0.6", "radius: \"=if(abs(time - 0.05) < 0.04, -1, 1)\"");
+    sandbox.write("film.ron", &wrong);
+    sandbox.run(&["check", "film.ron"]).ends(0);
+    let told = ["must be positive", "while the shutter is open", "film.ron:7"];
+    sandbox.run(&["render", "film.ron", "-o", "a.png"]).ends(2).says(&told);
+    assert_eq!(sandbox.files(), ["film.ron"]);
+    sandbox.run(&["render", "film.ron", "-o", "a.png", "--integrator", "reference"]).ends(2).says(&told);
+    // The end is looked at before anything is rendered, in every frame.
+    sandbox.write("film.ron", FILM.replace("radius: 0.6", "radius: \"=1.7 - time\""));
+    sandbox
+        .run(&["check", "film.ron"])
+        .ends(2)
+        .says(&["must be positive", "(at frame 3.5, while the shutter is open)"]);
+}
+
+#[test]
+fn samples_are_explained_at_their_moments() {
+    let sandbox = film();
+    let inspect = |sample: &str| {
+        sandbox
+            .run(&["inspect", "film.ron", "--pixel", "11,8", "--sample", sample, "--format", "json"])
+            .ends(0)
+            .out_text()
+    };
+    assert!((0..6).map(|k| inspect(&k.to_string())).collect::<std::collections::BTreeSet<_>>().len() > 1);
+    sandbox.run(&["render", "film.ron", "--integrator", "reference", "--samples", "4", "-o", "r.png"]).ends(0);
+}
