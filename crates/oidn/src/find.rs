@@ -29,7 +29,11 @@ pub enum NotFound {
     #[error("{NAMED_BY} names {}, which is not there", .0.display())]
     Absent(PathBuf),
     /// The folder that is named does not have it.
-    #[error("{NAMED_BY} names the folder {}, which has no {}, nor have its folders lib and bin", .0.display(), NAMES.join(" and no "))]
+    #[error(
+        "{NAMED_BY} names the folder {}, which has no {}, nor have its folders lib and bin",
+        .0.display(),
+        NAMES.join(" and no ")
+    )]
     NotInFolder(PathBuf),
     /// Nothing is named, and the system's loader knows none.
     #[error("the system has none ({})", .0.join("; "))]

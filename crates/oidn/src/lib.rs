@@ -61,8 +61,8 @@ impl Oidn {
     /// The picture with less noise: linear RGB, rows from the top.
     ///
     /// # Errors
-    /// When an array does not have the size that the picture tells; what the library says that went wrong, as that there
-    /// is too little memory.
+    /// When an array does not have the size that the picture tells; what the library says that went wrong, as that
+    /// there is too little memory.
     pub fn denoise(&self, picture: &Picture<'_>) -> Result<Vec<f32>, Fault> {
         self.device.denoise(picture)
     }

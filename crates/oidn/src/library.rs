@@ -67,7 +67,7 @@ impl Functions {
     fn of(library: &Library) -> Result<Self, &'static str> {
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: the type is the one that oidn.h of version 2 declares, and who calls it sees the version first.
+                // SAFETY: the type is the one that oidn.h of version 2 declares, and who calls it has seen the version.
                 *unsafe { library.get($name) }.map_err(|_| $name)?
             };
         }
@@ -160,7 +160,7 @@ impl Device {
         };
         let mut device = Device { functions, device, version: [0; 3] };
         let Device { functions: of, device: at, .. } = &device;
-        // SAFETY: the device is there, and names are texts of C. This function is the same in all versions that have it.
+        // SAFETY: the device is there, and names are texts of C. The function is the same in all versions that have it.
         let version = unsafe { (of.device_int)(at.as_ptr(), c"version".as_ptr()) };
         device.version = [version / 10_000, version / 100 % 100, version % 100];
         let [major, minor, patch] = device.version;
