@@ -4,7 +4,7 @@ use crate::attended::{Shared, attended};
 use crate::picture;
 use crate::request::maybe;
 use crate::scene::{Faults, Held, told};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use scene_format::desc::{Background, Object, Sphere};
@@ -15,9 +15,10 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use tracer_core::{
-    Crop, DenoiseError, Film, GUIDES, Image, LayerSet, Look, Observer, Progress, RenderOptions, Scene, develop,
+    Crop, Denoised, Film, GUIDES, Image, LayerSet, Look, Noisy, Observer, Progress, RenderOptions, Scene, develop,
     develop_denoised, layer_set, layer_word,
 };
+use tracer_oidn::{NAMED_BY, Oidn, Picture};
 
 /// What a caller asks for.
 struct Settings {
@@ -26,7 +27,14 @@ struct Settings {
     crop: Option<Crop>,
     threads: usize,
     layers: LayerSet,
-    denoise: bool,
+    denoise: Option<Denoiser>,
+}
+
+/// Who takes the noise out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Denoiser {
+    BuiltIn,
+    Oidn,
 }
 
 /// What came of it.
@@ -107,11 +115,24 @@ fn settings(held: &Held, given: &Bound<'_, PyDict>) -> PyResult<Settings> {
             size[0], size[1]
         )));
     }
-    let denoise = maybe::<bool>(given, "denoise")?.unwrap_or_default();
-    if denoise && desc.render.samples.value < 2 {
-        return Err(PyValueError::new_err("denoise=True needs two samples per pixel at least, as samples=16 has"));
-    }
     let threads = maybe::<u16>(given, "threads")?.unwrap_or_default().into();
+    let denoise = match maybe::<String>(given, "denoise")?.as_deref() {
+        None => None,
+        Some("oidn") => Some(Denoiser::Oidn),
+        Some(_) => Some(Denoiser::BuiltIn),
+    };
+    if denoise.is_some() && desc.render.samples.value < 2 {
+        return Err(PyValueError::new_err("denoise needs two samples per pixel at least, as samples=16 has"));
+    }
+    if denoise == Some(Denoiser::Oidn) {
+        // So that nothing is rendered in vain.
+        Oidn::from_environment(threads).map_err(|why| {
+            PyOSError::new_err(format!(
+                "denoise=\"oidn\": no Open Image Denoise: {why}; install Open Image Denoise 2, or have {NAMED_BY} in \
+                 os.environ name its library or the folder of that; denoise=True needs none"
+            ))
+        })?;
+    }
     Ok(Settings { desc, crop, threads, layers, denoise })
 }
 
@@ -147,11 +168,24 @@ impl Observer for Watch<'_> {
     }
 }
 
+/// The film without its noise; or why not.
+fn filtered(by: Denoiser, film: &Film, threads: usize) -> Result<Denoised, String> {
+    if by == Denoiser::BuiltIn {
+        return tracer_core::denoise(film).map_err(|error| error.to_string());
+    }
+    let noisy = Noisy::of(film).map_err(|error| error.to_string())?;
+    let oidn = Oidn::from_environment(threads).map_err(|why| why.to_string())?;
+    let Noisy { width, height, color, albedo, normal, .. } = &noisy;
+    let picture = Picture { width: *width as usize, height: *height as usize, color, albedo, normal };
+    let pixels = oidn.denoise(&picture).map_err(|fault| format!("{} has failed: {fault}", oidn.name()))?;
+    noisy.denoised(pixels).map_err(|error| error.to_string())
+}
+
 fn made(held: &Held, settings: &Settings, shared: &Shared) -> Result<Made, Faults> {
     let Settings { desc, crop, threads, layers, denoise: denoised } = settings;
     let started = Instant::now();
     let scene: Arc<Scene> = held.compiled([desc.image.width.value, desc.image.height.value])?;
-    let kept = if *denoised { layers.iter().chain(GUIDES).collect() } else { *layers };
+    let kept = if denoised.is_some() { layers.iter().chain(GUIDES).collect() } else { *layers };
     let time = desc.render.time.as_ref().and_then(|time| Duration::try_from_secs_f64(time.value).ok());
     let options = RenderOptions {
         samples: Some(desc.render.samples.value),
@@ -161,7 +195,7 @@ fn made(held: &Held, settings: &Settings, shared: &Shared) -> Result<Made, Fault
         noise: desc.render.noise.as_ref().map(|noise| noise.value),
         until: time.and_then(|time| started.checked_add(time)),
         layers: Some(kept),
-        halves: *denoised,
+        halves: denoised.is_some(),
         ..RenderOptions::default()
     };
     let film = tracer_core::render(&scene, &options, &Watch(shared));
@@ -170,7 +204,7 @@ fn made(held: &Held, settings: &Settings, shared: &Shared) -> Result<Made, Fault
     }
     let look = Look { exposure: desc.effects.exposure.value, ..scene.look };
     let mut note = None;
-    let filtered = denoised.then(|| tracer_core::denoise(&film)).transpose().unwrap_or_else(|error: DenoiseError| {
+    let filtered = denoised.map(|by| filtered(by, &film, *threads)).transpose().unwrap_or_else(|error| {
         note = Some(format!("the picture is not denoised: {error}"));
         None
     });

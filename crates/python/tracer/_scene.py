@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 
@@ -150,7 +150,7 @@ class Scene:
         samples: Optional[int] = None,
         seed: Optional[int] = None,
         layers: Sequence[str] = (),
-        denoise: bool = False,
+        denoise: "Union[bool, Literal['oidn']]" = False,
         crop: Optional[Tuple[int, int, int, int]] = None,
         exposure: Optional[float] = None,
         noise: Optional[float] = None,
@@ -164,7 +164,8 @@ class Scene:
         samples: samples per pixel.
         seed: of all random choices.
         layers: names among `tracer.LAYERS`, for `Picture.layers`.
-        denoise: filters the noise; the layer `noisy` is the picture without that.
+        denoise: filters the noise; the layer `noisy` is the picture without that. `"oidn"` has Open Image Denoise do it, where the
+            machine has that: `TRACER_OIDN` in `os.environ` names its library or the folder of that.
         crop: x, y, width and height of the part of the picture to render, from the upper left.
         exposure: stops.
         noise: ends as soon as the relative noise is no more than this; 0.01 is one percent.
@@ -299,7 +300,10 @@ def _checked(settings: Dict[str, Any]) -> Dict[str, Any]:
             settings[name] = float(value)
             if not np.isfinite(settings[name]):
                 raise ValueError(f"{name} is a finite number, and not {value!r}")
-    settings["denoise"] = bool(settings["denoise"])
+    denoise = settings["denoise"]
+    if isinstance(denoise, str) and denoise != "oidn":
+        raise ValueError(f'denoise is True, False or "oidn", and not {denoise!r}')
+    settings["denoise"] = (denoise if isinstance(denoise, str) else "on") if denoise else None
     return settings
 
 

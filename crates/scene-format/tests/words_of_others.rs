@@ -290,9 +290,12 @@ fn shapes_in_braces() {
 
 #[test]
 fn options_of_the_command_line() {
-    check(&[("denoise: true", "tracer render scene.ron --denoise")], |field| {
-        scene(&format!("render: Render({field}),"), "", "")
-    });
+    let cases = [
+        ("denoise: true", "tracer render scene.ron --denoise"),
+        ("OIDN: true", "tracer render scene.ron --denoise oidn"),
+        ("oidn: true", "tracer render scene.ron --denoise oidn"),
+    ];
+    check(&cases, |field| scene(&format!("render: Render({field}),"), "", ""));
     let text = scene("", "", "");
     for (set, told) in [
         ("render.denoise=true", "tracer render scene.ron --denoise"),

@@ -47,7 +47,7 @@ pub mod texture;
 
 pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
-pub use denoise::{DENOISE_REACH, DenoiseError, Denoised, GUIDES, denoise, lacks as denoise_lacks};
+pub use denoise::{DENOISE_REACH, DenoiseError, DenoiseTold, Denoised, GUIDES, Noisy, denoise, lacks as denoise_lacks};
 pub use develop::{Backdrop, Image, Look, develop, develop_denoised, develop_radiance, srgb_decode, srgb_encode};
 pub use engine::{
     Brought, Ended, Inspection, LightOf, MetTold, PathTold, Roulette, SampledTold, Scattering, Shared, Told,
@@ -60,7 +60,6 @@ pub use film::{MatteOf, MattesKept};
 pub use marks::{MarkSeen, marks};
 pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};
 pub use scene::{CompileTimes, Moments, Scene, film_layers, layer_set, layer_word};
-pub use tracer_denoise::Told as DenoiseTold;
 pub use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::level::Level;
 pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};

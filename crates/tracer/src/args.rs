@@ -12,7 +12,7 @@ mod render;
 mod repro;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
-pub use denoise::DenoiseArgs;
+pub use denoise::{DenoiseArgs, DenoiseName};
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};

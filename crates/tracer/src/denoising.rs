@@ -1,34 +1,125 @@
 //! `--denoise`: what is rendered beside the picture for it, and the picture that comes of it.
 
+use crate::args::DenoiseName;
 use crate::failure::Failure;
 use crate::shell::Shell;
 use serde::Serialize;
 use std::time::Instant;
-use tracer_core::{DenoiseError, DenoiseTold, Film, GUIDES, Image, LayerSet, Look, Scene};
+use tracer_core::{DenoiseError, DenoiseTold, Denoised, Film, GUIDES, Image, LayerSet, Look, Noisy, Scene};
 use tracer_core::{denoise, denoise_lacks, develop, develop_denoised};
+use tracer_oidn::{NAMED_BY, NotFound, Oidn, Picture};
 
-/// Bytes of a pixel that denoising takes while it is at work.
-pub const BYTES_PER_PIXEL: u64 = 400;
+/// Bytes of a pixel that denoising takes while it is at work: measured at 1920x1080.
+pub fn bytes_per_pixel(how: DenoiseName) -> u64 {
+    match how {
+        DenoiseName::Off => 0,
+        DenoiseName::On => 400,
+        DenoiseName::Oidn => 700,
+    }
+}
 
 /// What denoising did.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct DenoiseReport {
+    /// What has done it: `tracer`, or the library's name with its version.
+    pub by: String,
     /// Root mean square of what pixels changed by, relative to the root mean square of the picture.
     pub change: f64,
     /// Root mean square error before, estimated from two halves of the samples; relative to the same.
     pub error_before: f64,
-    /// The same afterwards.
-    pub error_after: f64,
+    /// The same afterwards; null where a library has done it, which does not tell.
+    pub error_after: Option<f64>,
     /// What it took.
     pub seconds: f64,
 }
 
 impl DenoiseReport {
     /// A line for people.
-    pub fn to_text(self) -> String {
-        let [change, before, after] = [self.change, self.error_before, self.error_after].map(percent);
-        format!("denoised in {:.2} s: changed by {change}, error from about {before} to {after}", self.seconds)
+    pub fn to_text(&self) -> String {
+        let ([change, before], seconds) = ([self.change, self.error_before].map(percent), self.seconds);
+        match self.error_after.map(percent) {
+            Some(after) => {
+                format!("denoised in {seconds:.2} s: changed by {change}, error from about {before} to {after}")
+            }
+            None => format!("denoised by {} in {seconds:.2} s: changed by {change}, error was about {before}", self.by),
+        }
     }
+}
+
+/// Who takes the noise out.
+#[derive(Debug)]
+pub enum Denoiser {
+    /// What is built in.
+    BuiltIn,
+    /// Open Image Denoise.
+    Oidn(Box<Oidn>),
+}
+
+impl Denoiser {
+    /// What was asked for, ready to work: so that nothing is rendered in vain.
+    ///
+    /// # Errors
+    /// When there is no Open Image Denoise.
+    pub fn ready(how: DenoiseName) -> Result<Option<Self>, Failure> {
+        match how {
+            DenoiseName::Off => Ok(None),
+            DenoiseName::On => Ok(Some(Denoiser::BuiltIn)),
+            DenoiseName::Oidn => match Oidn::from_environment(rayon::current_num_threads()) {
+                Ok(oidn) => Ok(Some(Denoiser::Oidn(Box::new(oidn)))),
+                Err(why) => Err(Failure::could_not(without_oidn(&why))),
+            },
+        }
+    }
+
+    /// How it is asked for.
+    pub fn name(&self) -> DenoiseName {
+        match self {
+            Denoiser::BuiltIn => DenoiseName::On,
+            Denoiser::Oidn(_) => DenoiseName::Oidn,
+        }
+    }
+
+    fn of_film(&self, film: &Film) -> Result<Denoised, Fault> {
+        match self {
+            Denoiser::BuiltIn => Ok(denoise(film)?),
+            Denoiser::Oidn(oidn) => {
+                let noisy = Noisy::of(film)?;
+                let Noisy { width, height, color, albedo, normal, .. } = &noisy;
+                let [width, height] = [*width, *height].map(|side| side as usize);
+                let pixels = oidn.denoise(&Picture { width, height, color, albedo, normal });
+                let pixels = pixels.map_err(|fault| Fault::Oidn(format!("{} has failed: {fault}", oidn.name())))?;
+                Ok(noisy.denoised(pixels)?)
+            }
+        }
+    }
+
+    fn told(&self) -> String {
+        match self {
+            Denoiser::BuiltIn => "tracer".to_owned(),
+            Denoiser::Oidn(oidn) => oidn.name(),
+        }
+    }
+}
+
+/// Why a film was not denoised.
+enum Fault {
+    Film(DenoiseError),
+    Oidn(String),
+}
+
+impl From<DenoiseError> for Fault {
+    fn from(error: DenoiseError) -> Self {
+        Fault::Film(error)
+    }
+}
+
+/// Why there is no Open Image Denoise, and what to do.
+fn without_oidn(why: &NotFound) -> String {
+    let way = match why {
+        NotFound::Static => "a tracer that was built for this system's C library can".to_owned(),
+        _ => format!("install Open Image Denoise 2, or have {NAMED_BY} name its library or the folder of that"),
+    };
+    format!("--denoise oidn: no Open Image Denoise: {why}; {way}; --denoise alone needs none")
 }
 
 /// A share as people read it: no error is told as none.
@@ -75,25 +166,52 @@ pub fn check(has_halves: bool, layers: impl Iterator<Item = impl AsRef<str>>) ->
     )))
 }
 
+/// A film as a picture.
+#[derive(Debug)]
+pub struct Developed {
+    /// With its layers.
+    pub image: Image,
+    /// What denoising did, where it was at work.
+    pub denoised: Option<DenoiseReport>,
+    /// Why it has its noise still, where a library should have taken it out and has failed.
+    pub fault: Option<String>,
+}
+
+impl Developed {
+    /// Says the fault, and whether there is one.
+    pub fn is_noisy(&self, shell: &Shell) -> bool {
+        if let Some(fault) = &self.fault {
+            shell.error(&anyhow::anyhow!("the picture is not denoised: {fault}"));
+        }
+        self.fault.is_some()
+    }
+}
+
 /// Develops a film, denoised if that is wanted, with those of its layers that are to be written.
 ///
 /// # Errors
-/// When the film lacks what denoising needs. With too few samples it is not denoised, which is said.
+/// When the film lacks what denoising needs. With too few samples, and where a library fails, it is not denoised, and
+/// the picture has its noise: nothing that was rendered is lost.
 pub fn picture(
     film: &Film,
     look: &Look,
     written: LayerSet,
-    is_on: bool,
+    denoiser: Option<&Denoiser>,
     shell: &Shell,
-) -> Result<(Image, Option<DenoiseReport>), Failure> {
+) -> Result<Developed, Failure> {
     let started = Instant::now();
-    let denoised = match is_on.then(|| denoise(film)).transpose() {
+    let mut fault = None;
+    let denoised = match denoiser.map(|denoiser| denoiser.of_film(film)).transpose() {
         Ok(denoised) => denoised,
-        Err(error @ DenoiseError::Samples) => {
+        Err(Fault::Film(error @ DenoiseError::Samples)) => {
             shell.say(&format!("warning: the picture is not denoised: {error}"));
             None
         }
-        Err(error) => return Err(Failure::wrong(format!("the picture cannot be denoised: {error}"))),
+        Err(Fault::Film(error)) => return Err(Failure::wrong(format!("the picture cannot be denoised: {error}"))),
+        Err(Fault::Oidn(error)) => {
+            fault = Some(error);
+            None
+        }
     };
     let seconds = started.elapsed().as_secs_f64();
     let mut image = match &denoised {
@@ -102,9 +220,40 @@ pub fn picture(
     };
     let is_written = |name: &str| name == "noisy" || written.names().any(|written| written == name);
     image.layers.retain(|layer| is_written(layer.name));
-    let report = denoised.map(|denoised| {
+    let report = denoiser.zip(denoised).map(|(denoiser, denoised)| {
         let DenoiseTold { change, error_before, error_after } = denoised.told;
-        DenoiseReport { change, error_before, error_after, seconds }
+        DenoiseReport { by: denoiser.told(), change, error_before, error_after, seconds }
     });
-    Ok((image, report))
+    Ok(Developed { image, denoised: report, fault })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_has_none_is_told_what_to_do() {
+        let told = without_oidn(&NotFound::Absent("lib".into()));
+        let wanted = "--denoise oidn: no Open Image Denoise: TRACER_OIDN names lib, which is not there; install Open \
+                      Image Denoise 2, or have TRACER_OIDN name its library or the folder of that; --denoise alone \
+                      needs none";
+        assert_eq!(told, wanted);
+        let told = without_oidn(&NotFound::Static);
+        assert!(told.contains("a static program cannot load libraries; a tracer that was built for"), "{told}");
+    }
+
+    #[test]
+    fn what_a_library_does_not_tell_is_not_told() {
+        let report = DenoiseReport {
+            by: "Open Image Denoise 2.5.1".to_owned(),
+            change: 0.031,
+            error_before: 0.05,
+            error_after: None,
+            seconds: 0.5,
+        };
+        let wanted = "denoised by Open Image Denoise 2.5.1 in 0.50 s: changed by 3.10 %, error was about 5.00 %";
+        assert_eq!(report.to_text(), wanted);
+        let report = DenoiseReport { error_after: Some(0.01), ..report };
+        assert_eq!(report.to_text(), "denoised in 0.50 s: changed by 3.10 %, error from about 5.00 % to 1.00 %");
+    }
 }

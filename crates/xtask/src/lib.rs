@@ -9,6 +9,7 @@ pub mod denoise;
 mod file;
 pub mod gallery;
 pub mod layers;
+pub mod musl;
 pub mod mutants;
 pub mod noise;
 pub mod picture;

@@ -69,6 +69,14 @@ def test_a_denoised_picture_keeps_the_noisy_one(ball):
     assert not np.array_equal(picture.linear, picture.layers["noisy"])
     with pytest.raises(ValueError, match="two samples"):
         tracer.render(ball, denoise=True, samples=1)
+    with pytest.raises(ValueError, match='True, False or "oidn", and not \'on\''):
+        tracer.render(ball, denoise="on")
+
+
+def test_a_library_that_denoises_is_looked_for_first(ball, monkeypatch, tmp_path):
+    monkeypatch.setenv("TRACER_OIDN", str(tmp_path / "none"))
+    with pytest.raises(OSError, match="TRACER_OIDN names .*none, which is not there; install .*denoise=True needs none"):
+        tracer.render(ball, denoise="oidn")
 
 
 def test_pictures_become_files(ball, tmp_path):

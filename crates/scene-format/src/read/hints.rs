@@ -369,6 +369,9 @@ pub(crate) fn command_line(name: &str, def: &'static StructDef) -> Option<&'stat
         "denoise" | "denoiser" | "denoising" | "denoised" => {
             "that is an option of the command line, not of the scene: tracer render scene.ron --denoise"
         }
+        "oidn" | "OIDN" | "use_oidn" | "open_image_denoise" => {
+            "that is an option of the command line, not of the scene: tracer render scene.ron --denoise oidn"
+        }
         "threads" | "thread_count" | "num_threads" | "jobs" => {
             "that is an option of the command line, not of the scene: tracer render scene.ron --threads 4"
         }

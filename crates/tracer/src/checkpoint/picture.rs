@@ -111,8 +111,8 @@ pub fn look(notes: &[Note]) -> Option<Look> {
     Some(Look { exposure, tone_map, backdrop: backdrop(first(notes, "backdrop"))? })
 }
 
-/// What picture files tell of themselves: of a picture that was denoised that, too.
-pub fn provenance(notes: &[Note], film: &Film, denoised: bool) -> Provenance {
+/// What picture files tell of themselves: of a picture that was denoised the word for that, too.
+pub fn provenance(notes: &[Note], film: &Film, denoised: Option<&str>) -> Provenance {
     let (fewest, most) = film.samples().into_inner();
     let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let [width, height] = film.size();
@@ -128,15 +128,13 @@ pub fn provenance(notes: &[Note], film: &Film, denoised: bool) -> Provenance {
     if film.crop() != Crop::whole(film.size()) {
         settings.push(Setting { name: "crop", value: format!("{x},{y},{width},{height}") });
     }
-    if denoised {
-        settings.push(Setting { name: "denoise", value: "on".to_owned() });
-    }
+    settings.extend(denoised.map(|how| Setting { name: "denoise", value: how.to_owned() }));
     settings.extend(all(notes, "set").map(|set| Setting { name: "set", value: set.to_owned() }));
     Provenance {
         scene_name: first(notes, "scene_name").to_owned(),
         scene_text: first(notes, "scene_text").to_owned(),
         settings,
-        record: Record::new(notes, film, denoised.then_some("on")).to_json(),
+        record: Record::new(notes, film, denoised).to_json(),
         is_hidden: false,
     }
 }

@@ -3,9 +3,9 @@
 use super::render::outputs::{self, Output};
 use super::render::rescue::{Pictures, pictures};
 use super::render::write_report;
-use crate::args::MergeArgs;
+use crate::args::{DenoiseName, MergeArgs};
 use crate::checkpoint::{Asked, differences, look, mattes, part_told, picture_layers, provenance};
-use crate::denoising;
+use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
 use crate::memory;
@@ -25,13 +25,14 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
     spare_parts(args, &outputs)?;
+    let denoiser = Denoiser::ready(args.denoise.how())?;
     let (parts, damaged) = read(&args.parts)?;
     let Sorted { parts, gaps } = sorted(parts, damaged, args, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     if args.denoise.is_on() {
         denoising::check(heads[0].has_halves(), heads[0].layers())?;
     }
-    check_memory(&heads[0], args.denoise.is_on())?;
+    check_memory(&heads[0], args.denoise.how())?;
     let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
     let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
     let film = Film::merge(&heads, open, allowed).map_err(|error| failure(&error, &parts))?;
@@ -47,7 +48,9 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         outputs::tell_of_alpha(&outputs, shell);
     }
     let layers = picture_layers(notes).unwrap_or(film.layers());
-    let (mut image, denoised) = denoising::picture(&film, &look, layers, args.denoise.is_on(), shell)?;
+    let developed = denoising::picture(&film, &look, layers, denoiser.as_ref(), shell)?;
+    let is_noisy = developed.is_noisy(shell);
+    let Developed { mut image, denoised, .. } = developed;
     let mattes = mattes(notes).unwrap_or_default();
     if outputs::has_exr(&outputs) {
         image.mattes = mattes.develop(&film);
@@ -55,11 +58,11 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let developed = started.elapsed().as_secs_f64();
     let provenance = match args.no_metadata {
         true => Provenance::hidden(),
-        false => provenance(notes, &film, denoised.is_some()),
+        false => provenance(notes, &film, denoiser.filter(|_| denoised.is_some()).map(|by| by.name().name())),
     };
     let Pictures { files, failed } = pictures(&outputs, &image, &provenance, shell)?;
     let total = started.elapsed().as_secs_f64();
-    if let Some(denoised) = denoised.filter(|_| shell.is_told()) {
+    if let Some(denoised) = denoised.as_ref().filter(|_| shell.is_told()) {
         shell.say(&denoised.to_text());
     }
     if shell.is_told() {
@@ -77,7 +80,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
             MergeReport::new(args.command(), &film, &heads[0], of_parts, &gaps, (layers, denoised), seconds, files);
         write_report(path, report.to_json())?;
     }
-    Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
+    Ok(ExitCode::from(if failed || is_noisy { exit::FAILED } else { exit::DONE }))
 }
 
 /// Sees that no picture replaces a part.
@@ -224,12 +227,12 @@ fn failure(fault: &MergeError, parts: &[Head]) -> Failure {
 }
 
 /// A picture that cannot fit is refused here.
-fn check_memory(head: &FilmHead, denoise: bool) -> Result<(), Failure> {
+fn check_memory(head: &FilmHead, denoise: DenoiseName) -> Result<(), Failure> {
     let crop = head.part().of_crop;
     // The developed picture, and an encoded one while it is made and written.
     let mut whole = head.clone();
     whole.crop = crop;
-    let of_pixel = 48 + if denoise { denoising::BYTES_PER_PIXEL } else { 0 };
+    let of_pixel = 48 + denoising::bytes_per_pixel(denoise);
     let needed = whole.bytes() + of_pixel * u64::from(crop.width) * u64::from(crop.height);
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(

@@ -132,7 +132,7 @@ impl Host for Program {
             Kind::Exr => Encoding::Exr,
         };
         let image = develop(film, look);
-        let mut told = provenance(&picture_notes(desc, &Mattes::default(), &self.set), film, false);
+        let mut told = provenance(&picture_notes(desc, &Mattes::default(), &self.set), film, None);
         if !self.is_as_written(desc) {
             // The camera was moved by whoever looks: no text says where it is.
             told.record.clear();

@@ -2,13 +2,13 @@
 
 use super::from_picture::{layers, record, rendered, told};
 use super::render::check_memory;
-use crate::args::{DiagnosticsForm, ReproArgs};
+use crate::args::{DenoiseName, DiagnosticsForm, ReproArgs};
 use crate::checkpoint::{
     Hashes, Record, RecordedFile, files_are_told, note_differences, picture_notes, provenance, told_name,
 };
 use crate::command_line::printable;
 use crate::compare::Picture;
-use crate::denoising;
+use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
 use crate::loading::{compile, expect_all_moments, is_dash, told as told_load, use_threads, with_faults_of_files};
 use crate::progress::Watch;
@@ -67,6 +67,9 @@ pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     if record.program != PROGRAM {
         let of = printable(&record.program);
         reasons.push(format!("it was made by tracer {of}, and this is {PROGRAM}"));
+    }
+    if record.denoise.as_deref() == Some(DenoiseName::Oidn.name()) {
+        reasons.push("Open Image Denoise may do otherwise in another version, or on another processor".to_owned());
     }
     if let Some(difference) = difference(&there, &bytes, &args.picture)? {
         if reasons.is_empty() {
@@ -199,16 +202,14 @@ fn again(
     files: &[Note],
     shell: &Shell,
 ) -> Result<Option<Vec<u8>>, Failure> {
-    let is_denoised = match record.denoise.as_deref() {
-        None => false,
-        Some("on") => true,
-        Some(other) => {
-            let other = printable(other);
-            return Err(Failure::could_not(format!("it was denoised by {other}, which this program does not know")));
-        }
+    let how = record.denoise.as_deref().unwrap_or(DenoiseName::Off.name());
+    let Some(how) = DenoiseName::by_name(how) else {
+        let other = printable(how);
+        return Err(Failure::could_not(format!("it was denoised by {other}, which this program does not know")));
     };
+    let (is_denoised, denoiser) = (how.is_on(), Denoiser::ready(how)?);
     let crop = record.crop();
-    check_memory(crop, &desc, is_denoised)?;
+    check_memory(crop, &desc, how)?;
     denoising::prepare(&mut scene, is_denoised)?;
     let level = lanes::from_environment()?;
     interrupt::listen(*shell)?;
@@ -228,7 +229,11 @@ fn again(
         return Ok(None);
     }
     let layers = layer_set(&desc.output.layers);
-    let (mut image, denoised) = denoising::picture(&film, &scene.look, layers, is_denoised, shell)?;
+    let developed = denoising::picture(&film, &scene.look, layers, denoiser.as_ref(), shell)?;
+    let Developed { mut image, denoised, fault } = developed;
+    if let Some(fault) = fault {
+        return Err(Failure::could_not(format!("the picture cannot be denoised again: {fault}")));
+    }
     if told.encoding == Encoding::Exr {
         image.mattes = scene.mattes.develop(&film);
     }
@@ -236,7 +241,7 @@ fn again(
     if record.files.is_some() || record.assets.is_some() {
         notes.extend(files.iter().cloned().chain([files_are_told()]));
     }
-    Ok(Some(encode(&image, told.encoding, &provenance(&notes, &film, denoised.is_some()))?))
+    Ok(Some(encode(&image, told.encoding, &provenance(&notes, &film, denoised.map(|_| how.name())))?))
 }
 
 /// How far the colours are from what they were; none where they are the same.

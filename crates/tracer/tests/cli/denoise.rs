@@ -107,13 +107,38 @@ fn checkpoints_hold_what_it_needs() {
 #[test]
 fn what_cannot_be_is_said() {
     let sandbox = Sandbox::new();
-    render(&sandbox, &["-o", "a.png", "--denoise", "oidn"]).ends(2).says(&["Open Image Denoise cannot be used yet"]);
-    render(&sandbox, &["-o", "a.png", "--denoise", "strong"]).ends(2).says(&["expected on or off"]);
+    render(&sandbox, &["-o", "a.png", "--denoise", "strong"]).ends(2).says(&["expected on, off or oidn"]);
     let ran = sandbox.run(&["render", "--denoise", "scene.ron", "-o", "a.png"]).ends(2);
     ran.says(&["before the name of a file write --denoise=on"]);
     let ran = render(&sandbox, &["-s", "1", "-o", "a.png", "--denoise"]).ends(2);
     ran.says(&["--denoise needs two samples per pixel at least"]);
     assert_eq!(sandbox.files(), ["scene.ron"]);
+}
+
+/// Where Open Image Denoise is to work and is not there, nothing is rendered; parts do not need it.
+#[test]
+fn a_library_is_looked_for_first() {
+    let sandbox = Sandbox::new();
+    sandbox.write("no-library", "text");
+    std::fs::create_dir(sandbox.path("folder")).expect("a folder");
+    let with = |named: &str, arguments: &[&str]| Ran::of(sandbox.command(arguments).env("TRACER_OIDN", named));
+    let render = ["render", "scene.ron", "-o", "a.png", "--denoise=oidn"];
+    let ways = "; install Open Image Denoise 2, or have TRACER_OIDN name its library or the folder of that; --denoise \
+                alone needs none\n";
+    let absent = with("missing/lib.so", &render).ends(1);
+    let start = "error: --denoise oidn: no Open Image Denoise: TRACER_OIDN names missing/lib.so, which is not there";
+    assert_eq!(absent.err, format!("{start}{ways}"));
+    let empty = with("folder", &render).ends(1);
+    empty.says(&["TRACER_OIDN names the folder folder, which has no ", "OpenImageDenoise", ways]);
+    let told = with("no-library", &render).ends(1).says(&["no-library will not do: ", ways]).err;
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert_eq!(sandbox.files(), ["folder", "no-library", "scene.ron"]);
+    for part in ["1/2", "2/2"] {
+        with("missing", &["render", "scene.ron", "--part", part, "--denoise=oidn"]).ends(0);
+    }
+    let merge = ["merge", "scene.1of2.tracer", "scene.2of2.tracer", "-o", "a.png", "--denoise"];
+    with("missing", &[&merge[..], &["oidn"]].concat()).ends(1).says(&["TRACER_OIDN names missing, which", ways]);
+    with("missing", &merge).ends(0).says(&["denoised in "]);
 }
 
 /// The commands of the page work.

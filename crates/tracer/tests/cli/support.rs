@@ -74,7 +74,7 @@ impl Sandbox {
     fn in_folder(&self, program: &str, arguments: &[&str]) -> Command {
         let mut command = Command::new(program);
         command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
-        command.env_remove("TRACER_LANES").env_remove("NO_COLOR");
+        command.env_remove("TRACER_LANES").env_remove("TRACER_OIDN").env_remove("NO_COLOR");
         command
     }
 

@@ -75,6 +75,16 @@ pub const PROOFS: &[Proof] = &[
         &["cargo build --locked -p tracer", "python crates/tracer/tests/cryptomatte/main.py"],
     ),
     proof(
+        "oidn",
+        Asked,
+        "`--denoise oidn` with the library of PyPI's wheel: errors fall, the same bytes again, by parts and by frames; \
+         half a minute",
+        &[Python(&["pyoidn==2.5.1.0"])],
+        &["TRACER_OIDN=$(python -c 'from importlib.util import find_spec; \
+             print(find_spec(\"pyoidn\").submodule_search_locations[0] + \"/oidn\")') \
+             cargo test --locked --workspace --test oidn"],
+    ),
+    proof(
         "pairs",
         Always,
         "scenes that must look the same, in exact pairs; four minutes",

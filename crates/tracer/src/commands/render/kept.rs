@@ -133,6 +133,6 @@ pub(super) fn hashed(hashing: Option<Hashing>, shell: &Shell) -> Vec<Note> {
 }
 
 /// What pictures tell of themselves, if they may.
-pub(super) fn provenance(args: &RenderArgs, notes: &[Note], film: &Film, is_denoised: bool) -> Provenance {
-    if args.no_metadata { Provenance::hidden() } else { checkpoint::provenance(notes, film, is_denoised) }
+pub(super) fn provenance(args: &RenderArgs, notes: &[Note], film: &Film, denoised: Option<&str>) -> Provenance {
+    if args.no_metadata { Provenance::hidden() } else { checkpoint::provenance(notes, film, denoised) }
 }

@@ -10,8 +10,9 @@ mod reference;
 pub(super) mod repeat;
 pub(super) mod rescue;
 
-use crate::args::{IntegratorName, RenderArgs};
+use crate::args::{DenoiseName, IntegratorName, RenderArgs};
 use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
+use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, compile, expect_all_moments, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
@@ -21,7 +22,7 @@ use crate::report::{
 };
 use crate::shell::Shell;
 use crate::write::{Place, save};
-use crate::{denoising, interrupt, lanes, layer_view, memory};
+use crate::{interrupt, lanes, layer_view, memory};
 use frames::{AtEnd, Frames};
 use kept::{Kept, Places};
 use rescue::{Pictures, Rescued, pictures, rescue};
@@ -66,13 +67,15 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let outputs = if part_file.is_some() { Vec::new() } else { outputs::outputs(args)? };
     let level = lanes::from_environment()?;
     outputs::probe(&outputs, args.report.as_deref())?;
+    // A part is denoised by whoever merges it.
+    let denoiser = if part_file.is_some() { None } else { Denoiser::ready(args.denoise.how())? };
     let places = Places::new(args, shell)?;
     let mut desc = AtEnd::new(described(args, shell)?, frames);
     frames.map_or(Ok(()), |frames| frames.is_as_before(&desc))?;
     let crop = crop(args, &desc)?;
     let part = parts::part(args, &desc, crop)?;
     let crop = part.map_or(crop, |part| part.crop);
-    check_memory(crop, &desc, args.denoise.is_on())?;
+    check_memory(crop, &desc, args.denoise.how())?;
     if part.is_none() && args.show.is_none() {
         outputs::tell_of_layers(&outputs, args, &desc, shell);
     }
@@ -141,20 +144,22 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
     }
     let made = (!outputs.is_empty())
-        .then(|| denoising::picture(&film, &scene.look, written_layers, args.denoise.is_on(), shell))
+        .then(|| denoising::picture(&film, &scene.look, written_layers, denoiser.as_ref(), shell))
         .transpose()?;
-    let (mut image, denoised) = made.unzip();
+    let is_noisy = made.as_ref().is_some_and(|made| made.is_noisy(shell));
+    let (mut image, denoised) = made.map(|Developed { image, denoised, .. }| (image, denoised)).unzip();
     if let Some(image) = image.as_mut().filter(|_| outputs::has_exr(&outputs)) {
         image.mattes = scene.mattes.develop(&film);
     }
     if let Some(layer) = args.show {
         image = shown(layer, &film, shell);
     }
-    let denoised = denoised.flatten();
     let developed = clock.lap();
 
     notes.extend(kept::hashed(hashing, shell));
-    let provenance = kept::provenance(args, notes, &film, denoised.is_some());
+    let denoised = denoised.flatten();
+    let denoised_by = denoiser.filter(|_| denoised.is_some()).map(|by| by.name().name());
+    let provenance = kept::provenance(args, notes, &film, denoised_by);
     // First, because all else can be made of it. The pictures are written whatever becomes of it.
     let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
     if let Some(Err(error)) = &kept {
@@ -181,7 +186,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         report.scene.assets = assets_hash(notes);
         report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
         let layers = written_layers.names().map(str::to_owned);
-        (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised);
+        (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised.clone());
     }
     let written = clock.lap();
     let seconds = Seconds {
@@ -194,7 +199,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         total: clock.last.duration_since(started).as_secs_f64(),
     };
 
-    if let Some(denoised) = denoised.filter(|_| shell.is_told()) {
+    if let Some(denoised) = denoised.as_ref().filter(|_| shell.is_told()) {
         shell.say(&denoised.to_text());
     }
     tell_of(&film, args, &desc, shell);
@@ -220,7 +225,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         shell.say(&format!("interrupted: {names} holds {held} of {asked} samples per pixel{goes_on}"));
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
-    let failed = elsewhere || matches!(kept, Some(Err(_)));
+    let failed = elsewhere || is_noisy || matches!(kept, Some(Err(_)));
     Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
 }
 
@@ -296,7 +301,7 @@ pub(super) fn of_parts(args: &RenderArgs, parts: u32, shell: &Shell) -> Result<S
     let desc = described(args, shell)?;
     let crop = crop(args, &desc)?;
     let part = parts::part_of(args, &desc, crop, [1, parts], &format!("--parts {parts}"))?;
-    check_memory(part.crop, &desc, args.denoise.is_on())?;
+    check_memory(part.crop, &desc, args.denoise.how())?;
     Ok(desc)
 }
 
@@ -342,18 +347,18 @@ fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {
 }
 
 /// A picture that cannot fit is refused here: later the system would end the program.
-pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: bool) -> Result<(), Failure> {
+pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: DenoiseName) -> Result<(), Failure> {
     // The developed picture, and an encoded one while it is made and written.
     const BYTES_PER_PIXEL: u64 = 48;
     let pixels = u64::from(crop.width) * u64::from(crop.height);
     let layers = tracer_core::film_layers(&desc.output);
-    let layers = if denoise { denoising::with_guides(layers) } else { layers };
+    let layers = if denoise.is_on() { denoising::with_guides(layers) } else { layers };
     // As numbers, as channels and as bytes.
-    let of_denoising = if denoise { denoising::BYTES_PER_PIXEL } else { 0 };
+    let of_denoising = denoising::bytes_per_pixel(denoise);
     let mattes = Mattes::asked(&desc.output);
     let channels = (layers.channels() + mattes.channels()) as u64;
     let of_pixel = BYTES_PER_PIXEL + 12 * channels + of_denoising + mattes.kept().bytes_of_pixel();
-    let needed = memory::of_film(crop, &desc.render, layers, denoise) + pixels * of_pixel;
+    let needed = memory::of_film(crop, &desc.render, layers, denoise.is_on()) + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by \
