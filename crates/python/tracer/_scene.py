@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union, overload
+from functools import wraps
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, TypeVar, Union, overload
 
 import numpy as np
 
@@ -22,6 +24,55 @@ if TYPE_CHECKING:
     Bytes = npt.NDArray[np.uint8]
     SceneLike = Union["Scene", SceneDict, Mapping[str, Any], str, os.PathLike[str]]
     Progress = Callable[[float], Optional[bool]]
+
+_OF_SCENE = ("set", "assets", "base_dir", "syntax", "frame", "camera")
+_OF_RENDER = ("layers", "size", "samples", "seed", "denoise", "crop", "exposure", "noise", "time", "threads", "progress")
+
+_OF_OTHERS = {
+    "width": "size=(width, height)",
+    "height": "size=(width, height)",
+    "resolution": "size=(width, height)",
+    "spp": "samples",
+    "output": "Scene(..).render(..).save(path)",
+    "frames": "frame, one at a time",
+    "view": "camera",
+}
+"""What other programs, or people, call it."""
+
+_Call = TypeVar("_Call", bound=Callable[..., Any])
+
+
+def _refuse(call: str, given: Sequence[str], own: Sequence[str]) -> None:
+    """Says what was meant by the first setting that is not one of its own."""
+    unknown = [name for name in given if name not in own]
+    if not unknown:
+        return
+    name, of_others = unknown[0], _OF_OTHERS.get(unknown[0])
+    near = [of_others] if of_others and of_others.partition("=")[0].split(",")[0] in own else get_close_matches(name, own, 1)
+    if name in _OF_SCENE:
+        tip = f"; it belongs to Scene(.., {name}=..)"
+    elif name in _OF_RENDER:
+        tip = f"; it belongs to Scene(..).render({name}=..)"
+    elif near:
+        tip = f"; did you mean {near[0]}?"
+    else:
+        tip = f"; there are {', '.join(own)}"
+    raise TypeError(f"{call} has no setting {name!r}{tip}")
+
+
+def _with_tips(call: str, own: Sequence[str]) -> Callable[[_Call], _Call]:
+    """A call that tells what was meant by a setting that it has not."""
+
+    def wrapped(function: _Call) -> _Call:
+        @wraps(function)
+        def inner(*args: Any, **settings: Any) -> Any:
+            _refuse(call, list(settings), own)
+            return function(*args, **settings)
+
+        return inner  # type: ignore[return-value]
+
+    return wrapped
+
 
 _SHOWN = 512
 """Pixels along the longer side of what a notebook shows of a scene, at most."""
@@ -92,7 +143,8 @@ class Scene:
     `scene` is a dictionary, a path, or the text of a scene. A text is told from a path by its brackets, `=` or line breaks;
     `syntax="ron"` (or `"toml"`, `"json"`) says that it is a text, a `pathlib.Path` that it is a path.
 
-    `set` changes fields, as `--set` of the program does: `set={"camera.fov": 30}`. `assets` has what the scene names as files
+    `set` changes fields, as `--set` of the program does: `set={"camera.fov": 30}`. `frame` is the frame of the scene's
+    `animation`, from 0, and `camera` the name of one of its `cameras`; a scene is of one frame and one camera. `assets` has what the scene names as files
     and is in memory: arrays (pictures), `tracer.Mesh`, bytes of files. `base_dir` is where other files of a dictionary or a
     text are, else the current folder.
 
@@ -109,6 +161,7 @@ class Scene:
     `SceneWarning`, and in `warnings`.
     """
 
+    @_with_tips("Scene()", ("scene", *_OF_SCENE))
     def __init__(
         self,
         scene: "SceneLike",
@@ -117,6 +170,8 @@ class Scene:
         assets: Optional[Mapping[str, Any]] = None,
         base_dir: "Union[str, os.PathLike[str], None]" = None,
         syntax: Optional[str] = None,
+        frame: Optional[int] = None,
+        camera: Optional[str] = None,
     ) -> None:
         request, found = _request(scene, syntax)
         if base_dir is not None:
@@ -124,6 +179,13 @@ class Scene:
                 raise ValueError("the files of a scene that is a file start from its own folder; leave base_dir out")
             request["base_dir"] = os.fspath(base_dir)
         request["set"] = [f"{field}={_written(value)}" for field, value in (set or {}).items()]
+        # They count more than `set`, as the program's own options do.
+        if camera is not None:
+            if not isinstance(camera, str):
+                raise TypeError(f"camera is the name of one of the scene's cameras, and not {camera!r}")
+            request["set"].append(f"camera={json.dumps(camera, ensure_ascii=False)}")
+        if frame is not None:
+            request["set"].append(f"animation.frame={_whole('frame', frame, 0, 999_999)}")
         given = [asset(os.fspath(name), value) for name, value in (assets or {}).items()]
         request["assets"] = found + given
         made = _native.load(request)
@@ -143,6 +205,7 @@ class Scene:
             names = ", ".join(map(repr, made["unused"]))
             warnings.warn(f"the scene does not name the assets {names}", SceneWarning, stacklevel=_outside())
 
+    @_with_tips("render()", _OF_RENDER)
     def render(
         self,
         *,
@@ -219,7 +282,7 @@ def render(scene: "SceneLike", *, layers: Optional[Sequence[str]] = None, **sett
     """Renders a scene: an array of linear light, height x width x 3 (x 4 where the scene makes its background clear), float32.
 
     With `layers`, a list of names, it is the array and a dictionary of the layers. Settings are those of `Scene` (`set`,
-    `assets`, `base_dir`, `syntax`) and of `Scene.render` (`size`, `samples`, `seed`, `denoise`, `crop`, `exposure`, `noise`,
+    `assets`, `base_dir`, `syntax`, `frame`, `camera`) and of `Scene.render` (`size`, `samples`, `seed`, `denoise`, `crop`, `exposure`, `noise`,
     `time`, `threads`, `progress`).
 
     >>> import tracer
@@ -229,12 +292,7 @@ def render(scene: "SceneLike", *, layers: Optional[Sequence[str]] = None, **sett
     ((9, 9, 3), (9, 9, 3))
     """
     of_scene = {name: settings.pop(name) for name in _OF_SCENE if name in settings}
-    unknown = [name for name in settings if name not in _OF_RENDER]
-    if unknown:
-        near = get_close_matches(unknown[0], (*_OF_SCENE, *_OF_RENDER), 1)
-        near = [_OF_OTHERS[unknown[0]]] if unknown[0] in _OF_OTHERS else near
-        tip = f"; did you mean {near[0]}?" if near else f"; there are {', '.join((*_OF_SCENE, *_OF_RENDER))}"
-        raise TypeError(f"render() has no setting {unknown[0]!r}{tip}")
+    _refuse("render()", list(settings), (*_OF_SCENE, *_OF_RENDER))
     if isinstance(scene, Scene):
         if of_scene:
             raise TypeError(f"{', '.join(of_scene)} belongs to Scene(..): this one is made already")
@@ -243,19 +301,6 @@ def render(scene: "SceneLike", *, layers: Optional[Sequence[str]] = None, **sett
         made = Scene(scene, **of_scene)
     picture = made.render(layers=layers or (), **settings)
     return picture.linear if layers is None else (picture.linear, picture.layers)
-
-
-_OF_SCENE = ("set", "assets", "base_dir", "syntax")
-_OF_RENDER = ("layers", "size", "samples", "seed", "denoise", "crop", "exposure", "noise", "time", "threads", "progress")
-
-_OF_OTHERS = {
-    "width": "size=(width, height)",
-    "height": "size=(width, height)",
-    "resolution": "size=(width, height)",
-    "spp": "samples",
-    "output": "Scene(..).render(..).save(path)",
-}
-"""What other programs, or people, call it."""
 
 
 def _request(scene: "SceneLike", syntax: Optional[str]) -> Tuple[Dict[str, Any], List[Dict[str, Any]]]:

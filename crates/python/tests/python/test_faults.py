@@ -103,3 +103,20 @@ def test_what_is_doubtful_is_a_warning_that_names_the_callers_line():
         scene = tracer.Scene(dark)
     assert told[0].filename == __file__ and scene.warnings and scene.warnings[0].severity == "warning"
     assert scene.warnings[0].code in str(told[0].message)
+
+
+def test_settings_are_told_where_they_belong():
+    scene = {"background": 1, "objects": [SPHERE]}
+    for call, words in [
+        (lambda: tracer.Scene(scene, kamera="top"), r"Scene\(\) has no setting 'kamera'; did you mean camera\?"),
+        (lambda: tracer.Scene(scene, samples=3), r"it belongs to Scene\(..\).render\(samples=..\)"),
+        (lambda: tracer.Scene(scene).render(frame=1), r"it belongs to Scene\(.., frame=..\)"),
+        (lambda: tracer.Scene(scene).render(sampels=1), "did you mean samples"),
+        (lambda: tracer.render(scene, fram=1), "did you mean frame"),
+        (lambda: tracer.render(scene, camera=3), "camera is the name of one"),
+        (lambda: tracer.render(scene, frame="1"), "frame is a whole number"),
+    ]:
+        with pytest.raises(TypeError, match=words):
+            call()
+    assert "there is no frame 3" in str(fault(scene, frame=3))
+    assert 'there is no camera "top"' in str(fault(scene, camera="top"))

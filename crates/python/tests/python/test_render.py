@@ -182,3 +182,16 @@ def test_several_threads_render_at_once(ball):
     for thread in threads:
         thread.join()
     assert len(made) == 4 and all(np.array_equal(picture, expected) for picture in made)
+
+
+def test_a_scene_is_of_one_frame_and_one_camera(ball):
+    film = {
+        **{name: value for name, value in ball.items() if name != "camera"},
+        "animation": {"frames": 3},
+        "cameras": {"a b": {"position": ["=3 + frame", 0, 5]}, "top": {"position": [0, 5, 0.1]}},
+    }
+    of = lambda **which: tracer.render(film, size=(12, 8), samples=2, **which)
+    one, other, top = of(frame=1, camera="a b"), of(frame=2, camera="a b"), of(camera="top")
+    assert not np.array_equal(one, other) and not np.array_equal(one, top)
+    assert np.array_equal(one, of(set={"animation.frame": 1, "camera": "\"a b\""}))
+    assert np.array_equal(other, of(frame=np.int64(2), camera="a b", set={"animation.frame": 1, "camera": "top"}))
