@@ -43,6 +43,9 @@ pub enum LoadError {
         sources: Vec<Source>,
         /// The files that the text names, as far as it could be read, for whoever looks at them in the same run.
         files: Vec<NamedFile>,
+        /// All that is wrong is that none of the scene's cameras is chosen: the first of them. Who renders nothing may
+        /// take it, by [`Override::camera`].
+        undecided: Option<Arc<str>>,
     },
 }
 
@@ -128,8 +131,12 @@ fn load_string(
     if sink.errors > 0
         && let Some(fault) = foreign::whole(&sources[0].text, syntax)
     {
-        return Err(LoadError::Invalid { diagnostics: vec![fault], sources, files: Vec::new() });
+        return Err(LoadError::Invalid { diagnostics: vec![fault], sources, files: Vec::new(), undecided: None });
     }
+    let is_undecided =
+        |fault: &Diagnostic| fault.severity == Severity::Warning || fault.code == codes::UNDECIDED_CAMERA;
+    let undecided = scene.as_ref().and_then(|scene| scene.camera.name.clone());
+    let undecided = undecided.filter(|_| sink.errors == 1 && sink.diagnostics.iter().all(is_undecided));
     // What could be read of a wrong scene is of no use any more, and may be large.
     let scene = scene.filter(|_| sink.errors == 0);
     let mut diagnostics = sink.diagnostics;
@@ -152,7 +159,7 @@ fn load_string(
         }
         None => {
             let files = sink.files.outside(&broken);
-            Err(LoadError::Invalid { diagnostics, sources, files })
+            Err(LoadError::Invalid { diagnostics, sources, files, undecided })
         }
     }
 }
@@ -272,6 +279,7 @@ fn too_large(name: String) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name, text: String::new() }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 
@@ -303,6 +311,7 @@ fn in_utf16(name: &str, text: String) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name: name.to_owned(), text }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 
@@ -322,6 +331,7 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name: name.to_owned(), text }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 
