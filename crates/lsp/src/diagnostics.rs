@@ -3,40 +3,67 @@
 use crate::documents::Document;
 use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit};
 use scene_format::diagnostic::{Edit, Source, Span};
-use scene_format::{Diagnostic, Diagnostics, LoadError, Severity};
+use scene_format::{Diagnostic, Diagnostics, LoadError, Loaded, Override, SceneDesc, Severity};
+
+/// Frames that are looked at, at most: somebody is writing.
+const MOST_FRAMES: usize = 200;
 
 /// What the text by itself tells.
 pub fn of(document: &Document) -> Vec<lsp_types::Diagnostic> {
     translated(document, &found(document))
 }
 
+/// The scene of a document with what is set. Of cameras of which none is chosen the first is taken: that is for whoever
+/// renders to say.
+fn load(document: &Document, set: &[Override]) -> Result<Loaded, LoadError> {
+    let load = |set: &[Override]| {
+        scene_format::load_str(&document.name(), &document.text, document.syntax, document.folder(), set)
+    };
+    match load(set) {
+        Err(LoadError::Invalid { undecided: Some(camera), .. }) => load(&[set, &[Override::camera(&camera)]].concat()),
+        loaded => loaded,
+    }
+}
+
 /// The same as scene-format tells it.
 pub fn found(document: &Document) -> Diagnostics {
-    match scene_format::load_str(&document.name(), &document.text, document.syntax, document.folder(), &[]) {
+    match load(document, &[]) {
         Ok(loaded) => loaded.warnings,
         Err(LoadError::Invalid { diagnostics, .. }) => diagnostics,
         Err(LoadError::Io { .. }) => Diagnostics::new(),
     }
 }
 
-/// With what the files that it names tell: meshes and pictures are read, so this may take as long as they do.
+/// With what the files that it names tell, and its other frames: meshes and pictures are read, so this may take as long
+/// as they do.
 pub fn with_files(document: &Document) -> Diagnostics {
-    match scene_format::load_str(&document.name(), &document.text, document.syntax, document.folder(), &[]) {
+    match load(document, &[]) {
         Ok(loaded) => {
             let mut all = loaded.warnings;
             match tracer_core::compile(&loaded.scene) {
-                Ok(scene) => all.extend(scene.warnings.iter().cloned()),
+                Ok(scene) => {
+                    all.extend(scene.warnings.iter().cloned());
+                    all.extend(of_frames(document, &loaded.scene));
+                }
                 Err(error) => all.extend(error.diagnostics),
             }
             all
         }
-        Err(LoadError::Invalid { mut diagnostics, sources, files }) => {
+        Err(LoadError::Invalid { mut diagnostics, sources, files, .. }) => {
             let sources: &[Source] = &sources;
             diagnostics.extend(tracer_core::check_files(&files, document.folder(), sources));
             diagnostics
         }
         Err(LoadError::Io { .. }) => Diagnostics::new(),
     }
+}
+
+/// What is wrong at other frames of its animation.
+fn of_frames(document: &Document, scene: &SceneDesc) -> Diagnostics {
+    let frames = [0, scene.animation.frames.value - 1];
+    let at = |frame: u32| load(document, &[Override::frame(frame)]);
+    let wrong = tracer_core::check_frames(scene, frames, MOST_FRAMES, at).map_or_else(Vec::new, |looked| looked.wrong);
+    wrong.into_iter().flat_map(|frame| frame.diagnostics).collect()
 }
 
 /// Diagnostics in the protocol's words; those of other texts stand at the beginning.

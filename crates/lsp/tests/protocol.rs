@@ -196,3 +196,16 @@ fn a_scene_is_typed_letter_by_letter() {
     assert!(editor.diagnostics().is_empty());
     editor.close();
 }
+
+/// Of a film all frames are looked at, and of several cameras none needs to be chosen.
+#[test]
+fn other_frames_are_looked_at_and_no_camera_is_asked_for() {
+    let text = "Scene(animation: Animation(frames: 4), background: 1, cameras: { \"a\": Camera(), \"b\": Camera() }, \
+                objects: [Sphere(center: (0, 0, 0), radius: \"=2.5 - frame\")])";
+    let mut editor = Editor::open("file:///scenes/film.ron", text);
+    assert_eq!(editor.diagnostics(), Vec::<Value>::new());
+    let told = editor.diagnostics();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0]["message"].as_str().expect("text").contains("(frame 3)"), "{told:?}");
+    editor.close();
+}

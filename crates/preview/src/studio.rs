@@ -359,7 +359,7 @@ fn faults(error: LoadError, scene: &Path, width: usize) -> (Vec<Told>, Vec<PathB
             };
             (vec![Told::plain(text)], Vec::new())
         }
-        LoadError::Invalid { mut diagnostics, sources, files } => {
+        LoadError::Invalid { mut diagnostics, sources, files, .. } => {
             diagnostics.extend(tracer_core::check_files(&files, folder, &sources));
             diagnostics.sort_by_key(|fault| fault.span);
             keep_first(&mut diagnostics);

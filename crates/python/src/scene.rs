@@ -130,7 +130,7 @@ fn read(from: &From, sets: &[String], assets: Assets) -> Result<Read, (PathBuf, 
     let loaded = match loaded {
         Ok(loaded) => loaded,
         Err(LoadError::Io { path, source }) => return Err((path, source)),
-        Err(LoadError::Invalid { mut diagnostics, sources, files }) => {
+        Err(LoadError::Invalid { mut diagnostics, sources, files, .. }) => {
             diagnostics.extend(check_files_from(&files, &folder, &sources, &assets));
             diagnostics.sort_by_key(|fault| fault.span);
             return Ok(Err(Faults { diagnostics, sources }));

@@ -302,8 +302,8 @@ class ThinLens(_ThinLensRequired, total=False):
     aperture: Diameter of the lens, in the scene's unit: a point at distance d along the view axis is blurred to a disc that is aperture * |d - focus_distance| / d across in the plane of focus. A photographer's f-number is focal length over aperture.
     focus_distance: Distance from the eye to the plane of focus, along the view axis. Unit: the scene's unit.
     focus_on: A point that is sharp: the plane of focus goes through it. Unit: the scene's unit.
-    blades: Blades of the aperture: blurred lights become polygons with so many corners, as large as the disc. 0: discs.
-    rotation: Turns the aperture, counter-clockwise as the picture shows it; at 0 it has a corner to the right. Unit: degrees.
+    blades: Blades of the aperture, three or more: blurred lights become polygons with so many corners, as large as the disc. 0: discs.
+    rotation: Turns the aperture, counter-clockwise as the picture shows it; at 0 it has a corner to the right. A disc has none. Unit: degrees.
     tilt: Turns the plane of focus about the picture's right, then about its up, as a view camera does: (-80, 0) makes a table sharp from front to back. Unit: degrees.
     """
 

@@ -363,8 +363,7 @@ codes! {
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     BAD_VAR_NAME "E0408" "a name that no expression can use";
-    /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`; or there are several there, and
-    /// none is chosen.
+    /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
     ///
     /// ```ron
     /// Scene(cameras: { "a": Camera() }, camera: "b", background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
@@ -381,6 +380,13 @@ codes! {
     /// )
     /// ```
     UNKNOWN_MASK "E0410" "a mask of nothing";
+    /// The scene has several `cameras`, and neither `camera` nor `--camera` says which one is meant. Who renders
+    /// nothing (`check`, `fmt`, `convert`, editors) does without.
+    ///
+    /// ```ron
+    /// Scene(cameras: { "a": Camera(), "b": Camera() }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    UNDECIDED_CAMERA "E0411" "no camera is chosen";
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.

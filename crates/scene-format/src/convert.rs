@@ -45,6 +45,8 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     match load_str(name, text, from, folder, &[]) {
         // What is wrong with included files is theirs: this text says what to write.
         Err(LoadError::Invalid { diagnostics, .. }) if diagnostics.iter().all(is_of_others) => {}
+        // Whichever is meant, the text stays what it is.
+        Err(LoadError::Invalid { undecided: Some(_), .. }) => {}
         loaded => {
             loaded?;
         }

@@ -4,6 +4,7 @@
 use crate::SceneDesc;
 use crate::diagnostic::{Edit, Span};
 use crate::load::load_bytes;
+use crate::overrides::Override;
 use crate::print::number;
 use crate::render::apply_edits;
 use crate::syntax::parse;
@@ -43,6 +44,9 @@ pub enum ViewpointError {
     /// The text has faults.
     #[error("the scene has errors; mend them first")]
     Wrong,
+    /// It moves, by an expression that numbers would stand in place of.
+    #[error("the camera moves: numbers would stand in place of its expressions; change these by hand")]
+    Moves,
     /// It is written in a way that no edit is known for.
     #[error("the camera of this scene is written in a way that cannot be edited here; write the values by hand")]
     Unknown,
@@ -80,6 +84,9 @@ pub fn write_viewpoint(
     if fields.is_empty() {
         return Ok(Vec::new());
     }
+    if moves(text, syntax, base_dir, &before, &fields) {
+        return Err(ViewpointError::Moves);
+    }
     let tree = parse(text, syntax, &mut Sink::default());
     let name = before.camera_name.as_deref();
     let edits = edits(&tree, text, syntax, &fields, name).ok_or(ViewpointError::Unknown)?;
@@ -91,6 +98,33 @@ pub fn write_viewpoint(
         named.camera = after.camera.clone();
     }
     if Viewpoint::of(&after) == *viewpoint && after == wanted { Ok(edits) } else { Err(ViewpointError::Unknown) }
+}
+
+/// Frames at which a camera is looked at, whether it moves.
+const LOOKED_AT: u32 = 8;
+
+/// Whether a field that would be written is another at another frame. Of a text that names no time none is.
+fn moves(text: &str, syntax: Syntax, base_dir: &Path, now: &SceneDesc, fields: &[(&str, Value)]) -> bool {
+    let frames = now.animation.frames.value;
+    let named = now.sources.iter().any(|source| source.text.contains("frame") || source.text.contains("time"));
+    if frames < 2 || !named {
+        return false;
+    }
+    let seen = Viewpoint::of(now);
+    let is_written = |name: &str| fields.iter().any(|(field, _)| *field == name);
+    let looked = LOOKED_AT.min(frames);
+    (0..looked).any(|k| {
+        // The first, the last, and as far apart as may be between.
+        let frame = (u64::from(k) * u64::from(frames - 1) / u64::from(looked - 1)) as u32;
+        let at = load_bytes("", text.as_bytes().to_vec(), Some(syntax), base_dir, &[Override::frame(frame)]);
+        at.is_ok_and(|loaded| {
+            let then = Viewpoint::of(&loaded.scene);
+            is_written("position") && then.position != seen.position
+                || is_written("look_at") && then.look_at != seen.look_at
+                || is_written("up") && then.up != seen.up
+                || is_written("fov") && then.fov != seen.fov
+        })
+    })
 }
 
 #[derive(Clone, Copy)]
@@ -330,6 +364,20 @@ mod tests {
             // What is written already is left alone.
             assert_eq!(write_viewpoint(&now, syntax, Path::new(""), &VIEW), Ok(Vec::new()));
         }
+    }
+
+    #[test]
+    fn a_camera_that_moves_is_left_alone() {
+        let rest = "animation: Animation(frames: 9), background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)]";
+        let write = |camera: &str| {
+            let text = format!("Scene(vars: {{ \"far\": \"=5 + time\" }}, camera: Camera({camera}), {rest})");
+            write_viewpoint(&text, Syntax::Ron, Path::new(""), &VIEW)
+        };
+        assert_eq!(write("position: (\"=time\", 0, 5)"), Err(ViewpointError::Moves));
+        assert_eq!(write("position: (0, 0, \"=far\")"), Err(ViewpointError::Moves));
+        // What moves and is not written anew does not matter, nor an expression that stands still.
+        assert!(write("up: (0, 1, 0), fov: 30, position: (0, 0, \"=2 + 3\")").is_ok());
+        assert!(write("near: \"=0.1 + time\"").is_ok());
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! Words of the language, explained one by one: the pieces of the reference that tell of them.
 
+use crate::expression;
+use crate::read::{PICK, REPEAT, everyday, expected};
 use crate::reference::reference;
+use crate::schema::{StructDef, prose};
 use std::fmt::Write;
 
 /// A heading of the reference with what stands below it.
@@ -124,7 +127,30 @@ pub fn explain_word(word: &str) -> Option<String> {
             }
         }
     }
+    for body in [&PICK, &REPEAT] {
+        if body.name.eq_ignore_ascii_case(word) {
+            out.insert_str(0, &of_body(body, !out.is_empty()));
+        }
+    }
+    let apart = if out.is_empty() { "" } else { "\n" };
+    if let Some((call, does)) = expression::function(word) {
+        let _ = writeln!(out, "{apart}{call}\n  {does}. It stands in expressions, as in \"={word}(..)\".");
+    } else if let Some(means) = expression::constant(word) {
+        let _ = writeln!(out, "{apart}{word}, in expressions: {means}.");
+    }
+    if out.is_empty() {
+        everyday(word).iter().for_each(|line| out += &format!("{line}\n"));
+    }
     (!out.is_empty()).then_some(out)
+}
+
+/// What stands in place of any value or item.
+fn of_body(def: &StructDef, more: bool) -> String {
+    let mut out = format!("{}\n{}\n", def.name, prose(def.doc));
+    for field in def.fields {
+        let _ = writeln!(out, "  {}: {}. {}", field.name, expected(field), prose(field.doc));
+    }
+    out + if more { "\n" } else { "" }
 }
 
 /// What a heading is called in scenes.
@@ -183,6 +209,32 @@ mod tests {
         let lathe = explain_word("Lathe").expect("a word");
         assert!(lathe.contains("curve: Curve; default Linear, in TOML \"Linear\"."), "{lathe}");
         assert!(lathe.contains("v grows from 0 at the first point to 1"), "{lathe}");
+    }
+
+    #[test]
+    fn functions_and_words_of_every_day_are_explained() {
+        for (word, told) in [
+            ("keyframes", "keyframes(t, t0, value0"),
+            ("random", "the same for the same"),
+            ("hsv", "hue"),
+            ("Pick", "One of several values"),
+            ("repeat", "Puts its items into the list"),
+            ("frame", "from 0"),
+            ("sky", "`background`"),
+            ("sun", "SphereLight"),
+            ("plane", "Plane, a kind of Object"),
+            ("blur", "depth_of_field"),
+            ("window", "Difference"),
+            ("Checker", "Checkerboard"),
+            ("dof", "depth_of_field"),
+            ("glow", "Emissive"),
+            ("cube", "called Box here"),
+            ("fog", "surfaces only"),
+            ("pointlight", "SphereLight"),
+        ] {
+            let text = explain_word(word).unwrap_or_default();
+            assert!(text.contains(told), "{word}: {text}");
+        }
     }
 
     #[test]

@@ -44,6 +44,9 @@ pub enum LoadError {
         sources: Vec<Source>,
         /// The files that the text names, as far as it could be read, for whoever looks at them in the same run.
         files: Vec<NamedFile>,
+        /// All that is wrong is that none of the scene's cameras is chosen: the first of them. Who renders nothing may
+        /// take it, by [`Override::camera`].
+        undecided: Option<Arc<str>>,
     },
 }
 
@@ -122,8 +125,8 @@ fn load_string(
     let texts = Texts { sources, syntax, base_dir: base_dir.to_owned(), overrides: overrides.to_vec(), library };
     let (read, moves) = match texts.read(0.0) {
         Ok(read) => read,
-        Err(Faults { diagnostics, files }) => {
-            return Err(LoadError::Invalid { diagnostics, sources: texts.sources, files });
+        Err(Faults { diagnostics, files, undecided }) => {
+            return Err(LoadError::Invalid { diagnostics, sources: texts.sources, files, undecided });
         }
     };
     let Loaded { mut scene, warnings } = read;
@@ -136,7 +139,7 @@ fn load_string(
     // What is wrong between two frames is told before anything is rendered.
     for share in [0.5, 1.0].map(|part| part * scene.camera.shutter.value) {
         if let Err(diagnostics) = scene.at(share) {
-            return Err(LoadError::Invalid { diagnostics, sources: scene.sources, files: Vec::new() });
+            return Err(LoadError::Invalid { diagnostics, sources: scene.sources, files: Vec::new(), undecided: None });
         }
     }
     Ok(Loaded { scene, warnings })
@@ -158,6 +161,8 @@ pub(crate) struct Faults {
     pub diagnostics: Diagnostics,
     /// The files that the text names, as far as it could be read.
     files: Vec<NamedFile>,
+    /// As that of [`LoadError::Invalid`].
+    undecided: Option<Arc<str>>,
 }
 
 impl Texts {
@@ -175,8 +180,12 @@ impl Texts {
         if sink.errors > 0
             && let Some(fault) = foreign::whole(text, *syntax)
         {
-            return Err(Faults { diagnostics: vec![fault], files: Vec::new() });
+            return Err(Faults { diagnostics: vec![fault], files: Vec::new(), undecided: None });
         }
+        let is_undecided =
+            |fault: &Diagnostic| fault.severity == Severity::Warning || fault.code == codes::UNDECIDED_CAMERA;
+        let undecided = scene.as_ref().and_then(|scene| scene.camera.name.clone());
+        let undecided = undecided.filter(|_| sink.errors == 1 && sink.diagnostics.iter().all(is_undecided));
         // What could be read of a wrong scene is of no use any more, and may be large.
         let scene = scene.filter(|_| sink.errors == 0);
         let mut diagnostics = sink.diagnostics;
@@ -192,7 +201,7 @@ impl Texts {
         diagnostics.sort_by_key(|diagnostic| diagnostic.span);
         follow_ups::withhold(text, &mut diagnostics);
         let Some(scene) = scene else {
-            return Err(Faults { diagnostics, files: sink.files.outside(&broken) });
+            return Err(Faults { diagnostics, files: sink.files.outside(&broken), undecided });
         };
         let moves = scene.moves;
         let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();
@@ -326,6 +335,7 @@ fn too_large(name: String) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name, text: String::new() }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 
@@ -357,6 +367,7 @@ fn in_utf16(name: &str, text: String) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name: name.to_owned(), text }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 
@@ -376,6 +387,7 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name: name.to_owned(), text }],
         files: Vec::new(),
+        undecided: None,
     }
 }
 

@@ -164,7 +164,9 @@ fn names_of_the_file_itself_win_and_of_two_files_those_of_the_later() {
 #[test]
 fn a_fault_in_an_included_file_says_the_way_there_and_the_files_are_known() {
     let text = "Scene(background: 1, objects: [Include(file: \"scenes/chair.ron\", vars: { \"height\": true })])";
-    let Err(LoadError::Invalid { diagnostics, sources, files }) = room("faults", text) else { panic!("a truth value") };
+    let Err(LoadError::Invalid { diagnostics, sources, files, .. }) = room("faults", text) else {
+        panic!("a truth value")
+    };
     assert!(diagnostics.iter().all(|fault| sources[fault.span.source as usize].name.ends_with("chair.ron")));
     assert!(diagnostics[0].labels.iter().any(|label| label.span.source == 0), "{:?}", diagnostics[0]);
     let scenes: Vec<&Path> = files.iter().filter(|file| file.kind == FileKind::Scene).map(|file| &*file.path).collect();
@@ -238,4 +240,15 @@ fn a_file_without_its_list_is_one_error() {
         std::fs::write(folder.join(name), mended).expect("written");
         assert!(load(&folder.join(name)).is_ok(), "{}", syntax.name());
     }
+}
+
+/// What a library with objects would have brought is not missed besides.
+#[test]
+fn a_library_with_objects_is_one_mistake() {
+    let library = r#"Scene(vars: {"r": 2}, materials: {"m": Mirror()}, cameras: {"c": Camera()},
+        objects: [Sphere(center: (0, 0, 0), radius: 1)])"#;
+    let text = r#"Scene(background: 1, include: ["library.ron"], camera: "c",
+        objects: [Sphere(center: (0, 0, 0), radius: "=r", material: "m")])"#;
+    let folder = folder("library_with_objects", &[("library.ron", library), ("s.ron", text)]);
+    assert_eq!(codes(load(&folder.join("s.ron"))), ["E0560"]);
 }

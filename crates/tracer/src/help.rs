@@ -67,8 +67,8 @@ pub fn command() -> Command {
                 "split",
                 "crop",
                 "layers",
-                "camera",
-                "frame",
+                "open",
+                "checkpoint",
                 "skip_existing",
                 "report",
                 "integrator",
@@ -135,7 +135,8 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             let before = words.iter().all(|word| Cli::command().find_subcommand(word).is_none());
             let option = context(&error, ContextKind::InvalidArg);
             let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| format!("here it is {ours}"));
-            elsewhere.or_else(|| option.filter(|_| before).and_then(|option| of_option(&option)))
+            let of_option = || option.as_deref().filter(|_| before).and_then(of_option);
+            elsewhere.or_else(of_option).or_else(|| one_more(&words, option.as_deref()?))
         }
         _ => None,
     };
@@ -166,6 +167,25 @@ fn of_file(word: &str) -> Option<String> {
         Some("png" | "exr" | "hdr" | "pfm") => Some(format!("to compare pictures: tracer compare {} ..", quoted(word))),
         _ => None,
     }
+}
+
+/// A word where a command takes no more: what it was probably meant for.
+fn one_more(words: &[String], more: &str) -> Option<String> {
+    if more.starts_with('-') {
+        return None;
+    }
+    let word = quoted(more);
+    let command: Vec<&str> = words.iter().map(String::as_str).take(2).collect();
+    Some(match command.as_slice() {
+        ["convert", ..] => format!("the file to write: -o {word}"),
+        ["render", ..] if is_scene(more) => {
+            "scenes are rendered one after the other, each by a line of its own".to_owned()
+        }
+        ["render", ..] => format!("the picture to write: -o {word}"),
+        ["golden", "new"] => format!("each scene has its option: --scene {word}"),
+        [command, ..] if is_scene(more) => format!("{command} takes one scene at a time"),
+        _ => return None,
+    })
 }
 
 /// The commands that take an option.

@@ -34,14 +34,26 @@ pub fn is_dash(path: &Path) -> bool {
 /// # Errors
 /// When it cannot be read, or is wrong: then everything that is wrong has been printed.
 pub fn load(args: &SceneArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
-    load_counting(args, shell).map(|(scene, _)| scene)
+    told_of(args, loaded(args, None)?, shell).map(|(scene, _)| scene)
 }
 
-/// As [`load`]; how many warnings there were, too.
+/// As [`load`], for those who render nothing: of cameras of which none is chosen the first is taken, and its name put
+/// into `args`. How many warnings there were goes with it.
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_counting(args: &SceneArgs, shell: &Shell) -> Result<(SceneDesc, usize), Failure> {
+pub fn load_to_look(args: &mut SceneArgs, shell: &Shell) -> Result<(SceneDesc, usize), Failure> {
+    let bytes = is_dash(&args.scene).then(|| read(&args.scene)).transpose()?;
+    let mut first = loaded(args, bytes.clone())?;
+    if let Err(LoadError::Invalid { undecided: Some(camera), .. }) = &first {
+        args.camera = Some(camera.to_string());
+        first = loaded(args, bytes)?;
+    }
+    told_of(args, first, shell)
+}
+
+/// Reads the scene, from `bytes` with their name where these were read before.
+fn loaded(args: &SceneArgs, bytes: Option<(String, Vec<u8>)>) -> Result<Result<Loaded, LoadError>, Failure> {
     let overrides = args.overrides();
     let syntax = args.syntax.map(Syntax::from);
     if syntax.is_none()
@@ -49,13 +61,17 @@ pub fn load_counting(args: &SceneArgs, shell: &Shell) -> Result<(SceneDesc, usiz
     {
         return Err(Failure::wrong(why));
     }
-    let loaded = if is_dash(&args.scene) || syntax.is_some() {
-        let (name, bytes) = read(&args.scene)?;
-        let folder = args.scene.parent().unwrap_or(Path::new(""));
-        scene_format::load_bytes(&name, bytes, syntax.or(Syntax::from_path(&args.scene)), folder, &overrides)
-    } else {
-        scene_format::load_with(&args.scene, &overrides)
-    };
+    if bytes.is_none() && !is_dash(&args.scene) && syntax.is_none() {
+        return Ok(scene_format::load_with(&args.scene, &overrides));
+    }
+    let (name, bytes) = bytes.map_or_else(|| read(&args.scene), Ok)?;
+    let folder = args.scene.parent().unwrap_or(Path::new(""));
+    let syntax = syntax.or(Syntax::from_path(&args.scene));
+    Ok(scene_format::load_bytes(&name, bytes, syntax, folder, &overrides))
+}
+
+/// The scene and how many warnings there were, which are printed, as what is wrong is.
+fn told_of(args: &SceneArgs, loaded: Result<Loaded, LoadError>, shell: &Shell) -> Result<(SceneDesc, usize), Failure> {
     let Loaded { scene, warnings } = loaded.map_err(|error| {
         let folder = if is_dash(&args.scene) { Path::new("") } else { args.scene.parent().unwrap_or(Path::new("")) };
         told(with_faults_of_files(error, folder), args.diagnostics, shell)
@@ -72,7 +88,7 @@ pub fn load_counting(args: &SceneArgs, shell: &Shell) -> Result<(SceneDesc, usiz
 /// The same error with what is wrong with the files that the text names: all mistakes in one run.
 /// For those who tell it themselves.
 pub(crate) fn with_faults_of_files(mut error: LoadError, folder: &Path) -> LoadError {
-    if let LoadError::Invalid { diagnostics, sources, files } = &mut error {
+    if let LoadError::Invalid { diagnostics, sources, files, .. } = &mut error {
         diagnostics.extend(tracer_core::check_files(files, folder, sources));
         diagnostics.sort_by_key(|fault| fault.span);
         keep_first(diagnostics);
@@ -224,6 +240,25 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, kept: Option<&Kept>, she
         line + &format!("; assets {:.3} s, tables {:.3} s, tree {:.3} s", times.assets, times.tables, times.tree)
     });
     Ok(scene)
+}
+
+/// How many things shine: the scene's lights, and objects that do, each with all its parts one.
+pub fn lights(desc: &SceneDesc, scene: &Scene) -> usize {
+    let named =
+        |name: &str| desc.materials.iter().find(|named| *named.name.value == *name).map(|named| &named.material);
+    let shining = desc.objects.iter().filter(|object| {
+        let material = match object.value.material() {
+            MaterialRef::Inline(material) => Some(&material.value),
+            MaterialRef::Named { name, .. } => named(name),
+            MaterialRef::Default => None,
+        };
+        material.is_some_and(|material| material.shines().is_some())
+    });
+    match desc.lights.len() + shining.count() {
+        // Those that materials of a mesh's own file make of its triangles.
+        0 => scene.lights.len(),
+        lights => lights,
+    }
 }
 
 /// The files that the scene names, in the order of their first mention: scenes, meshes, placements, textures.

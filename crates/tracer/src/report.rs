@@ -71,6 +71,10 @@ pub struct PictureReport {
     pub height: u32,
     /// The part that was rendered: left, top, width, height.
     pub crop: [u32; 4],
+    /// The frame of the scene's animation.
+    pub frame: u32,
+    /// The name of the camera; null where it has none.
+    pub camera: Option<String>,
     /// Seed of all random choices.
     pub seed: u32,
     /// Samples per pixel that were asked for.

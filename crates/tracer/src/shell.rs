@@ -1,10 +1,13 @@
 //! What is said on standard error: in which colours, how wide, how much.
 
 use crate::args::{DiagnosticsForm, When};
-use scene_format::diagnostic::Source;
+use scene_format::codes::Code;
+use scene_format::diagnostic::{Source, Span};
 use scene_format::render::{Style, github_lines, json_lines, text};
 use scene_format::{Diagnostic, Severity};
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,7 +27,12 @@ pub struct Shell {
     terminal: bool,
     /// How much is said.
     pub verbosity: Verbosity,
+    /// Of a film: what was warned of already, and the frame at hand where it is not the first.
+    told: Option<(&'static Told, Option<u32>)>,
 }
+
+/// Warnings that were told, which are told once for all frames.
+type Told = Mutex<HashSet<(Code, Span)>>;
 
 impl Shell {
     /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set.
@@ -37,12 +45,23 @@ impl Shell {
             When::Always => true,
             When::Never => false,
         };
-        Shell { color, terminal: terminal && !dumb, verbosity }
+        Shell { color, terminal: terminal && !dumb, verbosity, told: None }
     }
 
     /// The same, but silent about warnings.
     pub fn without_warnings(&self) -> Self {
         Shell { verbosity: Verbosity::Quiet, ..*self }
+    }
+
+    /// The same for a film: what was warned of is not told again.
+    pub fn of_film(&self) -> Self {
+        // There is one film in a process: it lives as long.
+        Shell { told: Some((Box::leak(Box::default()), None)), ..*self }
+    }
+
+    /// The same for one of its frames but the first.
+    pub fn at_frame(&self, frame: u32) -> Self {
+        Shell { told: self.told.map(|(told, _)| (told, Some(frame))), ..*self }
     }
 
     /// Whether somebody watches: progress is for them alone.
@@ -65,6 +84,25 @@ impl Shell {
         let _ = writeln!(std::io::stderr().lock(), "{line}");
     }
 
+    /// `warning: ` and a line, unless only errors are said.
+    pub fn warn(&self, line: &str) {
+        if self.is_told() {
+            self.say(&format!("warning: {line}"));
+        }
+    }
+
+    /// Leaves warnings out that an earlier frame had; of the others it is said which frame has them.
+    fn leave_out_told(&self, shown: &mut Vec<Diagnostic>) {
+        let Some((told, frame)) = self.told else { return };
+        let mut known = told.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_warning = |fault: &Diagnostic| fault.severity == Severity::Warning;
+        shown.retain(|fault| !is_warning(fault) || !known.contains(&(fault.code, fault.span)));
+        for fault in shown.iter_mut().filter(|fault| is_warning(fault)) {
+            known.insert((fault.code, fault.span));
+            fault.message += &frame.map_or(String::new(), |frame| format!(" (frame {frame})"));
+        }
+    }
+
     /// A line for those who asked with `-v`.
     pub fn explain(&self, line: impl FnOnce() -> String) {
         if self.verbosity == Verbosity::Verbose {
@@ -84,6 +122,7 @@ impl Shell {
         if self.verbosity == Verbosity::Quiet {
             shown.retain(|diagnostic| diagnostic.severity == Severity::Error);
         }
+        self.leave_out_told(&mut shown);
         if shown.is_empty() {
             return;
         }

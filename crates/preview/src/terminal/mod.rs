@@ -400,7 +400,14 @@ impl Session {
         };
         self.note.take_if(|(_, until)| *until <= Instant::now());
         let status = match &self.note {
-            Some((note, _)) => words::cut(note, columns),
+            // What has no room in one line takes some of the picture's for a while: it ends with what to do.
+            Some((note, _)) => {
+                let mut said = words::wrapped(note, columns);
+                let last = said.pop().unwrap_or_default();
+                lines.extend(said.into_iter().map(|line| (line, None)));
+                lines.drain(..lines.len().saturating_sub(rows));
+                last
+            }
             None => status.line(columns),
         };
         let look = picture::look(state.stage.as_deref());

@@ -146,7 +146,7 @@ pub fn faults(told: &[Told], columns: usize, most: usize) -> Vec<Line> {
 }
 
 /// A text in lines of so many columns, broken at spaces where there are any. An indent stays with what follows.
-fn wrapped(text: &str, columns: usize) -> Vec<String> {
+pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     let mut rest = printable(text);
     let mut lines = Vec::new();
     while rest.width() > columns.max(1) {
@@ -292,5 +292,13 @@ mod tests {
     fn help_is_whole_in_any_width() {
         assert!(help(500).len() == 1 && help(30).len() > 4);
         assert!(help(20).iter().all(|line| line.width() <= 20));
+    }
+
+    #[test]
+    fn what_is_long_is_said_to_its_end() {
+        let note = "the camera is set by --camera, which counts more than the file; start the preview without it";
+        let lines = wrapped(note, 40);
+        assert!(lines.len() == 3 && lines.iter().all(|line| line.width() <= 40), "{lines:?}");
+        assert_eq!(lines.join(" "), note);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::hover::{default_text, of_field};
 use super::names;
-use super::place::{Expected, expected, way};
-use crate::expression::functions;
+use super::place::{Expected, Step, expected, way};
+use crate::expression::{function, functions};
 use crate::files::FileKind;
 use crate::read::{REPEAT, expected as takes};
 use crate::schema::{Content, EnumDef, FieldDef, StructDef, Type, prose};
@@ -166,7 +166,18 @@ fn value(
         return;
     }
     let kind = kind.resolved();
-    let in_list = matches!(way.steps.last(), Some(super::place::Step::Item));
+    if matches!(way.steps.as_slice(), [.., Step::Key(key), Step::Item] if key == "masks") {
+        let written = |name: &str| if quoted { name.to_owned() } else { format!("\"{name}\"") };
+        out.items.extend(names::defined(text, syntax).things.iter().map(|name| Completion {
+            label: name.clone(),
+            kind: CompletionKind::Name,
+            detail: "objects or lights of this name".to_owned(),
+            documentation: String::new(),
+            snippet: escaped(&written(name)),
+        }));
+        return;
+    }
+    let in_list = matches!(way.steps.last(), Some(Step::Item));
     match kind {
         Type::Optional(inner) => {
             if !quoted {
@@ -277,6 +288,7 @@ fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Comple
     items.extend(functions().map(|(name, call)| Completion {
         kind: CompletionKind::Function,
         detail: call.to_owned(),
+        documentation: function(name).map_or(String::new(), |(_, does)| does.to_owned()),
         snippet: format!("{name}($0)"),
         ..plain(name, "")
     }));

@@ -1,6 +1,8 @@
 //! What a word means, where it stands.
 
+use super::names;
 use super::visit::{tree, visit};
+use crate::expression;
 use crate::read::expected;
 use crate::schema::{Content, FieldDef, StructDef, prose};
 use crate::syntax::Syntax;
@@ -36,7 +38,23 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
             found = Some(Hover { range: range(span), markdown });
         }
     });
-    found
+    found.or_else(|| in_expression(text, syntax, byte))
+}
+
+/// What a word of an expression means, or the name of a var.
+fn in_expression(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
+    if let Some(var) = names::var_at(text, syntax, byte) {
+        let names::Var { name, range, value } = var;
+        let means = value.map_or("counts from 0: the index of a `Repeat`".to_owned(), |value| format!("`{value}`"));
+        return Some(Hover { range, markdown: format!("**{name}**: {means}") });
+    }
+    let word = names::word_of_expression(text, syntax, byte)?;
+    let name = &text[word.clone()];
+    let markdown = match expression::function(name) {
+        Some((call, does)) => format!("**{call}**\n\n{does}"),
+        None => format!("**{name}**: {}", expression::constant(name)?),
+    };
+    Some(Hover { range: word, markdown })
 }
 
 /// What a field takes and means.

@@ -1,4 +1,4 @@
-//! Names that a person gives: of materials, of cameras, and of values in `vars`.
+//! Names that a person gives: of materials, of cameras, of objects and lights, and of values in `vars`.
 
 use super::hover::range;
 use super::visit::{tree, visit};
@@ -17,6 +17,8 @@ enum Of {
     Material,
     Camera,
     Var,
+    /// An object or a light, which masks name.
+    Thing,
 }
 
 /// A place where a name stands.
@@ -80,9 +82,55 @@ pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec
     Ok(found.into_iter().map(edit).collect())
 }
 
+/// A var, where it is written or used.
+pub(super) struct Var {
+    pub name: String,
+    pub range: Range<usize>,
+    /// What it stands for, as it is written; of an index nothing.
+    pub value: Option<String>,
+}
+
+/// So much of a var's value is shown.
+const SHOWN: usize = 200;
+
+/// The var whose name stands at a byte.
+pub(super) fn var_at(text: &str, syntax: Syntax, byte: usize) -> Option<Var> {
+    let place = places(text, syntax).into_iter().find(|place| holds_byte(&place.range, byte))?;
+    if place.of != Of::Var {
+        return None;
+    }
+    let defined = definition(text, syntax, byte)?;
+    let mut value = None;
+    visit(&tree(text, syntax), &mut |visit| {
+        if visit.name.is_some_and(|key| holds_byte(&range(key.span()), defined.start)) {
+            let lexeme: String = visit.item.lexeme().chars().take(SHOWN).collect();
+            value = Some(lexeme.split_whitespace().collect::<Vec<_>>().join(" "));
+        }
+    });
+    // What is long, or has more lines than one, is written anew.
+    Some(Var { name: place.name, range: place.range, value })
+}
+
+/// The word of an expression that stands at a byte.
+pub(super) fn word_of_expression(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
+    let mut found = None;
+    visit(&tree(text, syntax), &mut |visit| {
+        let whole = range(visit.item.span());
+        if visit.item.kind() == Kind::Text && is_expression(visit.item) && whole.contains(&byte) {
+            let is_word = |c: char| c == '_' || c.is_ascii_alphanumeric();
+            let start = whole.start + text[whole.start..byte].rfind(|c| !is_word(c)).map_or(0, |at| at + 1);
+            let end = text[byte..whole.end].find(|c| !is_word(c)).map_or(whole.end, |at| byte + at);
+            found = (start < end).then_some(start..end);
+        }
+    });
+    found
+}
+
 /// Names that are given in a scene, in order of writing.
 #[derive(Default)]
 pub(super) struct Defined {
+    /// Of objects and lights.
+    pub things: Vec<String>,
     pub materials: Vec<String>,
     pub cameras: Vec<String>,
     /// Of values at the top of the scene.
@@ -96,6 +144,7 @@ pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
         let list = match place.of {
             Of::Material => &mut defined.materials,
             Of::Camera => &mut defined.cameras,
+            Of::Thing => &mut defined.things,
             Of::Var => &mut defined.vars,
         };
         if !list.contains(&place.name) {
@@ -143,6 +192,17 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
         } else if field == Some("camera") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Camera, item.lexeme(), item.span(), false, item.text().into_owned()));
+        } else if field == Some("name") && matches!(visit.section, "objects" | "lights") {
+            let item = visit.item;
+            found.push(of_text(Of::Thing, item.lexeme(), item.span(), true, item.text().into_owned()));
+        } else if visit.section == "output"
+            && field.is_none()
+            && visit.name.is_none()
+            && matches!(visit.kind, Type::Text)
+        {
+            // An item of `masks`: no other list of the output has texts.
+            let item = visit.item;
+            found.push(of_text(Of::Thing, item.lexeme(), item.span(), false, item.text().into_owned()));
         } else if field == Some("index") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Var, item.lexeme(), item.span(), true, item.text().into_owned()));

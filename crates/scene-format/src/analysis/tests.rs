@@ -226,3 +226,35 @@ fn half_written_texts_are_looked_at() {
         }
     }
 }
+
+#[test]
+fn words_of_expressions_are_explained() {
+    let text = "Scene(vars: { \"h\": 0.75, \"w\": \"=2*h\" }, objects: [Repeat(count: 2, index: \"k\", items: [\
+                Sphere(center: (\"=k\", \"=w\", \"=sin(frame)\"), radius: 1)])])";
+    for (word, told) in [
+        ("2*|h", "**h**: `0.75`"),
+        ("\"=|w", "**w**: `\"=2*h\"`"),
+        ("(\"=|k", "**k**: counts from 0"),
+        ("=s|in(", "**sin(degrees)**\n\nthe sine of an angle in degrees"),
+        ("sin(fr|ame", "**frame**: the number of the frame"),
+    ] {
+        let at = text.find(&word.replace('|', "")).expect("it is there") + word.find('|').expect("a cursor");
+        let found = hover(text, Ron, at).unwrap_or_else(|| panic!("nothing at {word}"));
+        assert!(found.markdown.starts_with(told), "{word}: {}", found.markdown);
+    }
+}
+
+#[test]
+fn masks_are_of_names_that_things_have() {
+    let text = "Scene(output: Output(masks: [\"lamp\", \"|\"]), objects: [Group(objects: [Sphere(name: \"cup\")])], \
+                lights: [SphereLight(name: \"lamp\")])";
+    offers(text, Ron, &["cup", "lamp"], &["Albedo"]);
+    offers("[output]\nmasks = [\"|\"]\n[[lights]]\nSphereLight = { name = \"lamp\" }", Toml, &["lamp"], &[]);
+    let (text, _) = cursor(text);
+    let mask = text.find("lamp").expect("a mask");
+    let lamp = text.rfind("lamp").expect("a light");
+    assert_eq!(definition(&text, Ron, mask), Some(lamp..lamp + 4));
+    let edits = rename(&text, Ron, mask, "bulb").expect("a free name");
+    assert_eq!(edits.iter().map(|edit| edit.span.start as usize).collect::<Vec<_>>(), [mask, lamp]);
+    assert!(rename(&text, Ron, lamp, "cup").is_err());
+}

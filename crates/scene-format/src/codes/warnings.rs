@@ -117,6 +117,27 @@ codes! {
     /// Repeat(count: 5, items: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     IN_ONE_PLACE "W0316" "shapes in one place";
+    /// A number is surely meant on another scale. A background whose channels are whole numbers up to 255, different
+    /// and one of them above 100, is a colour in bytes: write it as `"#87ceeb"`. A `fov` from 0.2 to 2, and `degrees`
+    /// that are pi, a half, a third, a quarter or a sixth of it or a multiple of these, are radians. An `exposure`
+    /// above 10 is in stops, which double what is seen each, and makes a background more than 500 times as bright as
+    /// white.
+    ///
+    /// ```ron
+    /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])
+    /// ```
+    OTHER_SCALE "W0317" "a number on another scale";
+    /// The rendered picture is white: every pixel is more than twice as bright as white in all channels. Take a darker
+    /// background or lights, or a lower `exposure`.
+    ALL_WHITE "W0318" "the picture is white";
+    /// A `Rectangle` or `Box` lies in one plane with others that are seen in its place, all of it: a rug at the
+    /// height of the floor. Of surfaces in one plane what shines is seen, then what lets no light through, then what
+    /// comes first.
+    ///
+    /// ```text
+    /// objects: [Rectangle(size: 6), Rectangle(size: 2, material: Diffuse(albedo: (0.8, 0.1, 0.1)))]
+    /// ```
+    HIDDEN_FLAT "W0319" "a flat thing that another one hides";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -1,7 +1,8 @@
 //! What is seen where no object is: the background, which is light, too.
 
 use super::{Color, Vec3};
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
 use crate::read::Reader;
@@ -84,6 +85,26 @@ scene_enum! {
     }
 }
 
+/// Warns of three whole numbers up to 255 that are a colour in bytes. Greys may be meant so, and so may what is dark.
+fn warn_of_bytes(reader: &mut Reader<'_>, item: Item<'_, '_>, color: Color) {
+    let bytes = color.iter().all(|channel| channel.fract() == 0.0 && (0.0..=255.0).contains(channel));
+    let bright = color.iter().any(|channel| *channel > 100.0);
+    let grey = color.iter().all(|channel| *channel == color[0]);
+    if !bytes || !bright || grey || !matches!(item.kind(), Kind::Tuple | Kind::List) {
+        return;
+    }
+    let hex: String = color.iter().map(|channel| format!("{:02x}", *channel as u8)).collect();
+    reader.report(
+        Diagnostic::warning(
+            codes::OTHER_SCALE,
+            item.head(),
+            "the background is hundreds of times as bright as white; it looks like a colour in bytes",
+        )
+        .expected("radiance: 1 is white")
+        .hint(format!("write \"#{hex}\"")),
+    );
+}
+
 impl Words for Background {
     const TYPE: Type = Type::OneOf(&[Type::Color, BackgroundWords::TYPE]);
 
@@ -92,7 +113,9 @@ impl Words for Background {
             let BackgroundWords::Environment(environment) = BackgroundWords::read(reader, item, at)?;
             return Some(Background::Environment(environment));
         }
-        Color::read(reader, item, at).map(Background::Color)
+        let color = Color::read(reader, item, at)?;
+        warn_of_bytes(reader, item, color);
+        Some(Background::Color(color))
     }
 
     fn form(&self, all: bool) -> Form {

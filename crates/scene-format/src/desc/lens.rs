@@ -16,7 +16,7 @@ pub struct ThinLens {
     pub aperture: Spanned<f64>,
     /// Where the plane of focus is.
     pub focus: Spanned<Focus>,
-    /// Corners of the aperture; below three it is a disc.
+    /// Corners of the aperture, three or more; 0: it is a disc.
     pub blades: Spanned<u32>,
     /// Degrees by which the aperture is turned, counter-clockwise in the picture.
     pub rotation: Spanned<f64>,
@@ -45,9 +45,11 @@ scene_struct! {
         focus_distance: Option<Spanned<f64>> = None => Rule::length("a length");
         /// A point that is sharp: the plane of focus goes through it.
         focus_on: Option<Spanned<Vec3>> = None => Rule::point();
-        /// Blades of the aperture: blurred lights become polygons with so many corners, as large as the disc. 0: discs.
+        /// Blades of the aperture, three or more: blurred lights become polygons with so many corners, as large as the
+        /// disc. 0: discs.
         blades: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 64.0);
         /// Turns the aperture, counter-clockwise as the picture shows it; at 0 it has a corner to the right.
+        /// A disc has none.
         rotation: Spanned<f64> = 0.0 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
         /// Turns the plane of focus about the picture's right, then about its up, as a view camera does: (-80, 0) makes
         /// a table sharp from front to back.

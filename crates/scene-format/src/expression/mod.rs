@@ -59,6 +59,21 @@ pub(crate) fn functions() -> impl Iterator<Item = (&'static str, &'static str)> 
     functions::FUNCTIONS.iter().map(|function| (function.name, function.call))
 }
 
+/// How a function is called, and what that gives.
+pub(crate) fn function(name: &str) -> Option<(&'static str, &'static str)> {
+    functions::FUNCTIONS.iter().find(|function| function.name == name).map(|function| (function.call, function.does))
+}
+
+/// What a name that stands for a number stands for.
+pub(crate) fn constant(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "frame" => "the number of the frame, from 0",
+        "time" => "seconds from the first frame: `frame / fps` of the `animation`",
+        "pi" => "3.14159..; angles are in degrees, though",
+        _ => return None,
+    })
+}
+
 /// Whether expressions can use a name: a plain word without a meaning of its own.
 pub(crate) fn is_name(name: &str) -> bool {
     let begins = name.starts_with(|c: char| c.is_alphabetic() || c == '_');

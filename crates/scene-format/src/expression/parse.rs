@@ -8,7 +8,7 @@
 //! atom = number | "#rrggbb" | "true" | "false" | name | name "(" [or {"," or}] ")" | "(" or ["," or ["," or]] ")"
 //! ```
 
-use super::functions::{CONSTANTS, FUNCTIONS, Function};
+use super::functions::{CONSTANTS, FUNCTIONS, Function, why_no_keyframes};
 use super::{Failure, Fault, MAX_BYTES, MAX_DEPTH, MOMENT, Named, Value};
 use crate::codes;
 use crate::codes::Code;
@@ -53,6 +53,26 @@ fn moment_of_others(name: &str) -> Option<&'static str> {
         "fps" | "frames" | "frame_rate" => {
             "numbers of the animation have no names here: `time` is in seconds, `frame` is the number of the frame"
         }
+        _ => return None,
+    })
+}
+
+/// How one does without a function of other programs.
+fn function_of_others(name: &str) -> Option<&'static str> {
+    Some(match name.to_ascii_lowercase().as_str() {
+        "deg" | "degrees" | "rad2deg" | "todegrees" | "to_degrees" => {
+            "angles are in degrees already; x in radians is x*180/pi of them"
+        }
+        "rad" | "radians" | "deg2rad" | "toradians" | "to_radians" => {
+            "angles are in degrees: leave it out, or write x*pi/180"
+        }
+        "pow" | "power" => "a power is written with `^`: x^2",
+        "mod" | "fmod" | "modulo" => "the rest of a division is written with `%`: x%2",
+        "lerp" => "that is `mix(a, b, t)`",
+        "fract" | "frac" => "the part behind the point is x - floor(x)",
+        "int" | "trunc" => "whole numbers are made by `floor(x)` and `round(x)`",
+        "rand" | "rnd" | "noise" => "that is `random(n)`, the same for the same n",
+        "ln" => "that is `log(x)`",
         _ => return None,
     })
 }
@@ -412,7 +432,9 @@ impl Parser<'_, '_> {
                 expected: format!("one of {}", suggest::list(&names)),
                 hint: String::new(),
             };
-            if let Some(near) = suggest::nearest(name, names.iter().copied()) {
+            if let Some(way) = function_of_others(name) {
+                fault.hint = way.to_owned();
+            } else if let Some(near) = suggest::nearest(name, names.iter().copied()) {
                 fault.hint = format!("did you mean `{near}`?");
             }
             return Err(Some(fault));
@@ -424,7 +446,9 @@ impl Parser<'_, '_> {
                 Err(self.fault(codes::EXPRESSION_NOT_FINITE, at, &message, "a finite number"))
             }
             None => {
-                let message = format!("`{name}` cannot be called so");
+                let why = if name == "keyframes" { why_no_keyframes(&arguments) } else { None };
+                let message =
+                    format!("`{name}` cannot be called so{}", why.map_or(String::new(), |why| format!(": {why}")));
                 Err(self.fault(codes::EXPRESSION_TYPE, at, &message, (*call).to_owned()))
             }
         }

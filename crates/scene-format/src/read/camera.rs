@@ -175,7 +175,7 @@ impl Reader<'_> {
         }
         let names: Vec<&str> = own.iter().map(|named| &*named.name.value).collect();
         let message = format!("the scene has {} cameras and does not say which one is meant", own.len());
-        let fault = Diagnostic::error(codes::UNKNOWN_CAMERA, first.name.span, message);
+        let fault = Diagnostic::error(codes::UNDECIDED_CAMERA, first.name.span, message);
         let hint = format!("write the name at `camera`, or choose by `tracer render --camera {}`", shortened(names[0]));
         self.report(fault.expected("a name from `cameras` at `camera`").hint(hint));
     }
@@ -349,6 +349,19 @@ impl Reader<'_> {
             let message = "the point in focus does not lie before the camera";
             let fault = Diagnostic::error(codes::OUT_OF_RANGE, lens.focus.span, message);
             self.report(fault.expected("a point that the camera looks at"));
+        }
+        let (blades, rotation) = (&lens.blades, &lens.rotation);
+        if matches!(blades.value, 1 | 2) {
+            let message =
+                format!("an aperture of {} is no polygon", ["one blade", "two blades"][blades.value as usize - 1]);
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, blades.span, message);
+            self.at_step(Step::Field("blades"), |reader| {
+                reader.report(fault.expected("0, which is a disc, or 3 to 64"))
+            });
+        } else if blades.value == 0 && rotation.value != 0.0 {
+            let message = "`rotation` has no use here: an aperture without `blades` is round";
+            let fault = Diagnostic::error(codes::NO_USE, rotation.span, message).hint("add `blades`, or leave it out");
+            self.at_step(Step::Field("rotation"), |reader| reader.report(fault));
         }
         self.path.clear();
     }

@@ -82,8 +82,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     // Warnings about what is absent mean something only when the structure could be read.
     let structure = |fault: &Diagnostic| fault.severity == Severity::Error && !fault.code.is_value();
     if !reader.sink.diagnostics.iter().any(structure) {
-        reader.unused_materials();
-        reader.unused_vars();
+        reader.unused_names(tree);
         reader.nothing_moves(&chosen.camera.shutter);
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());

@@ -426,7 +426,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "f_stop" | "fstop" | "f_number" | "fnumber" | "f" if has("aperture") => {
             "how wide the lens is is its `aperture`, in the scene's unit: the focal length over the f-number"
         }
-        "fog" | "mist" | "haze" | "volume" | "volumetric" | "smoke" if def.name == "Scene" => {
+        "fog" | "mist" | "haze" | "volume" | "volumetric" | "smoke"
+            if def.name == "Scene" || def.name == "Effects" || def.name == "Camera" =>
+        {
             "there is no fog: only surfaces are seen"
         }
         "zoom" if camera => "how much is seen is said by `fov` in degrees, or by `focal_length` in millimetres",

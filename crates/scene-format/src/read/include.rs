@@ -208,6 +208,8 @@ impl Reader<'_> {
                 .expected("a file with `vars`, `materials` and `cameras`")
                 .hint(format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme())))
                 .label(key.span(), "they are here");
+            // What it would have brought is missing for that reason.
+            (self.materials.damaged, self.cameras.damaged, self.vars.damaged) = (true, true, true);
             return self.report(fault);
         }
         self.within(name, file, |reader| {

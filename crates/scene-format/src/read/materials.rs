@@ -3,7 +3,7 @@
 use super::{Reader, Step, make_room, shortened};
 use crate::codes;
 use crate::desc::{Material, NamedMaterial};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::schema::FieldDef;
 use crate::suggest;
 use crate::syntax::Syntax;
@@ -51,6 +51,15 @@ impl Materials {
     /// Whether one of them shines.
     pub fn any_shines(&self) -> bool {
         self.read.iter().any(|named| named.material.shines().is_some())
+    }
+
+    /// The names that no object uses.
+    pub fn unused(&self) -> Vec<(Arc<str>, Span)> {
+        let used = |of: &[bool], k: usize| of.get(k).copied().unwrap_or(false);
+        let [read, unread] = &self.used;
+        let of_read = self.read.iter().enumerate().filter(|(k, _)| !used(read, *k)).map(|(_, named)| &named.name);
+        let of_unread = self.unread.iter().enumerate().filter(|(k, _)| !used(unread, *k)).map(|(_, name)| name);
+        of_read.chain(of_unread).map(|name| (Arc::clone(&name.value), name.span)).collect()
     }
 
     fn name(&self, number: u32) -> &Spanned<Arc<str>> {
@@ -295,31 +304,5 @@ impl Reader<'_> {
         }
         self.materials.unknown += 1;
         self.report(fault);
-    }
-
-    pub(super) fn unused_materials(&mut self) {
-        let materials = std::mem::take(&mut self.materials);
-        let [read, unread] = &materials.used;
-        let padded = |used: &Vec<bool>, count: usize| {
-            used.iter().copied().chain(std::iter::repeat(false)).take(count).collect::<Vec<bool>>()
-        };
-        let used = [padded(read, materials.read.len()), padded(unread, materials.unread.len())].concat();
-        let unused = materials.names().zip(used).filter(|(name, used)| !*used && !self.is_included(name.span));
-        for (name, _) in unused.collect::<Vec<_>>() {
-            if self.sink.is_full() {
-                break;
-            }
-            self.path = vec![Step::Field("materials"), Step::Key((*name.value).to_owned())];
-            self.report(
-                Diagnostic::warning(
-                    codes::UNUSED_MATERIAL,
-                    name.span,
-                    format!("no object uses the material \"{}\"", shortened(&name.value)),
-                )
-                .hint("remove it, or give its name to an object"),
-            );
-        }
-        self.path.clear();
-        self.materials = materials;
     }
 }

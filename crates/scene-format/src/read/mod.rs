@@ -8,6 +8,7 @@ mod camera;
 mod check;
 mod clock;
 mod elsewhere;
+mod everyday;
 mod hints;
 mod include;
 mod marks;
@@ -23,6 +24,7 @@ mod together;
 mod told;
 mod typed;
 mod unknown;
+mod unused;
 mod value;
 mod variant;
 mod vars;
@@ -30,6 +32,7 @@ mod vector;
 
 pub(crate) use camera::are_cameras;
 pub(crate) use check::{Whole, scene};
+pub(crate) use everyday::everyday;
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
 pub(crate) use part::part;
@@ -92,6 +95,8 @@ pub(crate) struct Reader<'r> {
     pub(crate) points: Option<usize>,
     /// Whether an item of a list was passed over that somebody meant: its number of items is not what it will be.
     pub(crate) passed_over: bool,
+    /// Whether something of the scene was not read since no `Pick` took it or no `Repeat` made it: another frame may.
+    chosen: bool,
 }
 
 /// Fields of one struct, by their number in the schema.
@@ -163,6 +168,7 @@ impl<'r> Reader<'r> {
             file: None,
             points: None,
             passed_over: false,
+            chosen: false,
         }
     }
 

@@ -97,7 +97,10 @@ impl Reader<'_> {
                 let message = format!("there are more than {MOST_VALUES} values to pick from");
                 Diagnostic::error(codes::TOO_MUCH, from.head(), message).expected("fewer")
             }
-            _ => return from.solid_children().nth(index?.rem_euclid(count as f64) as usize),
+            _ => {
+                self.chosen |= count > 1;
+                return from.solid_children().nth(index?.rem_euclid(count as f64) as usize);
+            }
         };
         self.report(fault);
         None

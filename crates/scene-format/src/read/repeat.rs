@@ -114,6 +114,7 @@ impl Reader<'_> {
                 return None;
             }
         }
+        self.chosen |= count == 0;
         for k in 0..count {
             let (errors, told) = (self.sink.errors, self.sink.diagnostics.len());
             self.vars.enter(&index, f64::from(k));

@@ -21,13 +21,13 @@ pub(crate) struct Vars;
 
 /// A name and what it stands for.
 #[derive(Debug)]
-struct Var {
-    name: Arc<str>,
-    span: Span,
+pub(super) struct Var {
+    pub(super) name: Arc<str>,
+    pub(super) span: Span,
     /// Where the value stands on the tape.
     slot: u32,
     state: State,
-    used: bool,
+    pub(super) used: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ enum State {
 #[derive(Debug, Default)]
 pub(super) struct Table {
     /// Those of the scene, then those of the repetitions that are being read, the innermost last.
-    list: Vec<Var>,
+    pub(super) list: Vec<Var>,
     /// Those of the scene.
     by_name: BTreeMap<Arc<str>, usize>,
     /// Where those of each repetition begin.
@@ -368,20 +368,6 @@ impl Reader<'_> {
         let expected = super::value::expected_for(at, item);
         self.report(Diagnostic::error(codes::EXPRESSION_TYPE, item.span(), message).expected(expected));
         None
-    }
-
-    /// Warns of names that nothing uses.
-    pub(super) fn unused_vars(&mut self) {
-        let own = |var: &&Var| !var.used && !self.is_included(var.span);
-        let unused: Vec<(String, Span)> =
-            self.vars.list.iter().filter(own).map(|var| ((*var.name).to_owned(), var.span)).collect();
-        for (name, span) in unused {
-            self.path = vec![Step::Field("vars"), Step::Key(name.clone())];
-            let message = format!("nothing uses the var \"{}\"", shortened(&name));
-            let hint = format!("remove it, or write \"={name}\" where its value is due");
-            self.report(Diagnostic::warning(codes::UNUSED_VAR, span, message).hint(hint));
-        }
-        self.path.clear();
     }
 }
 

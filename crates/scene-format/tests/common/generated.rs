@@ -206,14 +206,16 @@ fn view(random: &mut Random) -> (Camera, Option<ThinLens>) {
         camera.fov = fov.into();
         camera.fov_axis = *random.pick(&axes);
     }
+    let blades = [0u32, 3, 5, 64][random.below(4)];
     let lens = (random.below(2) == 0).then(|| ThinLens {
         focus: match random.below(2) {
             0 => Focus::Distance(length(random)).into(),
             // The camera stands far away along x and looks back.
             _ => Focus::On([number(random, -5.0, 5.0), 1.0, -2.0]).into(),
         },
-        blades: (random.below(9) as u32).into(),
-        rotation: number(random, -400.0, 400.0).into(),
+        blades: blades.into(),
+        // A disc is not turned.
+        rotation: if blades == 0 { 0.0.into() } else { number(random, -400.0, 400.0).into() },
         tilt: if random.below(2) == 0 { [0.0; 2].into() } else { [number(random, -20.0, 20.0), 3.0].into() },
         ..ThinLens::new(number(random, 0.0, 10.0), 1.0)
     });

@@ -8,6 +8,8 @@ mod curved;
 mod energy;
 mod environment;
 mod files;
+mod frames;
+mod hidden_flat;
 mod in_one_place;
 mod kept;
 mod loading;
@@ -15,6 +17,7 @@ mod materials;
 mod meshes;
 mod moments;
 mod nearby;
+mod other_scale;
 mod patterns;
 mod placing;
 mod polygonal;
@@ -30,6 +33,7 @@ pub use assets::{Asset, Assets};
 use assets::{DISK, Sources};
 use curved::Curved;
 pub use files::{check_files, check_files_from};
+pub use frames::{LookedAt, WrongFrame, check_frames};
 use glam::{DAffine3, DVec3};
 pub use kept::Kept;
 use materials::{Finished, MaterialBuilder};
@@ -118,30 +122,53 @@ struct Like {
     radiance_unit: Option<f64>,
 }
 
-fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<Scene, CompileError> {
-    let start = Instant::now();
+/// What a scene is made of: all that may be wrong with it but its tree.
+struct Gathered<'d> {
+    loaded: loading::Loaded,
+    assigned: meshes::Assigned,
+    curved: Vec<Curved>,
+    solid_objects: Vec<csg::SolidObject>,
+    files: BTreeSet<PathBuf>,
+    mattes: Mattes,
+    finished: Finished,
+    background: environment::Loaded<'d>,
+    placed: meshes::Placed,
+    /// Warnings.
+    diagnostics: Diagnostics,
+}
+
+fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>, CompileError> {
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
     let loaded = meshes::load(desc, sources, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
-    let mut curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
+    let curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
     let solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let mattes = Mattes::of(desc, builder.names());
-    let Finished { materials, images, uses, patterns, programs } = builder.finish(sources, &mut diagnostics);
+    let finished = builder.finish(sources, &mut diagnostics);
     let background = environment::load(desc, sources, &mut diagnostics);
     let placed = meshes::place(desc, sources, &loaded, &mut diagnostics);
-    let assets = start.elapsed().as_secs_f64();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
         nearby::suggest(&desc.base_dir, &desc.sources, &nearby::by_place(desc), &mut diagnostics);
         return Err(CompileError { diagnostics });
     }
+    Ok(Gathered { loaded, assigned, curved, solid_objects, files, mattes, finished, background, placed, diagnostics })
+}
 
+fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<Scene, CompileError> {
+    let start = Instant::now();
+    let gathered = gather(desc, sources)?;
+    let Gathered { loaded, assigned, mut curved, solid_objects, files, mattes, .. } = gathered;
+    let Gathered { finished, background, placed, mut diagnostics, .. } = gathered;
+    let Finished { materials, images, uses, patterns, programs } = finished;
+    let assets = start.elapsed().as_secs_f64();
     in_one_place::leave_out(desc, &mut curved, &materials, &mut diagnostics);
     unmeant::warn(desc, &loaded, &placed, &curved, &mut diagnostics);
+    hidden_flat::warn(desc, &placed, &mut diagnostics);
     curved::warn_of_open_glass(desc, &mut diagnostics);
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
@@ -153,6 +180,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
     let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
     let behind = background.brightest();
+    other_scale::warn(desc, behind, &mut diagnostics);
     let radiance_unit = like.radiance_unit.unwrap_or_else(|| radiances::unit(desc, &shining, behind));
     diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
     let is_dark = behind == [0.0; 3];

@@ -12,7 +12,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --crop, --layers, --report, --no-metadata and more.";
+`tracer man render` has --checkpoint, --crop, --layers, --report and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Default, Args)]
@@ -26,6 +26,7 @@ pub struct RenderArgs {
     pub output: Vec<PathBuf>,
     /// Render these frames: 0-47 or all; #### in file names is the number
     #[arg(long, value_name = "A-B", value_parser = frames, conflicts_with_all = ["frame", "open"])]
+    #[arg(allow_negative_numbers = true)]
     #[arg(help = "Frames of an animation: 0-47, all; names have ####")]
     pub frames: Option<Frames>,
     /// Leave frames out whose files are there
@@ -160,7 +161,10 @@ pub(super) fn frames(text: &str) -> Result<Frames, String> {
     if text == "all" {
         return Ok(Frames::All);
     }
-    let expected = || "expected the first and the last frame, counted from 0, as in 0-47, or all".to_owned();
+    let expected = || {
+        let apart = if text.contains(',') { "; frames apart are rendered one range after the other" } else { "" };
+        format!("expected the first and the last frame, counted from 0, as in 0-47, or all{apart}")
+    };
     let (first, last) = text.split_once("..").or_else(|| text.split_once('-')).unwrap_or((text, text));
     let number = |text: &str| text.trim().parse::<u32>().ok().filter(|&frame| frame < 1_000_000);
     match (number(first), number(last)) {

@@ -4,7 +4,7 @@ use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
-use crate::loading::{compile, load_counting};
+use crate::loading::{compile, lights, load_to_look};
 use crate::shell::{Shell, counted};
 use scene_format::Syntax;
 use std::io::Write;
@@ -37,10 +37,10 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
 }
 
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
-    let args_of_scene = args.of(scene);
-    let (desc, warnings) = load_counting(&args_of_scene, shell)?;
-    let frames = frames::told(&args_of_scene, &desc, None, shell)?;
+    let mut args_of_scene = args.of(scene);
+    let (desc, warnings) = load_to_look(&mut args_of_scene, shell)?;
     let scene = compile(&desc, args.diagnostics, None, shell)?;
+    let frames = frames::told(&args_of_scene, &desc, None, shell)?;
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let warnings = warnings + scene.warnings.len();
     if args.deny_warnings && warnings > 0 {
@@ -50,9 +50,12 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
         return Err(Failure::WrongScene);
     }
     if args.diagnostics == DiagnosticsForm::Text {
-        let (objects, lights) = (counted(desc.objects.len(), "object"), counted(scene.lights.len(), "light"));
+        let (objects, lights) = (counted(desc.objects.len(), "object"), counted(lights(&desc, &scene), "light"));
         let frames = frames.map_or(String::new(), |frames| format!(", {frames}"));
-        writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}{frames}")?;
+        let cameras = args_of_scene
+            .camera
+            .map_or(String::new(), |_| format!(", {} of which none is chosen", counted(desc.cameras.len(), "camera")));
+        writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}{frames}{cameras}")?;
     }
     Ok(())
 }

@@ -63,7 +63,11 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
     }
     let comments = if to == Syntax::Json { scene_format::comments(&text, from) } else { 0 };
     if comments > 0 {
-        shell.say(&format!("warning: JSON has no comments, so {} is left out", counted(comments, "comment")));
+        shell.say(&format!(
+            "warning: JSON has no comments, so {} {} left out",
+            counted(comments, "comment"),
+            if comments == 1 { "is" } else { "are" }
+        ));
     }
     Ok(ExitCode::from(exit::DONE))
 }

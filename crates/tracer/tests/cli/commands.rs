@@ -275,3 +275,44 @@ fn the_table_of_accelerations() {
     let table = sandbox.run(&["bench-acceleration", "fig3.ron", "--size", "8x8"]).ends(0).out_text();
     assert!(!table.contains("167 s") && table.contains("the same picture in all three"), "{table}");
 }
+
+/// What stands where no more is taken is told with what it was meant for.
+#[test]
+fn words_too_many_have_a_tip() {
+    let sandbox = Sandbox::new();
+    for (line, told) in [
+        ("convert scene.ron b.toml", "the file to write: -o b.toml"),
+        ("render scene.ron b.ron", "one after the other"),
+        ("render scene.ron b.png", "the picture to write: -o b.png"),
+        ("golden new g --scene scene.ron b.ron", "--scene b.ron"),
+        ("info scene.ron b.ron", "info takes one scene at a time"),
+        ("render scene.ron --frames -1", "counted from 0, as in 0-47, or all"),
+        ("render scene.ron --frames 1,3", "frames apart are rendered one range after the other"),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        sandbox.run(&words).ends(2).says(&[told]);
+    }
+    let help = sandbox.run(&["render", "--help"]).ends(0).out_text();
+    assert!(help.contains("--camera") && help.contains("--frame <N>"), "{help}");
+}
+
+/// What is told is right in its numbers.
+#[test]
+fn small_words_are_right() {
+    let sandbox = Sandbox::new();
+    sandbox.write("two.ron", SCENE.replace("// small", "// small\n// and short"));
+    sandbox.run(&["convert", "two.ron", "-o", "two.json"]).ends(0).says(&["so 2 comments are left out"]);
+    sandbox.run(&["convert", "scene.ron", "-o", "one.json"]).ends(0).says(&["so 1 comment is left out"]);
+    // A lamp of many triangles is one; what is nearly at zero is there.
+    let lamp = "Scene(objects: [Torus(radius: 1, tube_radius: 0.2, material: Emissive(radiance: 1)), \
+                Box(center: (0, 0.5, 0), size: 1, transform: [Rotate(axis: (0, 0, 1), degrees: 90)])])";
+    sandbox.write("lamp.ron", lamp);
+    let ran = sandbox.run(&["check", "lamp.ron"]).ends(0);
+    assert!(ran.out_text().contains("2 objects, 1 light"), "{}", ran.out_text());
+    let info = sandbox.run(&["info", "lamp.ron"]).ends(0).out_text();
+    assert!(!info.contains("0.0000"), "{info}");
+    let line = ["render", "scene.ron", "-o", "a.png", "--resume", "a.film"];
+    sandbox.run(&line).ends(0).says(&["samples/s"]);
+    let ran = sandbox.run(&line).ends(0);
+    assert!(ran.err.contains("all samples were there") && !ran.err.contains("samples/s"), "{}", ran.err);
+}

@@ -49,7 +49,7 @@ fn existing_frames_are_skipped_only_when_asked() {
     sandbox.write("a_1.png", "mine");
     let line = ["render", "film.ron", "--frames", "0-2", "-o", "a_#.png"];
     let ran = sandbox.run(&[&line[..], &["--skip-existing"]].concat()).ends(0);
-    assert!(ran.err.contains("2 frames") && ran.err.contains("1 were there"), "{}", ran.err);
+    assert!(ran.err.contains("2 frames") && ran.err.contains("1 was there"), "{}", ran.err);
     assert_eq!(sandbox.text("a_1.png"), "mine");
     sandbox.run(&line).ends(0);
     assert_ne!(sandbox.read("a_1.png"), b"mine");
@@ -72,6 +72,11 @@ fn files_of_frames_have_numbers() {
     with(&["-o", "a_#.png", "--report", "r_#.json", "--checkpoint", "c_#.film"]).ends(0);
     let (first, second) = (sandbox.text("r_0.json"), sandbox.text("r_1.json"));
     assert!(first.contains("--frame 0") && second.contains("--frame 1"), "{first}");
+    let told = |text: &str| {
+        let report: serde_json::Value = serde_json::from_str(text).expect("JSON");
+        (report["picture"]["frame"].as_u64(), report["picture"]["camera"].as_str().map(str::to_owned))
+    };
+    assert_eq!(told(&second), (Some(1), Some("front".to_owned())));
     with(&["-o", "b_#.png", "--resume", "c_#.film"]).ends(0);
     assert_eq!(sandbox.read("a_1.png"), sandbox.read("b_1.png"));
 }
@@ -91,6 +96,43 @@ fn what_is_wrong_with_a_frame_is_told_before_the_first() {
     sandbox.run(&["render", "bad.ron", "--frames", "0-2", "-o", "b_#.png"]).ends(0);
     let ran = sandbox.run(&["check", "film.ron"]).ends(0);
     assert!(ran.out_text().contains("4 frames"), "{}", ran.out_text());
+}
+
+/// Files and what only compiling finds, too, and each once.
+#[test]
+fn files_of_later_frames_are_looked_at_before_the_first() {
+    let sandbox = film();
+    let file = FILM.replace(
+        "Diffuse(albedo: 0.4)",
+        "Diffuse(albedo: Pick(from: [0.5, Texture(file: \"no.png\")], index: \"=frame\"))",
+    );
+    // Each factor can be, all of them together leave nothing.
+    let flat = "transform: [Repeat(count: \"=if(frame == 1, 13, 0)\", items: [Scale(1e-9)])], size: (4, 1, 4)";
+    let shape = FILM.replace("size: (4, 1, 4)", flat);
+    for (text, code, frames) in [(file, "E0501", "2 of 4 frames are wrong"), (shape, "E0540", "1 of 4 frames is wrong")]
+    {
+        sandbox.write("bad.ron", text);
+        for line in [&["check", "bad.ron"][..], &["render", "bad.ron", "--frames", "all", "-o", "b_#.png"]] {
+            let ran = sandbox.run(line).ends(2).says(&[code, "(frame 1)", frames]);
+            assert_eq!(ran.err.matches(&format!("[{code}]")).count(), 1, "{}", ran.err);
+        }
+        assert!(!sandbox.files().contains(&"b_0.png".to_owned()));
+    }
+}
+
+/// A warning is told once for a film.
+#[test]
+fn warnings_are_told_once_for_all_frames() {
+    let sandbox = film();
+    let text = FILM.replace("objects: [", "output: Output(layers: [Depth]), vars: { \"unused\": 1 }, objects: [");
+    sandbox.write("warned.ron", text);
+    let ran = sandbox.run(&["render", "warned.ron", "--frames", "all", "-o", "w_##.png"]).ends(0);
+    assert_eq!(ran.err.matches("W0402").count(), 1, "{}", ran.err);
+    assert_eq!(ran.err.matches("into EXR only; add -o w_##.exr").count(), 1, "{}", ran.err);
+    // What only a later frame has is told with its number.
+    sandbox.write("black.ron", FILM.replace("background: 1", "background: \"=if(frame == 2, (0, 0, 0), (1, 1, 1))\""));
+    let ran = sandbox.run(&["render", "black.ron", "--frames", "all", "-o", "w_##.png"]).ends(0);
+    assert!(ran.err.contains("black (frame 2)") && !ran.err.contains("(frame 3)"), "{}", ran.err);
 }
 
 #[test]
@@ -121,6 +163,47 @@ fn a_signal_ends_it_and_leaves_whole_frames() {
     assert!(!files.contains(&"s_3.png".to_owned()), "{files:?}");
 }
 
+/// A part that is its own checkpoint is gone on with, not taken for done.
+#[test]
+fn a_part_that_is_not_done_is_not_left_out() {
+    let sandbox = film();
+    let part = ["render", "film.ron", "--part", "1/2"];
+    let line = |more: &[&'static str]| [&part[..], more].concat();
+    let mut child = sandbox
+        .command(&line(&["--frame", "1", "--samples", "64000", "-o", "p1.tracer", "--checkpoint", "p1.tracer"]))
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    std::thread::sleep(Duration::from_millis(800));
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    child.wait().expect("it ends");
+    let before = sandbox.read("p1.tracer");
+    let more = ["--frames", "1-1", "--samples", "64000", "-o", "p#.tracer", "--resume", "p#.tracer", "--skip-existing"];
+    let mut child = sandbox.command(&line(&more)).stderr(Stdio::null()).spawn().expect("it starts");
+    std::thread::sleep(Duration::from_millis(800));
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    child.wait().expect("it ends");
+    assert_ne!(sandbox.read("p1.tracer"), before, "it was gone on with");
+}
+
+/// Frames that are there count as done, wherever it is interrupted.
+#[test]
+fn frames_that_are_there_are_done() {
+    let sandbox = film();
+    sandbox.write("s_2.png", "there");
+    sandbox.write("s_3.png", "there");
+    let line = ["render", "film.ron", "--frames", "0-3", "--samples", "9000000", "-o", "s_#.png", "--skip-existing"];
+    let child = sandbox.command(&line).stderr(Stdio::piped()).spawn().expect("it starts");
+    std::thread::sleep(Duration::from_millis(800));
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    let ended = child.wait_with_output().expect("it ends");
+    let told = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert!(told.contains("interrupted: 2 of 4 frames done; the same line does the rest"), "{told}");
+}
+
 #[test]
 fn cameras_are_chosen_by_name() {
     let sandbox = film();
@@ -134,6 +217,13 @@ fn cameras_are_chosen_by_name() {
     sandbox.run(&["info", "film.ron", "--camera", "top"]).ends(0);
     sandbox.write("which.ron", FILM.replace("camera: \"front\",", ""));
     sandbox.run(&["render", "which.ron", "-o", "x.png"]).ends(2).says(&["2 cameras", "--camera front"]);
+    // Who renders nothing needs none.
+    sandbox.run(&["fmt", "which.ron"]).ends(0);
+    sandbox.run(&["convert", "which.ron", "-o", "which.toml"]).ends(0);
+    for scene in ["which.ron", "which.toml"] {
+        let ran = sandbox.run(&["check", scene]).ends(0);
+        assert!(ran.out_text().contains("4 frames, 2 cameras of which none is chosen"), "{}", ran.out_text());
+    }
     sandbox.run(&["render", "which.ron", "--camera", "front", "-o", "chosen.pfm"]).ends(0);
     assert_eq!(sandbox.read("chosen.pfm"), sandbox.read("front.pfm"));
     sandbox.run(&["render", "scene.ron", "--camera", "a", "-o", "x.png"]).ends(2).says(&["no `cameras`"]);

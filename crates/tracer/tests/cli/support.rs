@@ -133,5 +133,6 @@ pub fn repository() -> &'static Path {
 
 /// `a.png in 0.02 s, 3.4 M samples/s; noise 4 %, about 1000 samples for 1 %`
 pub fn is_done(line: &str) -> bool {
-    line.contains(" s, ") && line.contains(" samples/s") && line.contains(" in ")
+    let is_told = line.contains(" samples/s") || line.contains("all samples were there");
+    line.contains(" s, ") && is_told && line.contains(" in ")
 }

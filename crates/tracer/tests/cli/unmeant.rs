@@ -195,3 +195,61 @@ fn scenes_that_are_meant_raise_nothing() {
         lines.iter().filter(|line| of_meant.iter().any(|code| line.contains(&format!("\"{code}\"")))).collect();
     assert!(false_alarms.is_empty(), "{false_alarms:#?}");
 }
+
+#[test]
+fn numbers_on_another_scale_are_told() {
+    let sandbox = Sandbox::new();
+    let ball = "Sphere(center: (0, 0, 0), radius: 1)";
+    let code = |top: &str, objects: &str| codes(&sandbox, &scene(top, objects));
+    assert_eq!(code("background: (135, 206, 235),", ball), ["W0317", "W0318"]);
+    // A grey, what is no whole number, and what is dark are meant.
+    for meant in ["1", "(0.5, 0.8, 0.9)", "(1, 2, 3)"] {
+        assert!(!code(&format!("background: {meant},"), ball).contains(&"W0317".to_owned()), "{meant}");
+    }
+    assert_eq!(code("background: 150,", ball), ["W0318"]);
+    assert_eq!(code("background: 0.5, effects: Effects(exposure: 12),", ball), ["W0317", "W0318"]);
+    assert!(code("background: 0.0005, effects: Effects(exposure: 11),", ball).is_empty());
+    let turned = |degrees: &str| {
+        code("background: 0.5,", &format!("Box(transform: [Rotate(axis: (0, 1, 0), degrees: {degrees})])"))
+    };
+    for radians in ["0.785", "1.5708", "3.14159", "-0.5236"] {
+        assert_eq!(turned(radians), ["W0317"], "{radians}");
+    }
+    for degrees in ["45", "0.8", "1.5", "3", "0"] {
+        assert!(turned(degrees).is_empty(), "{degrees}");
+    }
+    for (fov, warned) in [("0.7", true), ("2", false), ("0.1", false), ("40", false)] {
+        let camera = format!("Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: {fov})");
+        let text =
+            scene("background: 0.5,", ball).replace("Camera(position: (0, 1, 6), look_at: (0, 0.5, 0))", &camera);
+        assert_eq!(codes(&sandbox, &text), if warned { vec!["W0317"] } else { vec![] }, "{fov}");
+    }
+}
+
+#[test]
+fn what_lies_in_the_plane_of_another_is_told() {
+    let sandbox = Sandbox::new();
+    let code = |objects: &str| codes(&sandbox, &scene("background: 0.5,", objects));
+    let red = "material: Diffuse(albedo: (0.8, 0.1, 0.1))";
+    for hidden in [
+        format!("Rectangle(size: 6), Rectangle(size: 2, {red})"),
+        format!("Rectangle(size: 6), Rectangle(size: 6, {red})"),
+        format!("Box(size: 1), Box(size: 1, {red})"),
+        format!("Box(size: 2), Rectangle(center: (0, 1, 0), size: 1, {red})"),
+        format!("Rectangle(size: 6), Rectangle(size: 1, {red}, transform: [Rotate(axis: (0, 1, 0), degrees: 30)])"),
+        "Rectangle(size: 1, material: Transparent(ior: 1.5)), Rectangle(size: 6)".to_owned(),
+    ] {
+        assert_eq!(code(&hidden), ["W0319"], "{hidden}");
+    }
+    for seen in [
+        // Above it, over its edge, first in the scene, shining, of glass below.
+        format!("Rectangle(size: 6), Rectangle(center: (0, 0.001, 0), size: 2, {red})"),
+        format!("Rectangle(size: 6), Rectangle(center: (3, 0, 0), size: 2, {red})"),
+        format!("Rectangle(size: 2, {red}), Rectangle(size: 6)"),
+        "Rectangle(size: 6), Rectangle(size: 2, material: Emissive(radiance: 0.5))".to_owned(),
+        format!("Rectangle(size: 6, material: Transparent(ior: 1.5)), Rectangle(size: 2, {red})"),
+        format!("Rectangle(size: 6), Box(center: (0, 0.5, 0), size: 1, {red})"),
+    ] {
+        assert!(code(&seen).is_empty(), "{seen}");
+    }
+}

@@ -144,7 +144,13 @@ impl Facts {
         line(
             "bounds",
             match s.bounds {
-                Some(bounds) => format!("{} to {}", point(bounds.min), point(bounds.max)),
+                Some(bounds) => {
+                    // What is a rounding error of the others is none.
+                    let corners = [bounds.min, bounds.max];
+                    let most = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+                    let [min, max] = corners.map(|p| p.map(|x| if x.abs() < 1e-6 * most { 0.0 } else { x }));
+                    format!("{} to {}", point(min), point(max))
+                }
                 None => "none: planes have no end".to_owned(),
             },
         );

@@ -1,14 +1,34 @@
 //! Pictures that show nothing.
 
-use scene_format::desc::Background;
+use scene_format::desc::{Background, ToneMap};
 use scene_format::{Diagnostic, SceneDesc, codes};
 use tracer_core::{Crop, Film};
 
-/// What is said of a picture that is black, or nothing but background. A part of one (`--crop`) may well be.
+/// What is said of a picture that is black, white, or nothing but background. A part of one (`--crop`) may well be.
 pub(super) fn warning(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     if film.crop() != Crop::whole(film.size()) {
         return None;
     }
+    empty(film, desc).or_else(|| white(film, desc))
+}
+
+/// Of a picture that is white twice over, in every channel of every pixel.
+fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+    // A curve brings something back, and before a backdrop little may be seen.
+    if desc.effects.tone_map != ToneMap::None || desc.output.backdrop.is_some() {
+        return None;
+    }
+    let [width, height] = film.size();
+    let exposed = desc.effects.exposure.value.exp2();
+    let is_white = |x: u32, y: u32| film.radiance(x, y).iter().all(|channel| channel * exposed >= 2.0);
+    (0..height).all(|y| (0..width).all(|x| is_white(x, y))).then(|| {
+        Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, "the picture is white")
+            .expected("what is seen between black, 0, and white, 1")
+            .hint("take a darker background, darker lights, or a lower `exposure`; a bright sky is about 1")
+    })
+}
+
+fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     let [width, height] = film.size();
     let first = film.radiance(0, 0);
     let same = (0..height).all(|y| (0..width).all(|x| film.radiance(x, y) == first));

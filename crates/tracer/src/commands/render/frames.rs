@@ -144,24 +144,29 @@ pub(super) fn run(
     let (first, last, desc) = range(&args, frames, shell)?;
     spare_inputs(&args, first..=last, &desc)?;
     drop(desc);
+    if args.part.is_none() && args.show.is_none() {
+        let desc = super::described(&at(&args, first), &shell.without_warnings())?;
+        outputs::tell_of_layers(&outputs::outputs(&outputs::named(&args)?)?, &args, &desc, shell);
+    }
     let session = Frames::default();
     let all = last - first + 1;
+    // Not asked again: what is written meanwhile is rendered.
+    let there: Vec<u32> = (first..=last).filter(|&frame| args.skip_existing && is_there(&args, frame)).collect();
     let (mut made, mut skipped) = (0, 0);
+    let shell = &shell.of_film();
     for frame in first..=last {
-        let mut of_frame = args.clone();
-        (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
-        let of_frame = numbered(&of_frame)?;
-        let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
-        if args.skip_existing && of_frame.output.iter().chain(&of_frame.report).all(is_there) {
+        if there.binary_search(&frame).is_ok() {
             skipped += 1;
             continue;
         }
+        let of_frame = numbered(&at(&args, frame))?;
+        let shell = &if made == 0 { *shell } else { shell.at_frame(frame) };
         let code = match interrupt::requested() {
             None => one(&of_frame, shell, if made == 0 { started } else { Instant::now() }, Some(&session))?,
             Some(code) => ExitCode::from(code),
         };
         if let Some(signal) = interrupt::requested() {
-            let done = made + skipped + usize::from(code == ExitCode::from(exit::DONE));
+            let done = made + there.len() + usize::from(code == ExitCode::from(exit::DONE));
             let all = counted(all as usize, "frame");
             shell.say(&format!("interrupted: {done} of {all} done; {}", rest(&args)));
             return Ok(ExitCode::from(signal));
@@ -172,11 +177,32 @@ pub(super) fn run(
         made += 1;
     }
     if shell.is_told() {
-        let there = if skipped > 0 { format!(", {skipped} were there") } else { String::new() };
+        let there = match skipped {
+            0 => String::new(),
+            1 => ", 1 was there".to_owned(),
+            more => format!(", {more} were there"),
+        };
         let seconds = started.elapsed().as_secs_f64();
         shell.say(&format!("{} in {seconds:.2} s{there}", counted(made, "frame")));
     }
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// The options of one frame.
+fn at(args: &RenderArgs, frame: u32) -> RenderArgs {
+    let mut of_frame = args.clone();
+    (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
+    of_frame
+}
+
+/// Whether all files of a frame are there. A part that is its own checkpoint may be one that is not done yet.
+fn is_there(args: &RenderArgs, frame: u32) -> bool {
+    let is_kept = |path: &PathBuf| [&args.checkpoint, &args.resume].into_iter().flatten().any(|kept| kept == path);
+    if args.output.iter().any(is_kept) {
+        return false;
+    }
+    let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
+    numbered(&at(args, frame)).is_ok_and(|args| args.output.iter().chain(&args.report).all(is_there))
 }
 
 /// How the frames that are left are rendered, without losing what one was begun with.

@@ -76,7 +76,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let part = parts::part(args, &desc, crop)?;
     let crop = part.map_or(crop, |part| part.crop);
     check_memory(crop, &desc, args.denoise.how())?;
-    if part.is_none() && args.show.is_none() {
+    if part.is_none() && args.show.is_none() && frames.is_none() {
         outputs::tell_of_layers(&outputs, args, &desc, shell);
     }
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
@@ -207,9 +207,13 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     if let Some(part) = part.filter(|_| shell.is_told()) {
         shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
     } else if shell.is_told() {
-        let samples = (film.counters.camera_rays - before.counters.camera_rays) as f64 / seconds.render;
+        let samples = film.counters.camera_rays - before.counters.camera_rays;
+        let speed = match samples {
+            0 => "all samples were there".to_owned(),
+            samples => rate(samples as f64 / seconds.render),
+        };
         let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
-        shell.say(&format!("{names} in {:.2} s, {}{noise}", seconds.total, rate(samples)));
+        shell.say(&format!("{names} in {:.2} s, {speed}{noise}", seconds.total));
     }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
         report.seconds = seconds;
@@ -411,6 +415,8 @@ fn report(
             width: film.size()[0],
             height: film.size()[1],
             crop: [x, y, width, height],
+            frame: desc.animation.frame.value,
+            camera: desc.camera_name.as_deref().map(str::to_owned),
             seed: film.seed(),
             samples_asked: film.part().map_or(scene.samples, |part| part.end - part.first),
             part: film.part().map(|part| [part.first, part.end]),

@@ -5,7 +5,7 @@ use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::report::FileReport;
-use crate::shell::{Shell, Verbosity};
+use crate::shell::Shell;
 use crate::write::{Bits, Encoding, Place, is_one_file};
 use scene_format::SceneDesc;
 use std::collections::HashSet;
@@ -164,16 +164,16 @@ fn exr_beside(outputs: &[Output], args: &RenderArgs) -> String {
 /// Says where a scene's layers go nowhere: a quick look at it is no fault.
 pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
     let layers = tracer_core::layer_set(&desc.output.layers);
-    if !layers.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
-        shell.say(&format!(
-            "warning: the scene's layers ({layers}) are written into EXR only; add -o {}",
+    if !layers.is_empty() && !has_exr(outputs) {
+        shell.warn(&format!(
+            "the scene's layers ({layers}) are written into EXR only; add -o {}",
             exr_beside(outputs, args)
         ));
     }
     let mattes: Vec<String> = Mattes::asked(&desc.output).names().collect();
-    if !mattes.is_empty() && !has_exr(outputs) && shell.verbosity > Verbosity::Quiet {
-        shell.say(&format!(
-            "warning: the scene's mattes ({}) are written into EXR only; add -o {}",
+    if !mattes.is_empty() && !has_exr(outputs) {
+        shell.warn(&format!(
+            "the scene's mattes ({}) are written into EXR only; add -o {}",
             mattes.join(", "),
             exr_beside(outputs, args)
         ));
@@ -186,11 +186,9 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
 /// Says where alpha goes nowhere.
 pub(in crate::commands) fn tell_of_alpha(outputs: &[Output], shell: &Shell) {
     let clear = |output: &&Output| matches!(output.encoding, Encoding::Hdr | Encoding::Pfm);
-    if let Some(without) = outputs.iter().find(clear)
-        && shell.verbosity > Verbosity::Quiet
-    {
+    if let Some(without) = outputs.iter().find(clear) {
         let name = without.encoding.name().to_uppercase();
-        shell.say(&format!("warning: {name} files hold no alpha: the background is black there; PNG and EXR hold it"));
+        shell.warn(&format!("{name} files hold no alpha: the background is black there; PNG and EXR hold it"));
     }
 }
 

@@ -1,0 +1,96 @@
+//! Words of every day and of other programs, for those who ask by themselves what there is.
+
+use super::hints::{field_of_others, kind_elsewhere, other_kind};
+use crate::desc::{Camera, Effects, Layer, Light, Material, Object, Scene, Sphere, Transform};
+use crate::schema::{EnumDef, StructDef, Type};
+use crate::syntax::Syntax;
+use crate::words::Words;
+
+/// Words that stand in no hint by themselves, or mean something else there.
+const WORDS: &[(&[&str], &str)] = &[
+    (
+        &["window", "windowpane", "pane", "door", "doorway", "opening"],
+        "a hole is cut by Difference(objects: [wall, hole]); a pane is a thin Box of Transparent(ior: 1.5)",
+    ),
+    (
+        &["blur", "blurry", "unsharp", "defocus"],
+        "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`; \
+         nothing moves while a picture is taken",
+    ),
+    (
+        &["floor", "ground", "terrain", "landscape"],
+        "a floor is a Plane without an end, or a Rectangle; hills are a HeightField",
+    ),
+    (
+        &["sun", "sunlight", "daylight"],
+        "a sun is a large SphereLight far away; light from all around is the scene's `background`",
+    ),
+    (&["shadow", "shadows"], "what is lit throws shadows: a small light throws sharp ones, a large one soft ones"),
+    (&["reflection", "reflective", "shiny"], "what reflects has the material Mirror, Conductor or BlinnPhong"),
+    (&["color", "colour", "colors", "colours"], "colours are red, green and blue, (0.8, 0.2, 0.1), or \"#d03a2b\""),
+    (&["wall", "room", "house"], "walls are Boxes or Rectangles; a Box seen from inside is a room"),
+    (&["water"], "water is Transparent(ior: 1.33)"),
+    (
+        &["f_stop", "fstop", "f-stop", "fnumber", "bokeh"],
+        "the `aperture` of a ThinLens is its focal length over the f-number",
+    ),
+];
+
+/// What there is for a word of every day, a line each; none where nobody knows it.
+pub(crate) fn everyday(word: &str) -> Vec<String> {
+    let lower = word.trim().to_ascii_lowercase();
+    if let Some((_, text)) = WORDS.iter().find(|(words, _)| words.contains(&lower.as_str())) {
+        return vec![(*text).to_owned()];
+    }
+    let kinds = [Object::TYPE, Material::TYPE, Light::TYPE, Transform::TYPE, Layer::TYPE].into_iter().chain(textures());
+    let kinds: Vec<&'static EnumDef> = kinds.filter_map(enum_of).collect();
+    let mut said: Vec<String> = Vec::new();
+    let mut say = |text: String| {
+        if !said.contains(&text) {
+            said.push(text);
+        }
+    };
+    for def in &kinds {
+        if let Some(kind) = kind_elsewhere(&lower, def) {
+            say(format!("{} is called {kind} here: `tracer explain {kind}` tells more", word.trim()));
+        }
+    }
+    for def in &kinds {
+        if let Some(hint) = other_kind(&lower, def) {
+            say(hint.to_owned());
+        }
+    }
+    let structs = [Scene::TYPE, Camera::TYPE, Effects::TYPE, Sphere::TYPE].into_iter().filter_map(struct_of);
+    for hint in structs.filter_map(|def| field_of_others(&lower, def, Syntax::Ron)) {
+        say(hint.to_owned());
+    }
+    said
+}
+
+fn enum_of(kind: Type) -> Option<&'static EnumDef> {
+    if let Type::Enum(def) = kind.resolved() { Some(def) } else { None }
+}
+
+fn struct_of(kind: Type) -> Option<&'static StructDef> {
+    if let Type::Struct(def) = kind.resolved() { Some(def) } else { None }
+}
+
+/// The kinds of textures, as an albedo takes them.
+fn textures() -> Vec<Type> {
+    let albedo = Material::DEF.variant("Diffuse").and_then(|diffuse| match &diffuse.content {
+        crate::schema::Content::Struct(def) => def.field("albedo"),
+        _ => None,
+    });
+    let mut found = Vec::new();
+    collect(albedo.map_or(Type::Bool, |field| field.kind), &mut found);
+    found
+}
+
+fn collect(kind: Type, found: &mut Vec<Type>) {
+    match kind.resolved() {
+        Type::OneOf(kinds) => kinds.iter().for_each(|kind| collect(*kind, found)),
+        Type::Optional(inner) => collect(*inner, found),
+        kind @ Type::Enum(_) => found.push(kind),
+        _ => {}
+    }
+}

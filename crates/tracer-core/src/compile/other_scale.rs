@@ -1,0 +1,58 @@
+//! Numbers that are surely meant on another scale: radians where degrees stand, an exposure in other units.
+
+use scene_format::desc::{Projection, Transform};
+use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use std::f64::consts::PI;
+
+/// A field of view below this many degrees, and above the other, is rather one in radians: 11 to 115 degrees.
+const RADIANS: [f64; 2] = [0.2, 2.0];
+/// What people turn things by, as parts of half a turn.
+const TURNS: [f64; 9] = [1.0 / 6.0, 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 1.0, 1.5, 2.0];
+/// Stops above which an exposure is looked at.
+const MOST_STOPS: f64 = 10.0;
+/// A background this many times as bright as white is not meant.
+const MOST_WHITE: f64 = 500.0;
+
+/// Warns of them, each kind once. `behind`: the brightest channels of the background.
+pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
+    let camera = &desc.camera;
+    let fov = camera.fov.value;
+    let [least, most] = RADIANS;
+    if camera.projection == Projection::Perspective && camera.focal_length.is_none() && fov >= least && fov < most {
+        let message = format!("a `fov` of {fov} degrees shows next to nothing; it looks like radians");
+        diagnostics.push(
+            Diagnostic::warning(codes::OTHER_SCALE, camera.fov.span, message)
+                .expected("an angle in degrees: 40 is a usual one")
+                .hint(format!("as radians that is `fov: {:.1}`", fov.to_degrees())),
+        );
+    }
+    let turned = desc.objects.iter().find_map(|object| {
+        object.value.transform().iter().find_map(|step| match step.value {
+            Transform::Rotate { degrees, .. } if is_radians(degrees) => Some((step.span, degrees)),
+            _ => None,
+        })
+    });
+    if let Some((span, degrees)) = turned {
+        diagnostics.push(
+            Diagnostic::warning(codes::OTHER_SCALE, span, format!("`degrees: {degrees}` looks like radians"))
+                .expected("an angle in degrees")
+                .hint(format!("as radians that is `degrees: {:.0}`", degrees.to_degrees())),
+        );
+    }
+    let exposure = &desc.effects.exposure;
+    let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * exposure.value.exp2();
+    if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
+        let times = exposure.value.exp2();
+        let message = format!("an `exposure` of {} makes everything {times:.0} times as bright", exposure.value);
+        diagnostics.push(
+            Diagnostic::warning(codes::OTHER_SCALE, exposure.span, message)
+                .expected("stops: each doubles what is seen, 0 leaves it")
+                .hint("write `exposure: 0`, and look at the picture"),
+        );
+    }
+}
+
+/// Whether an angle is one of those that people turn things by, in radians.
+fn is_radians(degrees: f64) -> bool {
+    TURNS.iter().any(|turn| (degrees.abs() - turn * PI).abs() < 5e-4)
+}
