@@ -13,7 +13,7 @@ const SHAPES: [&str; 4] = ["sphere", "flat mesh", "smooth mesh", "copies of a me
 const EFFECTS: [&str; 5] = ["no effect", "antialiasing", "depth of field", "exposure", "tone map"];
 
 /// Kinds of the language that need a picture of their own, in a folder of that name, and no more.
-const FOLDERS: [&str; 23] = [
+const FOLDERS: [&str; 27] = [
     "rectangle",
     "box",
     "disk",
@@ -37,6 +37,10 @@ const FOLDERS: [&str; 23] = [
     "tube",
     "arrow",
     "height_field",
+    "mapping",
+    "color_ramp",
+    "mix",
+    "multiply",
 ];
 
 /// Fails where a combination is shown by no scene. What a scene is about is its first object.
@@ -72,7 +76,7 @@ fn material(scene: &SceneDesc) -> Option<&'static str> {
         MaterialRef::Inline(material) => &material.value,
     };
     Some(match material {
-        Material::Diffuse(_) if material.texture().is_some() => "texture",
+        Material::Diffuse(_) if !material.textures().is_empty() => "texture",
         Material::Diffuse(_) => "diffuse",
         Material::Mirror(_) => "mirror",
         Material::Transparent(_) => "transparent",

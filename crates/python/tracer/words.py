@@ -31,6 +31,7 @@ BlinnPhongItem = TypedDict("BlinnPhongItem", {"BlinnPhong": "BlinnPhong"})
 BoxItem = TypedDict("BoxItem", {"Box": "Box"})
 CapsuleItem = TypedDict("CapsuleItem", {"Capsule": "Capsule"})
 CheckerboardItem = TypedDict("CheckerboardItem", {"Checkerboard": "Checkerboard"})
+ColorRampItem = TypedDict("ColorRampItem", {"ColorRamp": "ColorRamp"})
 ConductorItem = TypedDict("ConductorItem", {"Conductor": "Conductor"})
 ConeItem = TypedDict("ConeItem", {"Cone": "Cone"})
 CylinderItem = TypedDict("CylinderItem", {"Cylinder": "Cylinder"})
@@ -57,10 +58,13 @@ MarbleItem = TypedDict("MarbleItem", {"Marble": "Marble"})
 MatrixItem = TypedDict("MatrixItem", {"Matrix": "Matrix"})
 MeshItem = TypedDict("MeshItem", {"Mesh": "Mesh"})
 MirrorItem = TypedDict("MirrorItem", {"Mirror": "Mirror"})
+MixItem = TypedDict("MixItem", {"Mix": "Mix"})
+MultiplyItem = TypedDict("MultiplyItem", {"Multiply": "Multiply"})
 NoiseItem = TypedDict("NoiseItem", {"Noise": "Noise"})
 ObjectItem = TypedDict("ObjectItem", {"Object": "ObjectKind"})
 OrthographicItem = TypedDict("OrthographicItem", {"Orthographic": "Orthographic"})
 PickItem = TypedDict("PickItem", {"Pick": "Pick"})
+PlanarItem = TypedDict("PlanarItem", {"Planar": "Planar"})
 PlaneItem = TypedDict("PlaneItem", {"Plane": "Plane"})
 PolygonItem = TypedDict("PolygonItem", {"Polygon": "Polygon"})
 RectangleItem = TypedDict("RectangleItem", {"Rectangle": "Rectangle"})
@@ -71,11 +75,13 @@ ScaleItem = TypedDict("ScaleItem", {"Scale": "Either[Scale, float, str, Sequence
 ScatterItem = TypedDict("ScatterItem", {"Scatter": "Scatter"})
 SphereItem = TypedDict("SphereItem", {"Sphere": "Sphere"})
 SphereLightItem = TypedDict("SphereLightItem", {"SphereLight": "SphereLight"})
+SphericalItem = TypedDict("SphericalItem", {"Spherical": "Spherical"})
 TextureItem = TypedDict("TextureItem", {"Texture": "Texture"})
 ThinLensItem = TypedDict("ThinLensItem", {"ThinLens": "ThinLens"})
 TorusItem = TypedDict("TorusItem", {"Torus": "Torus"})
 TranslateItem = TypedDict("TranslateItem", {"Translate": "Either[Sequence[Either[float, str]], Array, str]"})
 TransparentItem = TypedDict("TransparentItem", {"Transparent": "Transparent"})
+TriplanarItem = TypedDict("TriplanarItem", {"Triplanar": "Triplanar"})
 TubeItem = TypedDict("TubeItem", {"Tube": "Tube"})
 UnionItem = TypedDict("UnionItem", {"Union": "Union"})
 UvItem = TypedDict("UvItem", {"Uv": "Uv"})
@@ -390,7 +396,7 @@ class Diffuse(TypedDict, total=False):
     albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
-Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem"]
+Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem"]
 
 class _TextureRequired(TypedDict):
     file: File
@@ -402,11 +408,15 @@ class Texture(_TextureRequired, total=False):
     file: PNG or JPEG, relative to the scene file.
     filter: Between texels.
     wrap: Beyond the borders.
+    color_space: What the picture's numbers mean.
+    channel: What of the picture counts.
     mapping: Where it lies.
     """
 
     filter: Either[TextureFilter, PickItem]
     wrap: Either[TextureWrap, PickItem]
+    color_space: Either[TextureColorSpace, PickItem]
+    channel: Either[TextureChannel, PickItem]
     mapping: Either[Mapping, PickItem]
 
 
@@ -414,7 +424,11 @@ TextureFilter = Literal["Bilinear", "Nearest"]
 
 TextureWrap = Literal["Repeat", "Clamp", "Mirror"]
 
-Mapping = UvItem
+TextureColorSpace = Literal["Auto", "Srgb", "Linear"]
+
+TextureChannel = Literal["Auto", "Red", "Green", "Blue", "Alpha", "Luminance"]
+
+Mapping = Either["UvItem", "PlanarItem", "SphericalItem", "TriplanarItem"]
 
 class Uv(TypedDict, total=False):
     """By the surface's texture coordinates: scaled, then turned, then moved.
@@ -429,6 +443,43 @@ class Uv(TypedDict, total=False):
     offset: Either[Sequence[Either[float, str]], Array, str, PickItem]
 
 
+class Planar(TypedDict, total=False):
+    """Seen along a direction, as if a projector far away threw it on the object: from there it is upright, what faces away shows it mirrored, what runs along the direction shows it drawn out. It goes by the coordinates that the shape is written in, before its `transform` and `placements`, and needs no texture coordinates. To the right and upwards are those of a `Rectangle` with this normal: to the right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright.
+
+    origin: Where its lower left corner is. Unit: the scene's unit.
+    normal: The direction that it is seen from.
+    size: How far it goes to the right and upwards before it begins again, or one number for both. Unit: the scene's unit.
+    """
+
+    origin: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    normal: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    size: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+
+
+class Spherical(TypedDict, total=False):
+    """By longitude and latitude about a point, as a map lies on a globe: u goes round once and v is 0 at the lower pole and 1 at the upper one, as on a `Sphere`. It goes by the coordinates that the shape is written in, before its `transform` and `placements`, and needs no texture coordinates.
+
+    center: The point in the middle. Unit: the scene's unit.
+    axis: The direction of the upper pole. Where it is upright u begins at -z and is 1/2 at +z.
+    scale: So many times round and from pole to pole, or one number for both.
+    """
+
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
+    scale: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
+
+
+class Triplanar(TypedDict, total=False):
+    """Seen along x, along y and along z at once, each as much as the surface faces that way: no seams, no drawn out sides, no texture coordinates. It is three `Planar` mappings in one, of the normals (1, 0, 0), (0, 1, 0) and (0, 0, 1), mixed by |n|^(1 / `blend`) with n the normal in the coordinates that the shape is written in.
+
+    scale: So many times along a unit of length.
+    blend: How softly one side goes over into the next: near 0 with a sharp edge.
+    """
+
+    scale: Either[float, str, PickItem]
+    blend: Either[float, str, PickItem]
+
+
 class Checkerboard(TypedDict, total=False):
     """Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is even. In space they are cubes.
 
@@ -437,12 +488,12 @@ class Checkerboard(TypedDict, total=False):
     mapping: How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along a unit of length.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
 
-SolidMapping = Either["UvItem", "ObjectItem", "WorldItem"]
+SolidMapping = Either["UvItem", "ObjectItem", "WorldItem", "PlanarItem", "SphericalItem", "TriplanarItem"]
 
 class ObjectKind(TypedDict, total=False):
     """By the coordinates that the shape is written in, before its `transform` and `placements` and those of groups: the texture goes with the object, which is turned to turn it. A `center` other than the origin is such a coordinate, too.
@@ -476,8 +527,8 @@ class Lines(TypedDict, total=False):
     mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     width: Either[float, str, PickItem]
     along: Either[LinesAlong, PickItem]
     mapping: Either[Mapping, PickItem]
@@ -494,8 +545,8 @@ class Dots(TypedDict, total=False):
     mapping: How they lie: `Uv(scale: 8)` puts eight along each side of a rectangle.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     radius: Either[float, str, PickItem]
     mapping: Either[Mapping, PickItem]
 
@@ -509,8 +560,8 @@ class Gradient(TypedDict, total=False):
     mapping: How it lies.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     axis: Either[GradientAxis, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
@@ -529,8 +580,8 @@ class Noise(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` puts four cells of noise along a unit of length.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     kind: Either[NoiseKind, PickItem]
     octaves: Either[int, str, PickItem]
     lacunarity: Either[float, str, PickItem]
@@ -549,8 +600,8 @@ class Wood(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     distortion: Either[float, str, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
@@ -564,8 +615,8 @@ class Marble(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     distortion: Either[float, str, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
@@ -580,14 +631,69 @@ class Voronoi(TypedDict, total=False):
     mapping: How it lies: `Object(scale: 4)` puts four cells along a unit of length.
     """
 
-    a: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
-    b: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     feature: Either[VoronoiFeature, PickItem]
     jitter: Either[float, str, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
 
 VoronoiFeature = Literal["F1", "F2MinusF1", "Cell"]
+
+class _ColorRampRequired(TypedDict):
+    input: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    stops: Sequence[Either[Stop, RepeatItem, PickItem]]
+
+
+class ColorRamp(_ColorRampRequired, total=False):
+    """Colours by the luminance of another texture: what is dark there has the first colour, what is light the last, with any number of steps between.
+
+    input: What says which colour: the luminance of a texture, from 0 to 1. A picture here is read as numbers: see `color_space`.
+    stops: 2 to 64 colours, each at a number from 0 to 1 that is not below the one before: `[(at: 0, color: 0.1), (at: 0.6, color: "#c03020")]`. Two at the same number make an edge.
+    interpolation: Between two stops.
+    """
+
+    interpolation: Either[RampInterpolation, PickItem]
+
+
+class _StopRequired(TypedDict):
+    at: Either[float, str, PickItem]
+    color: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+
+
+class Stop(_StopRequired, total=False):
+    """A colour of a ramp.
+
+    at: Where it is.
+    color: The colour there.
+    """
+
+
+RampInterpolation = Literal["Linear", "Smooth", "Constant"]
+
+class Mix(TypedDict, total=False):
+    """Between two colours or textures, by a number or a texture: a + weight (b - a).
+
+    a: What shows where the weight is 0.
+    b: What shows where it is 1.
+    weight: How much of `b` shows; of colours the luminance counts. A picture here is read as numbers: see `color_space`.
+    """
+
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    weight: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+
+
+class Multiply(TypedDict, total=False):
+    """The product of two colours or textures, channel by channel: one tints the other, or darkens it.
+
+    a: One.
+    b: The other.
+    """
+
+    a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+    b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+
 
 class Mirror(TypedDict, total=False):
     """A perfect mirror.

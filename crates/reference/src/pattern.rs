@@ -1,24 +1,83 @@
 //! Textures that are reckoned, point by point in f64: written after the manual's formulas.
 
 use crate::surface::Surface;
-use glam::DVec3;
-use std::f64::consts::TAU;
+use crate::texture::texel_at;
+use glam::{DMat3, DVec3};
+use std::f64::consts::{PI, TAU};
 use tracer_core::Scene;
-use tracer_core::scene::{GradientAxis, NoiseKind, PatternKind, Space, VoronoiFeature};
+use tracer_core::scene::{Between, GradientAxis, Made, NoiseKind, PatternKind, Space, VoronoiFeature};
 
 /// The colour of a pattern at a surface.
 pub fn color(scene: &Scene, index: u32, s: &Surface) -> DVec3 {
     let pattern = scene.pattern(index).expect("a pattern of the scene");
+    let p = coordinates(scene, pattern.space, pattern.map, s);
+    let p =
+        if pattern.space == Space::Spherical { p * DVec3::new(pattern.across[0], pattern.across[1], 1.0) } else { p };
+    DVec3::from(pattern.a).lerp(DVec3::from(pattern.b), t(pattern.kind, p))
+}
+
+/// Where a texture is looked up.
+fn coordinates(scene: &Scene, space: Space, map: [[f64; 4]; 3], s: &Surface) -> DVec3 {
     let apply = |rows: [[f64; 4]; 3], p: DVec3| {
         DVec3::from(rows.map(|row| row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]))
     };
     let to_object = |body| apply(scene.to_object(body).expect("a scene with solid textures"), s.p);
-    let p = match pattern.space {
-        Space::Uv => DVec3::new(s.uv[0], s.uv[1], 0.0),
-        Space::Object => to_object(Some(s.body)),
-        Space::World => to_object(None),
-    };
-    DVec3::from(pattern.a).lerp(DVec3::from(pattern.b), t(pattern.kind, apply(pattern.map, p)))
+    match space {
+        Space::Uv => apply(map, DVec3::new(s.uv[0], s.uv[1], 0.0)),
+        Space::Object => apply(map, to_object(Some(s.body))),
+        Space::World => apply(map, to_object(None)),
+        Space::Spherical => {
+            let d = apply(map, to_object(Some(s.body))).normalize();
+            DVec3::new(0.5 + d.x.atan2(d.z) / TAU, 0.5 + d.y.asin() / PI, 0.0)
+        }
+    }
+}
+
+/// The colour of a texture made of others.
+pub fn program(scene: &Scene, index: u32, s: &Surface) -> DVec3 {
+    let program = scene.program(index).expect("a program of the scene");
+    let luminance = |c: DVec3| c.dot(DVec3::new(0.2126, 0.7152, 0.0722));
+    let mut places = vec![DVec3::ZERO; 256];
+    for op in &program.ops {
+        let of = |place: u8| places[usize::from(place)];
+        let made = match op.made {
+            Made::Color(color) => color.into(),
+            Made::Pattern(index) => color(scene, index, s),
+            Made::Texture { texture, space: Space::Uv, .. } => texel_at(scene, texture, s.uv),
+            Made::Texture { texture, space, map } => {
+                let p = coordinates(scene, space, map, s);
+                texel_at(scene, texture, [p.x, p.y])
+            }
+            Made::Mix([a, b, weight]) => of(a).lerp(of(b), luminance(of(weight))),
+            Made::Multiply([a, b]) => of(a) * of(b),
+            Made::Ramp { input, first, count, between } => {
+                let stops = &program.stops[first as usize..][..count as usize];
+                ramp(luminance(of(input)), stops, between)
+            }
+            Made::Triplanar { colors, sharpness } => {
+                let rows = scene.to_object(Some(s.body)).expect("a scene with solid textures");
+                let to_object = DMat3::from_cols_array_2d(&rows.map(|[x, y, z, _]| [x, y, z])).transpose();
+                let n = (to_object.inverse().transpose() * s.ns).normalize();
+                let weights = n.abs().powf(sharpness);
+                let sum: DVec3 = (0..3).map(|k| weights[k] * of(colors[k])).sum();
+                sum / weights.element_sum()
+            }
+        };
+        places[usize::from(op.to)] = made;
+    }
+    places[0]
+}
+
+/// The colour at x: that of the last stop that is not beyond it, on the way to the next.
+fn ramp(x: f64, stops: &[(f64, [f64; 3])], between: Between) -> DVec3 {
+    let next = stops.iter().position(|(at, _)| x < *at).unwrap_or(stops.len());
+    let color = |k: usize| DVec3::from(stops[k].1);
+    if next == 0 || next == stops.len() || between == Between::Constant {
+        return color(next.max(1) - 1);
+    }
+    let f = (x - stops[next - 1].0) / (stops[next].0 - stops[next - 1].0);
+    let f = if between == Between::Smooth { f * f * (3.0 - 2.0 * f) } else { f };
+    color(next - 1).lerp(color(next), f)
 }
 
 /// Where between a and b.

@@ -3,8 +3,8 @@
 
 use crate::desc::{
     Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
-    Matte, Metal, NoiseKind, Object, PixelFilter, Reuse, Shading, SolidMapping, TextureFilter, TextureWrap, ToneMap,
-    VoronoiFeature,
+    Matte, Metal, NoiseKind, Object, PixelFilter, RampInterpolation, Reuse, Shading, SolidMapping, TextureChannel,
+    TextureColorSpace, TextureFilter, TextureWrap, ToneMap, VoronoiFeature,
 };
 use crate::desc::{
     BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
@@ -41,6 +41,9 @@ const TETRAHEDRON: ExampleFile = ExampleFile {
 /// A checkerboard of 2 x 2 texels, 8 bits of grey, as PNG.
 const CHECKER: ExampleFile = ExampleFile { name: "checker.png", bytes: include_bytes!("checker.png") };
 
+/// Stripes of 4 x 4 texels that are opaque and not, 8 bits of grey and alpha, as PNG.
+const CUT: ExampleFile = ExampleFile { name: "cut.png", bytes: include_bytes!("cut.png") };
+
 /// A sky of 16 x 8 pixels with a sun, as HDR.
 const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("sky.hdr") };
 
@@ -48,7 +51,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 32] = [
+pub(crate) const CHOICES: [&EnumDef; 35] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
@@ -69,6 +72,8 @@ pub(crate) const CHOICES: [&EnumDef; 32] = [
     &PatternWords::DEF,
     &TextureFilter::DEF,
     &TextureWrap::DEF,
+    &TextureColorSpace::DEF,
+    &TextureChannel::DEF,
     &MappingWords::DEF,
     &ITEMS,
     &SolidMapping::DEF,
@@ -76,6 +81,7 @@ pub(crate) const CHOICES: [&EnumDef; 32] = [
     &LinesAlong::DEF,
     &NoiseKind::DEF,
     &VoronoiFeature::DEF,
+    &RampInterpolation::DEF,
     &Curve::DEF,
     &Instances::DEF,
     &Shading::DEF,
@@ -85,7 +91,7 @@ pub(crate) const CHOICES: [&EnumDef; 32] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 116] = [
+const SNIPPETS: [(&str, &str, &str); 137] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -175,19 +181,72 @@ const SNIPPETS: [(&str, &str, &str); 116] = [
         "Voronoi",
         "Diffuse(albedo: Voronoi(a: (0.2, 0.18, 0.15), b: 0.8, feature: Cell, mapping: Object(scale: 3)))",
     ),
+    (
+        "PatternWords",
+        "ColorRamp",
+        "Diffuse(albedo: ColorRamp(input: Noise(mapping: Object(scale: 2)), stops: [(at: 0.35, color: \"#12305a\"), (at: \
+         0.5, color: \"#d8c690\"), (at: 0.6, color: \"#3d6b2a\")]))",
+    ),
+    (
+        "PatternWords",
+        "Mix",
+        "Diffuse(albedo: Mix(a: Texture(file: \"checker.png\"), b: \"#803018\", weight: Marble(mapping: Object(scale: 2\
+         ))))",
+    ),
+    (
+        "PatternWords",
+        "Multiply",
+        "Diffuse(albedo: Multiply(a: Checkerboard(a: 0.4, mapping: Uv(scale: (16, 8))), b: Gradient(a: \"#d04020\", b: \
+         \"#f0d080\")))",
+    ),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
     ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
     ("TextureWrap", "Clamp", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Clamp))"),
     ("TextureWrap", "Mirror", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Mirror))"),
+    ("TextureColorSpace", "Auto", "Diffuse(albedo: Texture(file: \"checker.png\", color_space: Auto))"),
+    ("TextureColorSpace", "Srgb", "Diffuse(albedo: Texture(file: \"checker.png\", color_space: Srgb))"),
+    ("TextureColorSpace", "Linear", "Diffuse(albedo: Texture(file: \"checker.png\", color_space: Linear))"),
+    ("TextureChannel", "Auto", "Diffuse(albedo: Texture(file: \"checker.png\", channel: Auto))"),
+    ("TextureChannel", "Red", "Diffuse(albedo: Texture(file: \"checker.png\", channel: Red))"),
+    ("TextureChannel", "Green", "Diffuse(albedo: Texture(file: \"checker.png\", channel: Green))"),
+    ("TextureChannel", "Blue", "Diffuse(albedo: Texture(file: \"checker.png\", channel: Blue))"),
+    (
+        "TextureChannel",
+        "Alpha",
+        "Diffuse(albedo: Mix(a: 0.2, b: 0.8, weight: Texture(file: \"cut.png\", channel: Alpha)))",
+    ),
+    ("TextureChannel", "Luminance", "Diffuse(albedo: Texture(file: \"checker.png\", channel: Luminance))"),
     (
         "MappingWords",
         "Uv",
         "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Uv(scale: (4, 2), rotation: 30, offset: (0.5, 0))))",
     ),
+    (
+        "MappingWords",
+        "Planar",
+        "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Planar(normal: (0, 1, 2), size: (0.5, 0.3))))",
+    ),
+    (
+        "MappingWords",
+        "Spherical",
+        "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Spherical(axis: (1, 2, 0), scale: (8, 4))))",
+    ),
+    (
+        "MappingWords",
+        "Triplanar",
+        "Diffuse(albedo: Texture(file: \"checker.png\", mapping: Triplanar(scale: 2, blend: 0.1)))",
+    ),
     ("SolidMapping", "Uv", "Diffuse(albedo: Checkerboard(mapping: Uv(scale: (16, 8))))"),
     ("SolidMapping", "Object", "Diffuse(albedo: Checkerboard(mapping: Object(scale: 4)))"),
     ("SolidMapping", "World", "Diffuse(albedo: Noise(mapping: World(scale: (1, 8, 1), offset: (0, 0.5, 0))))"),
+    (
+        "SolidMapping",
+        "Planar",
+        "Diffuse(albedo: Gradient(mapping: Planar(origin: (0, -1, 0), normal: (0, 0, 1), size: 2)))",
+    ),
+    ("SolidMapping", "Spherical", "Diffuse(albedo: Checkerboard(mapping: Spherical(axis: (1, 1, 0), scale: (12, 6))))"),
+    ("SolidMapping", "Triplanar", "Diffuse(albedo: Checkerboard(a: 0.2, mapping: Triplanar(scale: 3)))"),
     ("GradientAxis", "X", "Diffuse(albedo: Gradient(axis: X))"),
     ("GradientAxis", "Y", "Diffuse(albedo: Gradient(axis: Y, mapping: Object(scale: 0.5, offset: (0, 0.5, 0))))"),
     ("GradientAxis", "Z", "Diffuse(albedo: Gradient(axis: Z, mapping: Object(scale: 0.5, offset: (0, 0, 0.5))))"),
@@ -201,6 +260,24 @@ const SNIPPETS: [(&str, &str, &str); 116] = [
     ("VoronoiFeature", "F1", "Diffuse(albedo: Voronoi(feature: F1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "F2MinusF1", "Diffuse(albedo: Voronoi(feature: F2MinusF1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "Cell", "Diffuse(albedo: Voronoi(feature: Cell, jitter: 0.7, mapping: Object(scale: 3)))"),
+    (
+        "RampInterpolation",
+        "Linear",
+        "Diffuse(albedo: ColorRamp(input: Gradient(), interpolation: Linear, stops: [(at: 0.2, color: \"#203060\"), \
+         (at: 0.5, color: \"#e0b060\"), (at: 0.8, color: 0.9)]))",
+    ),
+    (
+        "RampInterpolation",
+        "Smooth",
+        "Diffuse(albedo: ColorRamp(input: Gradient(), interpolation: Smooth, stops: [(at: 0.2, color: \"#203060\"), \
+         (at: 0.5, color: \"#e0b060\"), (at: 0.8, color: 0.9)]))",
+    ),
+    (
+        "RampInterpolation",
+        "Constant",
+        "Diffuse(albedo: ColorRamp(input: Gradient(), interpolation: Constant, stops: [(at: 0.2, color: \"#203060\"), \
+         (at: 0.5, color: \"#e0b060\"), (at: 0.8, color: 0.9)]))",
+    ),
     (
         "Object",
         "Group",
@@ -281,10 +358,10 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             files = &[SKY];
         }
         "Material" | "Metal" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
-        "PatternWords" | "TextureFilter" | "TextureWrap" | "MappingWords" | "SolidMapping" | "GradientAxis"
-        | "LinesAlong" | "NoiseKind" | "VoronoiFeature" => {
+        "PatternWords" | "TextureFilter" | "TextureWrap" | "TextureColorSpace" | "TextureChannel" | "MappingWords"
+        | "SolidMapping" | "GradientAxis" | "LinesAlong" | "NoiseKind" | "VoronoiFeature" | "RampInterpolation" => {
             object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})");
-            files = &[CHECKER];
+            files = if words.contains(CUT.name) { &[CUT] } else { &[CHECKER] };
         }
         "Object" => {
             object = words.to_owned();

@@ -383,6 +383,9 @@ fn value(field: &FieldDef) -> String {
     {
         return format!("list of {}", link(title(def.name)));
     }
+    if let Type::List(Type::Struct(def)) = field.kind {
+        return format!("list of {}", link(def.name));
+    }
     match field.kind {
         Type::Struct(def) => link(def.name),
         Type::Enum(def) => link(title(def.name)),
@@ -390,6 +393,14 @@ fn value(field: &FieldDef) -> String {
         Type::Map(Type::Struct(def)) => format!("{{ \"name\": {} }}", link(def.name)),
         Type::OneOf([Type::Text, Type::Struct(def)]) => format!("a name from `cameras`, or a {}", link(def.name)),
         Type::OneOf([Type::Text, Type::Enum(def)]) => format!("a name from `materials`, or a {}", link(def.name)),
+        // Twelve kinds, in a dozen places.
+        Type::OneOf([Type::Color, Type::Later(_)]) | Type::Optional(Type::OneOf([Type::Color, Type::Later(_)])) => {
+            let words = field.rule.range.words();
+            format!(
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or a {}",
+                link("Texture")
+            )
+        }
         Type::OneOf([Type::List(_), Type::File]) => {
             format!("list of lists of {}, or a file name", link("Transform"))
         }

@@ -120,7 +120,8 @@ fn kinds_of_materials_and_textures() {
         ("RoughConductor(alpha: 0.1)", "`Conductor(reflectance: ..)`"),
         ("Glass(roughness: 0.1)", "`Transparent(ior: ..)`"),
         ("FrostedGlass()", "smooth"),
-        ("Mix(a: 1)", "cannot be mixed"),
+        ("Mix(materials: [1])", "cannot be mixed"),
+        ("Mix(a: 1)", "write Diffuse(albedo: Mix(a: 1))"),
         ("Diffuse(bump: 1)", "no bumps"),
         ("Diffuse(roughness: 1)", "`exponent` of BlinnPhong"),
         ("Diffuse(albedo: Perlin())", "did you mean `Noise`?"),
@@ -131,10 +132,18 @@ fn kinds_of_materials_and_textures() {
         ("Diffuse(albedo: Granite())", "did you mean `Noise`?"),
         ("Diffuse(albedo: Agate())", "did you mean `Marble`?"),
         ("Diffuse(albedo: Wave())", "Marble(..) in planes"),
-        ("Diffuse(albedo: ColorRamp(stops: 1))", "`a` and `b`"),
+        ("Diffuse(albedo: ValToRgb(input: 1))", "the nearest here is `ColorRamp(input: .., stops: ..)`"),
+        ("Diffuse(albedo: MixRgb(a: 1))", "did you mean `Mix`?"),
+        ("Diffuse(albedo: Math(a: 1))", "did you mean `Multiply`?"),
+        ("Diffuse(albedo: Invert(a: 1))", "Mix(a: .., b: .., weight: ..)"),
+        ("Diffuse(albedo: VertexColor())", "colours of vertices are not read"),
+        ("Diffuse(albedo: Noise(a: Worley()))", "did you mean `Voronoi`?"),
+        ("Diffuse(albedo: Mix(a: Perlin()))", "did you mean `Noise`?"),
+        ("Diffuse(albedo: Lines(mapping: Box()))", "did you mean `Triplanar`?"),
+        ("Diffuse(albedo: Lines(mapping: Cylindrical()))", "Spherical(..), Triplanar(..)"),
+        ("Diffuse(albedo: Noise(mapping: LatLong()))", "did you mean `Spherical`?"),
         ("Diffuse(albedo: Lines(mapping: Object()))", "lie on surfaces: Uv(..)"),
         ("Diffuse(albedo: Texture(file: \"a.png\", mapping: World()))", "lie on surfaces: Uv(..)"),
-        ("Diffuse(albedo: Noise(mapping: Triplanar(scale: 2)))", "Object(..) and World(..)"),
         ("Diffuse(albedo: Noise(mapping: Local()))", "did you mean `Object`?"),
         ("Diffuse(albedo: Grid())", "did you mean `Lines`?"),
     ];
@@ -161,8 +170,15 @@ fn fields_of_patterns() {
         ("Noise(seed: 2)", "another `offset`"),
         ("Marble(turbulence: 1)", "did you mean `distortion`?"),
         ("Marble(octaves: 3)", "how far it bends is `distortion`"),
-        ("Noise(color_map: [1])", "`a` to `b`"),
-        ("Wood(ramp: 1)", "`a` to `b`"),
+        ("Noise(color_map: [1])", "ColorRamp(input: Noise(..), stops: [(at: 0"),
+        ("Wood(ramp: 1)", "ColorRamp(input: Noise(..), stops: [(at: 0"),
+        ("Mix(factor: 1)", "did you mean `weight`?"),
+        ("ColorRamp(input: Noise(), stops: [(at: 0, color: 0), (at: 1, color: 1)], mapping: 1)", "its `input` has a"),
+        ("Mix(mapping: 1)", "what it is made of has a `mapping`"),
+        ("Multiply(scale: 2)", "what it is made of has a `mapping`"),
+        ("ColorRamp(input: Noise(), color_map: [(at: 0, color: 0), (at: 1, color: 1)])", "did you mean `stops`?"),
+        ("ColorRamp(fac: Noise(), stops: [(at: 0, color: 0), (at: 1, color: 1)])", "did you mean `input`?"),
+        ("ColorRamp(input: Noise(), stops: [(0, 0.1), (at: 1, color: 1)])", "write `(at: 0, color: 0.1)`"),
         ("Dots(color: 1)", "two colours: `a` and `b`"),
         ("Wood(color1: (1, 0, 0))", "did you mean `a`?"),
         ("Wood(color2: (1, 0, 0))", "did you mean `b`?"),
@@ -178,7 +194,7 @@ fn fields_of_patterns() {
         ("perlin", "write Noise()"),
         ("ramp", "write Gradient()"),
         ("image", "write Texture(file: \"picture.png\")"),
-        ("color_map", "`a` and `b` of Gradient(..)"),
+        ("color_map", "write ColorRamp(input: Noise(), stops: [..])"),
     ];
     check(&cases, |albedo| scene("", "", &format!("Box(size: 1, material: Diffuse(albedo: {albedo}))")));
     let told = |albedo: &str| {
@@ -187,6 +203,27 @@ fn fields_of_patterns() {
     };
     assert_eq!(told("Voronoi(x: 1)"), "a pattern of cells has no field `x`");
     assert_eq!(told("Noise(kind: Waves)"), "`Waves` is not a kind of noise");
+    let stops = |stops: &str| told(&format!("ColorRamp(input: Noise(), stops: [{stops}])"));
+    assert_eq!(stops(""), "a ramp of colours has 0 stops");
+    assert_eq!(stops("(at: 0.5, color: 1)"), "a ramp of colours has 1 stops");
+    assert_eq!(stops(&"(at: 0.5, color: 1), ".repeat(64)), "");
+    assert_eq!(stops(&"(at: 0.5, color: 1), ".repeat(65)), "a ramp of colours has 65 stops");
+    assert_eq!(stops("(at: 0.5, color: 1), (at: 0.4, color: 1)"), "the stop at 0.4 comes after that at 0.5");
+    assert_eq!(stops("(at: 1.5, color: 1), (at: 1, color: 1)"), "the at of a stop must be at most 1");
+    assert_eq!(told("Mix(a: Noise(b: 1.5))"), "the b of noise must be at most 1");
+    let nested = |depth: usize| told(&format!("{}0.5{}", "Multiply(a: ".repeat(depth), ")".repeat(depth)));
+    assert_eq!((&*nested(16), &*nested(17)), ("", "textures stand more than 16 deep"));
+    let wide = |parts: usize| {
+        let one =
+            |k: usize| format!("ColorRamp(input: Noise(), stops: [(at: 0, color: 0), (at: 1, color: {})])", k % 2);
+        let mut all: Vec<String> = (0..parts).map(one).collect();
+        while all.len() > 1 {
+            all = all.chunks(2).map(|pair| format!("Multiply(a: {}, b: {})", pair[0], pair[1])).collect();
+        }
+        told(&all[0])
+    };
+    // Each ramp is two textures, and there are as many products but one.
+    assert_eq!((&*wide(256), &*wide(512)), ("", "a texture is made of more than 1024 others"));
 }
 
 #[test]

@@ -7,10 +7,10 @@ use std::ops::{Deref, DerefMut};
 use std::path::PathBuf;
 use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::scene::{
-    Albedo, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis, Instance,
-    Integrator, Lens, Light, Material, Mesh, NONE, NoiseKind, Operand, Pattern, PatternKind, Projection, Shape,
-    Sharing, Solids, Space, Sphere, Statistics, Step, Texel, TextureFilter, TextureView, TextureWrap, Triangles,
-    VoronoiFeature, WorldBounds, materials,
+    Albedo, Between, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis,
+    Instance, Integrator, Lens, Light, Made, Material, Mesh, NONE, NoiseKind, Op, Operand, Pattern, PatternKind,
+    Program, Projection, Shape, Sharing, Solids, Space, Sphere, Statistics, Step, Texel, TextureFilter, TextureView,
+    TextureWrap, Triangles, VoronoiFeature, WorldBounds, materials,
 };
 
 /// A scene that was compiled ([`crate::compile`]); what is rendered of it is reached as if it were its own.

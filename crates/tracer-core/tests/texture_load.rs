@@ -5,7 +5,7 @@ use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType as Color, ImageEncoder};
 use scene_format::diagnostic::Span;
 use std::path::Path;
-use tracer_core::texture::{SRGB_TO_LINEAR, Texels, Texture, decode, load};
+use tracer_core::texture::{Channel, ColorSpace, Reading, SRGB_TO_LINEAR, Texels, Texture, decode, decode_as, load};
 
 fn png(pixels: &[u8], width: u32, height: u32, color: Color) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -106,6 +106,55 @@ fn alpha_is_ignored_with_a_warning_unless_it_is_opaque() {
     let deep: Vec<u8> = [65535_u16, 0, 0, 9].iter().flat_map(|v| v.to_ne_bytes()).collect();
     let deep = picture(&png(&deep, 1, 1, Color::Rgba16));
     assert_eq!((deep.texels, deep.warnings.len()), (Texels::Linear(vec![[1.0, 0.0, 0.0]]), 1));
+}
+
+/// Two texels, (10, 20, 30, 40) and (200, 100, 50, 255) in 255 parts, read in every way; deep ones alike.
+#[test]
+fn a_channel_and_a_colour_space_are_taken_of_the_numbers_as_they_are() {
+    let codes = [[10, 20, 30, 40], [200, 100, 50, 255]];
+    let bytes = png(codes.as_flattened(), 2, 1, Color::Rgba8);
+    let deep: Vec<u8> = codes.as_flattened().iter().flat_map(|&x| (u16::from(x) * 257).to_ne_bytes()).collect();
+    let deep = png(&deep, 2, 1, Color::Rgba16);
+    let light = |code: u8, space| match space {
+        ColorSpace::Linear => f64::from(code) / 255.0,
+        _ => f64::from(SRGB_TO_LINEAR[usize::from(code)]),
+    };
+    for space in [ColorSpace::Auto, ColorSpace::Srgb, ColorSpace::Linear] {
+        for channel in [Channel::Color, Channel::Red, Channel::Green, Channel::Blue, Channel::Alpha, Channel::Luminance]
+        {
+            for file in [&bytes, &deep] {
+                let texture = decode_as(file, Path::new("p.png"), Reading { space, channel }).expect("a picture");
+                for (k, code) in codes.iter().enumerate() {
+                    let [r, g, b] = [0, 1, 2].map(|c| light(code[c], space));
+                    let expected = match channel {
+                        Channel::Color => [r, g, b],
+                        Channel::Red => [r; 3],
+                        Channel::Green => [g; 3],
+                        Channel::Blue => [b; 3],
+                        Channel::Alpha => [f64::from(code[3]) / 255.0; 3],
+                        Channel::Luminance => [0.2126 * r + 0.7152 * g + 0.0722 * b; 3],
+                    };
+                    let found = match &texture.texels {
+                        Texels::Srgb8(words) => [0, 1, 2].map(|c| SRGB_TO_LINEAR[(words[k] >> (8 * c) & 255) as usize]),
+                        Texels::Linear(texels) => texels[k],
+                    };
+                    for (found, expected) in found.into_iter().zip(expected) {
+                        assert!(
+                            (f64::from(found) - expected).abs() < 1e-7,
+                            "{space:?} {channel:?}: {found} {expected}"
+                        );
+                    }
+                }
+                let warned = texture.warnings.len();
+                assert_eq!(warned, usize::from(channel == Channel::Color), "{space:?} {channel:?}");
+            }
+        }
+    }
+    let alpha = Reading { channel: Channel::Alpha, ..Reading::default() };
+    let opaque = decode_as(&png(&[1, 2, 3], 1, 1, Color::Rgb8), Path::new("p.png"), alpha).expect("a picture");
+    assert_eq!(opaque.texels, Texels::Linear(vec![[1.0; 3]]));
+    let message = "the picture has no alpha channel, and its alpha is all that counts: it is 1 everywhere";
+    assert_eq!(opaque.warnings.iter().map(|w| &*w.message).collect::<Vec<_>>(), [message]);
 }
 
 #[test]

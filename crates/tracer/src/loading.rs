@@ -228,7 +228,7 @@ pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
         }
     }
     for material in materials {
-        files.extend(material.texture().map(|texture| &*texture.file.value));
+        files.extend(material.textures().into_iter().map(|texture| &*texture.file.value));
     }
     let mut seen = HashSet::new();
     files.retain(|file| seen.insert(*file));

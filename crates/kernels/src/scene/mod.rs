@@ -14,6 +14,7 @@ pub mod materials;
 mod mesh;
 mod pattern;
 mod plane;
+mod program;
 mod shape;
 mod sphere;
 mod statistics;
@@ -34,6 +35,7 @@ pub use pattern::{
 };
 pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
 pub use plane::{Plane, PlaneTable};
+pub use program::{Between, Made, Op, PLACES, Program};
 pub use shape::{Operand, Shape, Solids, Step};
 pub use shape::{OperandRow, ShapeTable};
 pub use sphere::Sphere;
@@ -163,6 +165,11 @@ impl Scene {
     /// A texture that is reckoned, by the index in [`Albedo::Pattern`].
     pub fn pattern(&self, index: u32) -> Option<&Pattern> {
         self.tables.patterns.patterns.get(index as usize)
+    }
+
+    /// A texture made of others, by the index in [`Albedo::Program`].
+    pub fn program(&self, index: u32) -> Option<&Program> {
+        self.tables.patterns.programs.get(index as usize)
     }
 
     /// Rows of the 3x4 matrix from render space to the coordinates that a surface is written in, before its transforms;

@@ -1,6 +1,6 @@
 //! Textures that are reckoned: where they are mapped to, two colours, and the parameters of each kind.
 
-use super::{Operand, Shape, Sphere};
+use super::{Operand, Program, Shape, Sphere};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// What a pattern's coordinates are made of.
@@ -12,6 +12,9 @@ pub enum Space {
     Object = 1,
     /// The point in the scene's coordinates.
     World = 2,
+    /// The point in the coordinates that its shape is written in; the map leads to a frame about whose second axis
+    /// (longitude, latitude, 0) from 0 to 1 are the pattern's coordinates, once they are multiplied by its `across`.
+    Spherical = 3,
 }
 
 /// What goes from 0 to 1 in a gradient.
@@ -110,6 +113,8 @@ pub struct Pattern {
     pub space: Space,
     /// Rows of the 3x4 matrix to the pattern's coordinates.
     pub map: [[f64; 4]; 3],
+    /// What longitude and latitude are multiplied by.
+    pub across: [f64; 2],
     /// The colour at t = 0, linear RGB.
     pub a: [f64; 3],
     /// The colour at t = 1.
@@ -130,7 +135,8 @@ impl Pattern {
     fn row(&self) -> (u32, [f32; STRIDE as usize]) {
         let (kind, p) = number_and_parameters(&self.kind);
         let octaves = [f64::from(p.octaves), p.lacunarity, p.gain];
-        let numbers = self.map.as_flattened().iter().chain(&self.a).chain(&self.b).chain(&octaves).chain(&p.shape);
+        let numbers = self.map.as_flattened().iter().chain(&self.a).chain(&self.b).chain(&octaves);
+        let numbers = numbers.chain(&p.shape).chain(&self.across);
         let mut row = [0.0; STRIDE as usize];
         for (to, &x) in row.iter_mut().zip(numbers) {
             *to = x as f32;
@@ -225,8 +231,9 @@ impl Default for Parameters {
     }
 }
 
-/// Numbers a pattern takes in [`PatternTable::rows`]: the map, both colours, the octaves' three, the kind's three.
-pub const STRIDE: u32 = 24;
+/// Numbers a pattern takes in [`PatternTable::rows`]: the map, both colours, the octaves' three, the kind's three, those
+/// of longitude and latitude.
+pub const STRIDE: u32 = 26;
 
 /// Which coordinates surfaces are written in. Nothing where no pattern asks for it.
 #[derive(Default)]
@@ -268,6 +275,8 @@ pub struct PatternTable {
     pub kinds: u32,
     /// Whether any goes by points in space.
     pub solid: bool,
+    /// Whether any goes by longitude and latitude.
+    pub spherical: bool,
     /// Per sphere, behind them per shape, behind them per instance, behind them per operand of solids: which matrix of
     /// `to_object`.
     pub entry: Vec<u32>,
@@ -276,20 +285,23 @@ pub struct PatternTable {
     pub to_object: Vec<f32>,
     /// What each is.
     pub patterns: Vec<Pattern>,
+    /// Textures made of these and of others, numbered behind the patterns.
+    pub programs: Vec<Program>,
     /// As `to_object`, in full precision.
     pub maps: Vec<[[f64; 4]; 3]>,
 }
 
 impl PatternTable {
-    /// Of the patterns, in their order.
-    pub fn new(patterns: Vec<Pattern>, frame: &super::Frame, written: Written) -> Self {
-        let mut table = PatternTable { entry: written.entry, ..PatternTable::default() };
+    /// Of the patterns, in their order, and of what is made of them.
+    pub fn new(patterns: Vec<Pattern>, programs: Vec<Program>, frame: &super::Frame, written: Written) -> Self {
+        let mut table = PatternTable { entry: written.entry, programs, ..PatternTable::default() };
         for pattern in &patterns {
             let (kind, row) = pattern.row();
             table.kind.push(kind);
             table.kinds |= 1 << kind;
             table.space.push(pattern.space as u32);
             table.solid |= pattern.space != Space::Uv;
+            table.spherical |= pattern.space == Space::Spherical;
             table.rows.extend(row);
         }
         let to_world =
@@ -302,7 +314,7 @@ impl PatternTable {
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.patterns.is_empty()
+        self.patterns.is_empty() && self.programs.is_empty()
     }
 }
 

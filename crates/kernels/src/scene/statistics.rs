@@ -1,6 +1,6 @@
 //! How much there is in a compiled scene.
 
-use super::{Albedo, Material, Scene};
+use super::Scene;
 use crate::bvh::AccelStats;
 use glam::DVec3;
 
@@ -50,7 +50,7 @@ impl Scene {
     /// How much there is in the scene. It looks at every vertex and every placed mesh once.
     pub fn statistics(&self) -> Statistics {
         let placed = |mesh: u32| self.meshes.get(mesh as usize).map_or(0, |m| u64::from(m.triangle_count));
-        let textures = self.materials.iter().filter_map(texture).max().map_or(0, |last| u64::from(last) + 1);
+        let textures = self.tables.textures.uses.len() as u64;
         let t = &self.triangles;
         let geometry_bytes = size_of_val(&t.positions[..])
             + size_of_val(&t.vertices[..])
@@ -117,13 +117,6 @@ impl Scene {
             }
         }
         bounds
-    }
-}
-
-fn texture(material: &Material) -> Option<u32> {
-    match material.traits().color {
-        Albedo::Texture(t) => Some(t),
-        Albedo::Color(_) | Albedo::Pattern(_) => None,
     }
 }
 

@@ -23,8 +23,7 @@ use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::codes;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Mapping, Material, Mirror, NamedMaterial, Texture, TextureFilter, TextureWrap,
-    Transparent,
+    Albedo, BlinnPhong, Color, Diffuse, Material, Mirror, NamedMaterial, Texture, TextureWrap, Transparent,
 };
 use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -260,8 +259,7 @@ fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, files: &Files, notes: &
         notes.unsupported("`Kd` other than 1 beside `map_Kd`");
     }
     let wrap = if picture.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat };
-    let (filter, mapping) = (TextureFilter::default(), Mapping::default());
-    Some(Albedo::Texture(Texture { file: file.into(), filter, wrap, mapping }))
+    Some(Albedo::Texture(Texture { wrap, ..Texture::of(file.into()) }))
 }
 
 fn clipped(statement: &str, color: Color, notes: &mut Notes) -> Color {

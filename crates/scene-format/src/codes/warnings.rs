@@ -151,7 +151,8 @@ codes! {
     /// The picture of an `Environment` is not twice as wide as it is high. It is laid around the scene all the same;
     /// pictures of other layouts (a cube's sides, a mirror ball) look wrong so.
     ENVIRONMENT_SHAPE "W0513" "an environment of another shape";
-    /// A texture has transparent pixels. Its colours are used, its transparency is not.
+    /// A texture has transparent pixels. Its colours are used, its transparency is not. Or its transparency is all that
+    /// counts, `channel: Alpha`, and it has none.
     TEXTURE_ALPHA "W0520" "transparency of a texture is ignored";
     /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every
     /// point of it has the colour of one corner. A pattern with `mapping: Object()` needs none.

@@ -58,10 +58,11 @@ pub use shapes::{
     Turning, Union, Within, no_extent,
 };
 pub use textures::{
-    Albedo, Checkerboard, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Noise, NoiseKind, Pattern,
-    SolidMapping, Texture, TextureFilter, TextureWrap, Uv, Voronoi, VoronoiFeature, Wood,
+    Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
+    Noise, NoiseKind, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, Voronoi, VoronoiFeature, Wood,
 };
-pub(crate) use textures::{MappingWords, PatternWords, is_texture};
+pub(crate) use textures::{MappingWords, Nested, PatternWords, is_texture};
 pub(crate) use transform::TransformWords;
 pub use transform::{Extent, Transform};
 pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reuse};

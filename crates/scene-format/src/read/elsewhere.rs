@@ -210,6 +210,10 @@ impl Reader<'_> {
             Syntax::Json => format!("{{ \"Diffuse\": {{ \"albedo\": {lexeme} }} }}"),
         };
         let albedo = match item.kind() {
+            // Other programs mix materials.
+            Kind::Struct if item.name() == Some("Mix") && item.fields().any(|(key, _)| key.text() == "materials") => {
+                false
+            }
             Kind::Tuple | Kind::Struct if item.name().is_some_and(is_texture) => true,
             Kind::Tuple | Kind::List if item.name().is_none() => {
                 numbers(item).is_some_and(|numbers| numbers.len() == 3)

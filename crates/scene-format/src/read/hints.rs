@@ -99,6 +99,12 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Lines", &["grid", "stripes", "gridtexture", "tiles", "stripe"]),
         ("Dots", &["polkadots", "spots", "polka", "dot"]),
         ("Gradient", &["ramp", "blend", "gradienttexture"]),
+        ("ColorRamp", &["colorramp", "color_ramp", "color_map", "colormap", "colour_map", "valtorgb", "maprange"]),
+        ("Mix", &["mix", "mixrgb", "mix_rgb", "mixture", "lerp", "interpolate"]),
+        ("Multiply", &["multiply", "scale", "math", "product", "modulate", "tint"]),
+        ("Planar", &["planar", "flat", "plane", "projection", "projected", "decal"]),
+        ("Spherical", &["spherical", "sphere", "latlong", "longlat", "equirectangular"]),
+        ("Triplanar", &["triplanar", "box", "boxmapping", "cubic", "cube", "cubemap"]),
         ("Wood", &["woodgrain", "planks", "rings"]),
         ("Marble", &["agate", "veins"]),
         ("Voronoi", &["worley", "cellular", "cellnoise", "crackle", "cells", "voronoitexture"]),
@@ -204,7 +210,8 @@ const MATERIALS: Hints = &[
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
         &["mix", "blend", "blendbsdf", "layered"],
-        "materials cannot be mixed; `BlinnPhong` mixes a matt and a glossy share",
+        "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and a \
+         glossy share",
     ),
     (&["null", "none", "invisible"], "leave the object out"),
     (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
@@ -221,12 +228,12 @@ const TEXTURES: Hints = &[
         "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, \
          along: V)",
     ),
-    (
-        &["colorramp", "color_map", "colormap", "color_ramp", "valtorgb"],
-        "a pattern goes from one colour to another: `a` and `b` of Gradient(..), Noise(..) and the others",
-    ),
     (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),
-    (&["multiply", "scale", "mix", "math"], "textures cannot be reckoned with: change the picture"),
+    (
+        &["add", "subtract", "sum", "screen", "invert", "difference", "gamma", "mapping"],
+        "textures are reckoned with by Mix(a: .., b: .., weight: ..), Multiply(a: .., b: ..) and ColorRamp(input: .., \
+         stops: [..])",
+    ),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
 ];
 
@@ -246,13 +253,13 @@ const CURVES: Hints = &[(
 const MAPPINGS: Hints = &[
     (
         &["object", "world", "local", "global", "solid"],
-        "pictures, lines and dots lie on surfaces: Uv(..); what may be cut out of space is Checkerboard, Gradient, \
-         Noise, Wood, Marble and \
-         Voronoi",
+        "pictures, lines and dots lie on surfaces: Uv(..); by an object's own coordinates they lie as Triplanar(..), \
+         Planar(..) or Spherical(..)",
     ),
     (
-        &["planar", "spherical", "cylindrical", "triplanar", "box", "cubic", "projection"],
-        "textures lie by a surface's own coordinates, Uv(..), and patterns also in space, Object(..) and World(..)",
+        &["cylindrical", "cylinder", "camera", "screen", "window", "normal", "reflection"],
+        "textures lie by a surface's own coordinates, Uv(..), or by points: Planar(..), Spherical(..), Triplanar(..); \
+         patterns also in space: Object(..), World(..)",
     ),
 ];
 

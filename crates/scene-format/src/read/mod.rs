@@ -43,7 +43,7 @@ pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::{ITEMS, Scene};
+use crate::desc::{ITEMS, Nested, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::schema::{self, FieldDef, StructDef, Type};
 use crate::suggest;
@@ -84,6 +84,8 @@ pub(crate) struct Reader<'r> {
     first_included: u32,
     /// Groups that are being read, one within the other.
     pub(crate) groups: usize,
+    /// Textures that are being read, one within the other.
+    pub(crate) textures: Nested,
     /// The file that was named last: a mesh that stands in a scene many times has its name in memory once.
     file: Option<Arc<Path>>,
     /// How many points the mesh that is being read has, once they are read.
@@ -157,6 +159,7 @@ impl<'r> Reader<'r> {
             open: Vec::new(),
             first_included: u32::MAX,
             groups: 0,
+            textures: Nested::default(),
             file: None,
             points: None,
             passed_over: false,

@@ -82,6 +82,9 @@ pub(super) fn of_mapping(
 
 /// What is said of other fields that patterns do not have.
 pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    if def.name == "ColorRamp" && matches!(name, "mapping" | "scale" | "offset") {
+        return Some("it lies nowhere itself: its `input` has a `mapping`, Noise(mapping: Object(scale: 2))");
+    }
     if !is_pattern(def) {
         return None;
     }
@@ -90,9 +93,13 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
     Some(match name {
         "color_map" | "colour_map" | "colormap" | "color_ramp" | "colorramp" | "ramp" | "stops" | "palette"
         | "colors" | "colours" | "gradient" | "map" | "pigment" | "pigment_map" => {
-            "a pattern goes from one colour to another, `a` to `b`, without steps between"
+            "a pattern goes from `a` to `b`; steps between are a ramp about it: ColorRamp(input: Noise(..), stops: [(at: \
+             0, color: 0.1), (at: 1, color: 0.9)])"
         }
         "color" | "colour" | "albedo" | "base_color" | "texture" => "a pattern has two colours: `a` and `b`",
+        "mapping" | "scale" | "offset" => {
+            "it lies nowhere itself: what it is made of has a `mapping`, Noise(mapping: Object(scale: 2))"
+        }
         "turbulence" | "billow" | "billows" | "ridged" | "abs" if noise => {
             "billows with dark creases are `kind: Turbulence`"
         }
@@ -112,6 +119,27 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
 }
 
 impl Reader<'_> {
+    /// A stop of a ramp that is written without names: reports it, and says that it did.
+    pub(crate) fn stop_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        if !matches!(item.kind(), Kind::Tuple | Kind::List) || item.name().is_some() {
+            return false;
+        }
+        let mut children = item.children();
+        let (Some(at), Some(color), None) = (children.next(), children.next(), children.next()) else { return false };
+        let (at, color) = (at.lexeme(), color.lexeme());
+        let mended = match item.syntax() {
+            Syntax::Ron => format!("(at: {at}, color: {color})"),
+            syntax => syntax.of_toml(format!("{{ at = {at}, color = {color} }}")).into_owned(),
+        };
+        let message = "the values of a stop are written with their names";
+        let mut fault = Diagnostic::error(codes::MISSING_NAME, item.head(), message)
+            .expected("a stop: `at` and `color`")
+            .hint(format!("write `{mended}`"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+
     /// The word of a texture where its brackets are missing, small or of another program: reports it, and says that it
     /// did.
     pub(crate) fn texture_elsewhere(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
@@ -124,12 +152,15 @@ impl Reader<'_> {
             let mended = match (kind, item.syntax()) {
                 ("Texture", Syntax::Ron) => "Texture(file: \"picture.png\")".into(),
                 ("Texture", syntax) => syntax.of_toml("{ Texture = { file = \"picture.png\" } }"),
+                ("ColorRamp", Syntax::Ron) => "ColorRamp(input: Noise(), stops: [..])".into(),
+                ("ColorRamp", syntax) => syntax.of_toml("{ ColorRamp = { input = { Noise = {} }, stops = [..] } }"),
                 (_, Syntax::Ron) => format!("{kind}()").into(),
                 (_, syntax) => syntax.of_toml(format!("{{ {kind} = {{}} }}")),
             };
             let mut fault = fault.expected("a colour, or a texture: kinds begin with capitals, and have brackets");
             fault.hint = format!("write {mended}");
-            fault.edit = (kind != "Texture").then(|| Edit { span: item.span(), replacement: mended.into_owned() });
+            fault.edit = (!matches!(kind, "Texture" | "ColorRamp"))
+                .then(|| Edit { span: item.span(), replacement: mended.into_owned() });
             self.report(fault);
             return true;
         }

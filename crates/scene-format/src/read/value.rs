@@ -76,10 +76,8 @@ pub(crate) fn expected(at: &FieldDef) -> String {
         (Type::Struct(def), _) => def.noun.to_owned(),
         (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
         (Type::Optional(&Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
-        (
-            Type::OneOf([Type::Color, Type::Enum(def)]) | Type::Optional(Type::OneOf([Type::Color, Type::Enum(def)])),
-            _,
-        ) => {
+        (Type::OneOf([Type::Color, choice]) | Type::Optional(Type::OneOf([Type::Color, choice])), _) => {
+            let Type::Enum(def) = choice.resolved() else { return "a colour".to_owned() };
             let choices = super::variant::choices(def, Syntax::Ron);
             return format!(
                 "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or {choices}"

@@ -9,10 +9,36 @@ fn mapping(random: &mut Random) -> Mapping {
     if random.below(2) == 0 {
         return Mapping::default();
     }
+    if random.below(2) == 0 {
+        return match random.below(3) {
+            0 => planar(random).into(),
+            1 => spherical(random).into(),
+            _ => triplanar(random).into(),
+        };
+    }
     let uniform = number(random, -100.0, 100.0);
     let scale = [uniform, if random.below(2) == 0 { uniform } else { number(random, -100.0, 100.0) }];
     let offset = if random.below(2) == 0 { [0.0; 2] } else { [random.unit(), number(random, -9.0, 9.0)] };
     Mapping::uv(scale, number(random, -360.0, 360.0), offset)
+}
+
+fn planar(random: &mut Random) -> Planar {
+    let size = PerAxis([(); 2].map(|()| number(random, 0.1, 9.0)));
+    Planar { origin: vector(random), normal: [number(random, 0.1, 9.0), random.unit(), 0.0].into(), size }
+}
+
+fn spherical(random: &mut Random) -> Spherical {
+    let scale = PerAxis([(); 2].map(|()| number(random, -9.0, 9.0)));
+    Spherical { center: vector(random), axis: [number(random, 0.1, 9.0), random.unit(), 0.0].into(), scale }
+}
+
+fn triplanar(random: &mut Random) -> Triplanar {
+    Triplanar { scale: number(random, -9.0, 9.0), blend: number(random, 0.01, 1.0) }
+}
+
+/// A colour, or another pattern.
+fn part(random: &mut Random) -> Albedo {
+    if random.below(8) == 0 { reckoned(random) } else { share(random).into() }
 }
 
 fn solid_mapping(random: &mut Random) -> SolidMapping {
@@ -26,8 +52,8 @@ fn solid_mapping(random: &mut Random) -> SolidMapping {
 }
 
 fn reckoned(random: &mut Random) -> Albedo {
-    let (a, b, solid) = (share(random).into(), share(random).into(), solid_mapping(random));
-    match random.below(8) {
+    let (a, b, solid) = (part(random), part(random), solid_mapping(random));
+    match random.below(11) {
         0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
         1 => {
             let along = *random.pick(&[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
@@ -44,6 +70,15 @@ fn reckoned(random: &mut Random) -> Albedo {
             Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
         }
         5 => Albedo::Wood(Box::new(Wood { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
+        8 => Albedo::Mix(Box::new(Mix { a, b, weight: part(random) })),
+        9 => Albedo::Multiply(Box::new(Multiply { a, b })),
+        10 => {
+            let [low, high] = [0.5 * random.unit(), 0.5 + 0.5 * random.unit()];
+            let stops = [low, low, high].map(|at| Stop { at: at.into(), color: share(random).into() });
+            let kinds = [RampInterpolation::Linear, RampInterpolation::Smooth, RampInterpolation::Constant];
+            let (stops, interpolation) = (Stops(stops.into()), *random.pick(&kinds));
+            Albedo::ColorRamp(Box::new(ColorRamp { input: a, stops, interpolation }))
+        }
         6 => Albedo::Marble(Box::new(Marble { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
         _ => {
             let feature = *random.pick(&[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
@@ -59,6 +94,15 @@ pub fn albedo(random: &mut Random) -> Albedo {
             file: PathBuf::from(text(random)).into(),
             filter: *random.pick(&[TextureFilter::Bilinear, TextureFilter::Nearest]),
             wrap: *random.pick(&[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]),
+            color_space: *random.pick(&[TextureColorSpace::Auto, TextureColorSpace::Srgb, TextureColorSpace::Linear]),
+            channel: *random.pick(&[
+                TextureChannel::Auto,
+                TextureChannel::Red,
+                TextureChannel::Green,
+                TextureChannel::Blue,
+                TextureChannel::Alpha,
+                TextureChannel::Luminance,
+            ]),
             mapping: mapping(random),
         }),
         1 | 2 => reckoned(random),

@@ -1,7 +1,7 @@
 //! What a scene names and programs have in memory, and where compiling takes files from.
 
 use super::kept::{self, Kept};
-use crate::texture::{self, Landscape, Panorama, Pixels, Texture, TextureError};
+use crate::texture::{self, Landscape, Panorama, Pixels, Reading, Texture, TextureError};
 use glam::DAffine3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -137,14 +137,14 @@ impl<'a> Sources<'a> {
         }
     }
 
-    pub fn texture(&self, path: &Path) -> Result<Arc<Texture>, TextureError> {
+    pub fn texture(&self, path: &Path, reading: Reading) -> Result<Arc<Texture>, TextureError> {
         if let Some(pixels) = self.pixels(path)? {
-            return pixels.texture(path).map(Arc::new);
+            return pixels.texture(path, reading).map(Arc::new);
         }
         match (self.files.get(path), self.kept) {
-            (Some(bytes), _) => texture::decode(bytes, path).map(Arc::new),
-            (None, Some(kept)) => kept::load_texture(kept, path),
-            (None, None) => texture::load(path).map(Arc::new),
+            (Some(bytes), _) => texture::decode_as(bytes, path, reading).map(Arc::new),
+            (None, Some(kept)) => kept::load_texture(kept, path, reading),
+            (None, None) => texture::load_as(path, reading).map(Arc::new),
         }
     }
 

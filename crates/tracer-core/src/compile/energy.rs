@@ -5,11 +5,10 @@
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
-use scene_format::desc::{Albedo, BlinnPhong, Material, MaterialRef, with_operands};
+use scene_format::desc::{self, Albedo, BlinnPhong, Material, MaterialRef, with_operands};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// What the glossy lobe reflects at most of light from everywhere, as a share of what it gets.
 fn glossy_at_most(exponent: f64) -> f64 {
@@ -34,9 +33,29 @@ struct Loud<'d> {
     span: Span,
 }
 
+/// The largest channel that a colour or a texture may have anywhere.
+fn brightest<'t>(albedo: &Albedo, texture: &impl Fn(&desc::Texture) -> Option<&'t Texture>) -> f64 {
+    let most = |color: desc::Color| color.into_iter().fold(0.0, f64::max);
+    match albedo {
+        Albedo::Color(color) => most(color.value),
+        Albedo::Texture(words) => texture(words).map_or(1.0, Texture::brightest),
+        Albedo::ColorRamp(ramp) => ramp.stops.0.iter().map(|stop| most(stop.color.value)).fold(0.0, f64::max),
+        Albedo::Multiply(words) => brightest(&words.a, texture) * brightest(&words.b, texture),
+        // Between the first two; what may follow says how much of either.
+        pattern => {
+            let parts = pattern.pattern().map_or_else(Vec::new, |pattern| pattern.parts());
+            parts.into_iter().take(2).map(|part| brightest(part, texture)).fold(0.0, f64::max)
+        }
+    }
+}
+
 /// Warns of the materials of the scene that reflect more than they get: once, with the loudest first. `texture`: a
-/// picture by its path.
-pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>, diagnostics: &mut Diagnostics) {
+/// picture as it is read for colours.
+pub fn warn<'t>(
+    desc: &SceneDesc,
+    texture: impl Fn(&desc::Texture) -> Option<&'t Texture>,
+    diagnostics: &mut Diagnostics,
+) {
     let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
     let inline = with_operands(&desc.objects).filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => Some((None, &material.value)),
@@ -47,14 +66,7 @@ pub fn warn<'t>(desc: &SceneDesc, texture: impl Fn(&Path) -> Option<&'t Texture>
     for (name, material) in named.chain(inline) {
         let Material::BlinnPhong(words) = material else { continue };
         let BlinnPhong { albedo, exponent, specular, energy_conserving: false } = &**words else { continue };
-        let (albedo, of_picture) = match albedo {
-            Albedo::Color(color) => (color.value.into_iter().fold(0.0, f64::max), false),
-            Albedo::Texture(t) => (texture(&desc.base_dir.join(&t.file.value)).map_or(1.0, Texture::brightest), true),
-            pattern => {
-                let colors = pattern.pattern().map_or([[1.0; 3]; 2], |pattern| pattern.colors());
-                (colors.as_flattened().iter().copied().fold(0.0, f64::max), true)
-            }
-        };
+        let (albedo, of_picture) = (brightest(albedo, &texture), !albedo.is_color());
         let times = reflected_at_most(albedo, specular.value, exponent.value);
         // Of the same material written many times one is told; what is above one by rounding only is not.
         let key = [albedo, specular.value, exponent.value].map(f64::to_bits);
@@ -95,6 +107,7 @@ fn digits(times: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     /// The glossy lobe's integral over half vectors, at an angle of the viewer: h is drawn by (alpha + 2)/(2 pi)
     /// cos^(alpha+1) theta_h, and dw_i = 4 (wo.h) dw_h.

@@ -2,6 +2,7 @@
 
 use super::assets::{Assets, DISK, Sources};
 use super::nearby;
+use crate::texture::Reading;
 use rayon::prelude::*;
 use scene_format::desc::Material;
 use scene_format::diagnostic::{Source, Span};
@@ -32,7 +33,8 @@ fn check(files: &[NamedFile], base_dir: &Path, sources: &[Source], from: &Source
 }
 
 fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
-    let of_texture = |path: &Path| from.texture(path).err().map(|error| error.to_diagnostic(file.span));
+    let of_texture =
+        |path: &Path| from.texture(path, Reading::default()).err().map(|error| error.to_diagnostic(file.span));
     match file.kind {
         FileKind::Texture => of_texture(path).into_iter().collect(),
         FileKind::Environment => {
@@ -51,7 +53,7 @@ fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
             Err(error) => vec![error.to_diagnostic(file.span)],
             Ok(data) => {
                 let mut textures: Vec<PathBuf> =
-                    data.materials.iter().filter_map(|named| picture(&named.material)).collect();
+                    data.materials.iter().flat_map(|named| pictures(&named.material)).collect();
                 textures.sort();
                 textures.dedup();
                 textures.iter().filter_map(|path| of_texture(path)).collect()
@@ -60,9 +62,9 @@ fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
     }
 }
 
-/// The picture that a material of an MTL file names; its path is complete.
-fn picture(material: &Material) -> Option<PathBuf> {
-    material.texture().map(|texture| texture.file.value.to_path_buf())
+/// The pictures that a material of an MTL file names; their paths are complete.
+fn pictures(material: &Material) -> impl Iterator<Item = PathBuf> {
+    material.textures().into_iter().map(|texture| texture.file.value.to_path_buf())
 }
 
 #[cfg(test)]

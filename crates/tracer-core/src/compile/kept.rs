@@ -1,6 +1,6 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
-use crate::texture::{self, Landscape, Texture, TextureError};
+use crate::texture::{self, Landscape, Reading, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use xxhash_rust::xxh3::Xxh3;
 #[derive(Default)]
 pub struct Kept {
     meshes: Mutex<BTreeMap<PathBuf, Entry<MeshData>>>,
-    textures: Mutex<BTreeMap<PathBuf, Entry<Texture>>>,
+    textures: Mutex<BTreeMap<(PathBuf, Reading), Entry<Texture>>>,
     heights: Mutex<BTreeMap<PathBuf, Entry<Landscape>>>,
     /// By what they were built of.
     trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
@@ -41,14 +41,16 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What was made of a file, if it would be made again as it was; else it is made, and kept.
-fn file<T, E>(
-    entries: &Mutex<BTreeMap<PathBuf, Entry<T>>>,
+/// What was made of a file, if it would be made again as it was; else it is made, and kept. `key`: the file, and how it
+/// is read.
+fn file<K: Ord, T, E>(
+    entries: &Mutex<BTreeMap<K, Entry<T>>>,
+    key: K,
     path: &Path,
     load: impl FnOnce() -> Result<T, E>,
     others: impl FnOnce(&T) -> Vec<PathBuf>,
 ) -> Result<Arc<T>, E> {
-    if let Some(entry) = lock(entries).get_mut(path)
+    if let Some(entry) = lock(entries).get_mut(&key)
         && entry.stamps.iter().all(|(path, known)| known.is_some() && stamp(path) == *known)
     {
         entry.used = true;
@@ -61,7 +63,7 @@ fn file<T, E>(
     let fresh = |path: &Path| stamp(path).filter(|(written, _)| *written < began);
     let others = others(&value).into_iter().map(|path| (path.clone(), fresh(&path)));
     let stamps = std::iter::once((path.to_owned(), own)).chain(others).collect();
-    lock(entries).insert(path.to_owned(), Entry { stamps, value: Arc::clone(&value), used: true });
+    lock(entries).insert(key, Entry { stamps, value: Arc::clone(&value), used: true });
     Ok(value)
 }
 
@@ -73,17 +75,18 @@ pub(super) fn load_mesh(kept: &Kept, path: &Path) -> Result<Arc<MeshData>, MeshE
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()
     };
-    file(&kept.meshes, path, || mesh::load(path), others)
+    file(&kept.meshes, path.to_owned(), path, || mesh::load(path), others)
 }
 
 /// A texture, read or kept.
-pub(super) fn load_texture(kept: &Kept, path: &Path) -> Result<Arc<Texture>, TextureError> {
-    file(&kept.textures, path, || texture::load(path), |_| Vec::new())
+pub(super) fn load_texture(kept: &Kept, path: &Path, reading: Reading) -> Result<Arc<Texture>, TextureError> {
+    let load = || texture::load_as(path, reading);
+    file(&kept.textures, (path.to_owned(), reading), path, load, |_| Vec::new())
 }
 
 /// Heights, read or kept.
 pub(super) fn load_heights(kept: &Kept, path: &Path) -> Result<Arc<Landscape>, TextureError> {
-    file(&kept.heights, path, || texture::load_heights(path), |_| Vec::new())
+    file(&kept.heights, path.to_owned(), path, || texture::load_heights(path), |_| Vec::new())
 }
 
 /// A tree, built or kept.

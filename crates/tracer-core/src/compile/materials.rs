@@ -1,9 +1,9 @@
 //! Materials: names and inline ones become indices, textures are loaded once each.
 
 use super::assets::Sources;
-use super::textures::pattern;
+use super::textures::{Lies, Lying, lying, pattern};
 use crate::mattes::mattes_kept;
-use crate::texture::{Texels, Texture};
+use crate::texture::{Channel, ColorSpace, Reading, Texels, Texture};
 use rayon::prelude::*;
 use scene_format::codes;
 use scene_format::desc::{self, Emissive, MaterialRef, SolidMapping};
@@ -12,7 +12,9 @@ use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tracer_kernels::scene::{Albedo, Material, Pattern, PatternKey, TextureFilter, TextureUse, TextureWrap, materials};
+use tracer_kernels::scene::{
+    Albedo, Material, Pattern, PatternKey, Program, TextureFilter, TextureUse, TextureWrap, materials,
+};
 
 /// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
 fn compiled(material: &desc::Material, color: Albedo) -> Material {
@@ -69,10 +71,29 @@ fn wrap(word: desc::TextureWrap) -> TextureWrap {
     }
 }
 
+/// How a picture is read, where a number is wanted or where a colour is.
+fn reading(words: &desc::Texture, number: bool) -> Reading {
+    let space = match words.color_space {
+        desc::TextureColorSpace::Auto if number => ColorSpace::Linear,
+        desc::TextureColorSpace::Auto => ColorSpace::Auto,
+        desc::TextureColorSpace::Srgb => ColorSpace::Srgb,
+        desc::TextureColorSpace::Linear => ColorSpace::Linear,
+    };
+    let channel = match words.channel {
+        desc::TextureChannel::Auto => Channel::Color,
+        desc::TextureChannel::Red => Channel::Red,
+        desc::TextureChannel::Green => Channel::Green,
+        desc::TextureChannel::Blue => Channel::Blue,
+        desc::TextureChannel::Alpha => Channel::Alpha,
+        desc::TextureChannel::Luminance => Channel::Luminance,
+    };
+    Reading { space, channel }
+}
+
 /// Where a picture comes from.
 enum Image {
-    /// A file, and the place in the scene that names it first.
-    File(PathBuf, Span),
+    /// A file, the place in the scene that names it first, and how it is read.
+    File(PathBuf, Span, Reading),
     /// Two by two squares of a checkerboard.
     Squares([desc::Color; 2]),
 }
@@ -82,6 +103,14 @@ fn squares(colors: [desc::Color; 2]) -> Texture {
     let [a, b] = colors.map(|color| color.map(|x| x as f32));
     // Row 0 is the top.
     Texture { width: 2, height: 2, texels: Texels::Linear(vec![b, a, a, b]), warnings: Diagnostics::new() }
+}
+
+/// The two colours of a pattern that has no other parts than these.
+pub(super) fn constants(words: &desc::Albedo) -> Option<[desc::Color; 2]> {
+    match words.pattern()?.parts()[..] {
+        [desc::Albedo::Color(a), desc::Albedo::Color(b)] => Some([a.value, b.value]),
+        _ => None,
+    }
 }
 
 /// What [`MaterialBuilder::finish`] gives.
@@ -94,6 +123,8 @@ pub struct Finished {
     pub uses: Vec<TextureUse>,
     /// The textures that are reckoned.
     pub patterns: Vec<Pattern>,
+    /// Those that are made of others.
+    pub programs: Vec<Program>,
 }
 
 /// Collects materials and texture uses.
@@ -108,12 +139,17 @@ pub struct MaterialBuilder<'a> {
     /// What each is called, where anybody asks.
     names: Option<Vec<String>>,
     images: Vec<Image>,
-    index_of_file: BTreeMap<PathBuf, usize>,
+    index_of_file: BTreeMap<(PathBuf, Reading), usize>,
     /// By the bits of both colours.
     index_of_squares: BTreeMap<[[u64; 3]; 2], usize>,
     uses: Vec<TextureUse>,
     patterns: Vec<Pattern>,
     index_of_pattern: BTreeMap<PatternKey, u32>,
+    pub(super) programs: Vec<Program>,
+    /// By all that it says.
+    pub(super) index_of_program: BTreeMap<String, u32>,
+    /// What is wrong with textures.
+    pub(super) faults: Diagnostics,
     /// Per image the indices of its uses, at most one for each filter, wrap and mapping.
     uses_of_image: Vec<Vec<u32>>,
 }
@@ -134,6 +170,9 @@ impl<'a> MaterialBuilder<'a> {
             uses: Vec::new(),
             patterns: Vec::new(),
             index_of_pattern: BTreeMap::new(),
+            programs: Vec::new(),
+            index_of_program: BTreeMap::new(),
+            faults: Diagnostics::new(),
             uses_of_image: Vec::new(),
         };
         for named in &desc.materials {
@@ -201,37 +240,62 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     fn albedo(&mut self, albedo: &desc::Albedo, base: Option<&Path>) -> Albedo {
-        let (image, filter, wrap, mapping) = match albedo {
+        let by_uv = |mapping: &SolidMapping| if let SolidMapping::Uv(uv) = mapping { Some(uv.rows()) } else { None };
+        let constants = constants(albedo);
+        match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
-            desc::Albedo::Texture(t) => (self.file(t, base), filter(t.filter), wrap(t.wrap), t.mapping.rows()),
-            desc::Albedo::Checkerboard(t) if let SolidMapping::Uv(uv) = &t.mapping => {
-                // The squares are the texels of a picture that is laid over two of them.
-                let mapping = uv.rows().map(|row| row.map(|x| 0.5 * x));
-                (self.squares([t.a.value, t.b.value]), TextureFilter::Nearest, TextureWrap::Repeat, mapping)
+            desc::Albedo::Texture(t) if let Some(uv) = t.mapping.by_uv() => {
+                return Albedo::Texture(self.picture(t, false, uv.rows(), base));
             }
-            reckoned => return self.pattern(reckoned),
-        };
+            desc::Albedo::Checkerboard(t) if let (Some(rows), Some(colors)) = (by_uv(&t.mapping), constants) => {
+                // The squares are the texels of a picture that is laid over two of them.
+                let (image, mapping) = (self.squares(colors), rows.map(|row| row.map(|x| 0.5 * x)));
+                return Albedo::Texture(self.texture_use(image, TextureFilter::Nearest, TextureWrap::Repeat, mapping));
+            }
+            _ => {}
+        }
+        let mapping = albedo.pattern().and_then(|pattern| pattern.mapping());
+        if let (Some(colors), Some(Lying::Once(lies))) = (constants, mapping.as_ref().map(lying)) {
+            return self.pattern(albedo, &lies, colors).map_or(Albedo::Color([1.0; 3]), Albedo::Pattern);
+        }
+        self.program(albedo, base)
+    }
+
+    /// A picture and how it is looked up.
+    pub(super) fn picture(
+        &mut self,
+        words: &desc::Texture,
+        number: bool,
+        mapping: [[f64; 3]; 2],
+        base: Option<&Path>,
+    ) -> u32 {
+        let image = self.file(words, number, base);
+        self.texture_use(image, filter(words.filter), wrap(words.wrap), mapping)
+    }
+
+    /// How a picture is looked up.
+    fn texture_use(&mut self, image: usize, filter: TextureFilter, wrap: TextureWrap, mapping: [[f64; 3]; 2]) -> u32 {
         let same = |&&index: &&u32| {
             self.uses.get(index as usize).is_some_and(|u| u.filter == filter && u.wrap == wrap && u.mapping == mapping)
         };
         if let Some(&index) = self.uses_of_image[image].iter().find(same) {
-            return Albedo::Texture(index);
+            return index;
         }
         let index = self.uses.len() as u32;
         self.uses.push(TextureUse { image, filter, wrap, mapping });
         self.uses_of_image[image].push(index);
-        Albedo::Texture(index)
+        index
     }
 
-    /// A texture that is reckoned.
-    fn pattern(&mut self, words: &desc::Albedo) -> Albedo {
-        let Some(pattern) = pattern(words) else { return Albedo::Color([1.0; 3]) };
+    /// A texture that is reckoned, between two colours.
+    pub(super) fn pattern(&mut self, words: &desc::Albedo, lies: &Lies, colors: [desc::Color; 2]) -> Option<u32> {
+        let pattern = pattern(words, lies, colors)?;
         let next = self.patterns.len() as u32;
         let index = *self.index_of_pattern.entry(pattern.key()).or_insert(next);
         if index == next {
             self.patterns.push(pattern);
         }
-        Albedo::Pattern(index)
+        Some(index)
     }
 
     fn add_image(&mut self, image: Image) -> usize {
@@ -240,15 +304,16 @@ impl<'a> MaterialBuilder<'a> {
         self.images.len() - 1
     }
 
-    /// The image of a file.
-    fn file(&mut self, texture: &desc::Texture, base: Option<&Path>) -> usize {
+    /// The image of a file, for a number or a colour.
+    fn file(&mut self, texture: &desc::Texture, number: bool, base: Option<&Path>) -> usize {
         let file = &texture.file;
         let path = base.map_or_else(|| file.value.to_path_buf(), |base| base.join(&file.value));
-        if let Some(&index) = self.index_of_file.get(&path) {
+        let key = (path, reading(texture, number));
+        if let Some(&index) = self.index_of_file.get(&key) {
             return index;
         }
-        let index = self.add_image(Image::File(path.clone(), file.span));
-        self.index_of_file.insert(path, index);
+        let index = self.add_image(Image::File(key.0.clone(), file.span, key.1));
+        self.index_of_file.insert(key, index);
         index
     }
 
@@ -266,7 +331,7 @@ impl<'a> MaterialBuilder<'a> {
     /// The pictures that materials name.
     pub fn textures(&self) -> impl Iterator<Item = &PathBuf> {
         self.images.iter().filter_map(|image| match image {
-            Image::File(path, _) => Some(path),
+            Image::File(path, ..) => Some(path),
             Image::Squares(_) => None,
         })
     }
@@ -277,9 +342,12 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// Loads the textures.
-    pub fn finish(self, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Finished {
+    pub fn finish(mut self, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Finished {
+        diagnostics.append(&mut self.faults);
         let load = |image: &Image| match image {
-            Image::File(path, span) => sources.texture(path).map_err(|error| Box::new(error.to_diagnostic(*span))),
+            Image::File(path, span, reading) => {
+                sources.texture(path, *reading).map_err(|error| Box::new(error.to_diagnostic(*span)))
+            }
             Image::Squares(colors) => Ok(Arc::new(squares(*colors))),
         };
         let loaded: Vec<_> = self.images.par_iter().map(load).collect();
@@ -287,7 +355,7 @@ impl<'a> MaterialBuilder<'a> {
         for (result, image) in loaded.into_iter().zip(&self.images) {
             match result {
                 Ok(texture) => {
-                    if let Image::File(_, span) = image {
+                    if let Image::File(_, span, _) = image {
                         diagnostics.extend(texture.warnings.iter().cloned().map(|w| Diagnostic { span: *span, ..w }));
                     }
                     images.push(texture);
@@ -296,11 +364,13 @@ impl<'a> MaterialBuilder<'a> {
             }
         }
         if images.len() == self.images.len() {
-            let texture = |path: &Path| {
-                self.index_of_file.get(path).and_then(|&index| images.get(index)).map(|image: &Arc<Texture>| &**image)
+            let texture = |words: &desc::Texture| {
+                let key = (self.desc.base_dir.join(&words.file.value), reading(words, false));
+                self.index_of_file.get(&key).and_then(|&index| images.get(index)).map(|image: &Arc<Texture>| &**image)
             };
             super::energy::warn(self.desc, texture, diagnostics);
         }
-        Finished { materials: self.materials, images, uses: self.uses, patterns: self.patterns }
+        let MaterialBuilder { materials, uses, patterns, programs, .. } = self;
+        Finished { materials, images, uses, patterns, programs }
     }
 }

@@ -17,6 +17,7 @@ mod nearby;
 mod patterns;
 mod placing;
 mod polygonal;
+mod programs;
 mod radiances;
 mod textures;
 mod unmeant;
@@ -41,7 +42,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::scene::{
     CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
-    PlaneTable, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    PlaneTable, Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 use tracer_kernels::{bvh, scene};
 
@@ -116,7 +117,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let mattes = Mattes::of(desc, builder.names());
-    let Finished { materials, images, uses, patterns } = builder.finish(sources, &mut diagnostics);
+    let Finished { materials, images, uses, patterns, programs } = builder.finish(sources, &mut diagnostics);
     let background = environment::load(desc, sources, &mut diagnostics);
     let placed = meshes::place(desc, sources, &loaded, &mut diagnostics);
     let assets = start.elapsed().as_secs_f64();
@@ -149,7 +150,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
             .push(Diagnostic::warning(codes::MAP_IS_GONE, Span::NONE, message).hint("leave `render.indirect` out"));
     }
     // The world's own coordinates are the first.
-    let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv);
+    let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv) || programs.iter().any(Program::is_solid);
     let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
     let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
     let mut solids = Solids::default();
@@ -171,7 +172,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
     let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
     drop((loaded, placed));
-    let material_table = MaterialTable::new(&materials, uses.len() as u32);
+    let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
     let light_table = LightTable::new(&lights, &spheres, environment);
@@ -180,7 +181,7 @@ fn compile_with(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, Compil
         Written::new(maps, &spheres, &shapes, &built.coordinates, &solids.operands)
     });
     let first_body = (spheres.len() + shapes.len() + built.instances.len()) as u32;
-    let pattern_table = PatternTable::new(patterns, &frame, written);
+    let pattern_table = PatternTable::new(patterns, programs, &frame, written);
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();

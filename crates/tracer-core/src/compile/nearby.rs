@@ -62,8 +62,8 @@ pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     let of_objects = with_operands(&desc.objects).flat_map(|object| {
         let file = object.value.file();
         let texture = match object.value.material() {
-            MaterialRef::Inline(material) => texture_file(&material.value),
-            MaterialRef::Default | MaterialRef::Named { .. } => None,
+            MaterialRef::Inline(material) => texture_files(&material.value),
+            MaterialRef::Default | MaterialRef::Named { .. } => Vec::new(),
         };
         file.into_iter().chain(object.value.placements().files()).chain(texture)
     });
@@ -71,11 +71,11 @@ pub fn named(desc: &SceneDesc) -> impl Iterator<Item = &Spanned<Arc<Path>>> {
     of_background
         .into_iter()
         .chain(of_objects)
-        .chain(desc.materials.iter().filter_map(|named| texture_file(&named.material)))
+        .chain(desc.materials.iter().flat_map(|named| texture_files(&named.material)))
 }
 
-fn texture_file(material: &Material) -> Option<&Spanned<Arc<Path>>> {
-    material.texture().map(|texture| &texture.file)
+fn texture_files(material: &Material) -> Vec<&Spanned<Arc<Path>>> {
+    material.textures().into_iter().map(|texture| &texture.file).collect()
 }
 
 /// Files near the scene, as it would name them, the nearest first.

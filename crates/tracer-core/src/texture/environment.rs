@@ -1,6 +1,6 @@
 //! Pictures of all directions: HDR, EXR, PNG and JPEG files, decoded to linear light.
 
-use super::{ENVIRONMENTS, SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
+use super::{ENVIRONMENTS, Reading, SRGB_TO_LINEAR, Texels, TextureError, checked, format_of, from_picture};
 use image::DynamicImage;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
@@ -49,7 +49,7 @@ pub(super) fn panorama(picture: DynamicImage, path: &Path) -> Panorama {
         DynamicImage::ImageRgba32F(picture) => {
             picture.into_raw().as_chunks::<4>().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
         }
-        other => match from_picture(other, path).texels {
+        other => match from_picture(other, path, Reading::default()).texels {
             Texels::Linear(texels) => texels,
             Texels::Srgb8(texels) => texels.iter().map(|texel| linear(*texel)).collect(),
         },

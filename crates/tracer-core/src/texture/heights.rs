@@ -1,6 +1,6 @@
 //! Pictures of heights: PNG, JPEG, EXR and HDR files, whose numbers are taken as they stand.
 
-use super::{ENVIRONMENTS, TextureError, checked_up_to, format_of, warning_of_alpha};
+use super::{Channel, ENVIRONMENTS, TextureError, checked_up_to, format_of, warning_of_alpha};
 use image::DynamicImage;
 use rayon::prelude::*;
 use scene_format::Diagnostics;
@@ -42,7 +42,7 @@ pub(super) fn landscape(picture: DynamicImage, path: &Path, bytes: u64) -> Resul
     if width < 2 || depth < 2 || u64::from(width) * u64::from(depth) > MOST_HEIGHTS {
         return Err(TextureError::Size { path: path.to_owned(), width, height: depth, bytes });
     }
-    let warnings = warning_of_alpha(&picture, path).into_iter().collect();
+    let warnings = warning_of_alpha(&picture, path, Channel::Color).into_iter().collect();
     let values = values(picture);
     let wrong = values.par_iter().filter(|height| !height.is_finite()).count();
     if wrong > 0 {

@@ -20,17 +20,18 @@ mod error;
 mod extent;
 mod heights;
 mod pixels;
+mod reading;
 
 pub use environment::{Panorama, decode_environment, load_environment};
 pub use error::TextureError;
 pub use heights::{Landscape, decode_heights, load_heights};
 pub use pixels::{Pixels, PixelsError};
+pub use reading::{Channel, ColorSpace, Reading};
 pub use tracer_kernels::scene::Texels;
 pub use tracer_kernels::srgb::SRGB_TO_LINEAR;
 
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
-use rayon::prelude::*;
 use scene_format::codes;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
@@ -84,7 +85,15 @@ impl Texture {
 /// When there is no such file, it cannot be read, it is no PNG or JPEG or a broken one, or it has more than
 /// [`MAX_SIDE`] pixels along a side or out of all proportion to its size.
 pub fn load(path: &Path) -> Result<Texture, TextureError> {
-    decode(&read_regular_file(path)?, path)
+    load_as(path, Reading::default())
+}
+
+/// As [`load`], read in another way.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_as(path: &Path, reading: Reading) -> Result<Texture, TextureError> {
+    decode_as(&read_regular_file(path)?, path, reading)
 }
 
 /// Decodes a picture from the bytes of its file; `path` is what messages show.
@@ -92,8 +101,16 @@ pub fn load(path: &Path) -> Result<Texture, TextureError> {
 /// # Errors
 /// As [`load`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
+    decode_as(bytes, path, Reading::default())
+}
+
+/// As [`decode`], read in another way.
+///
+/// # Errors
+/// As [`load`].
+pub fn decode_as(bytes: &[u8], path: &Path, reading: Reading) -> Result<Texture, TextureError> {
     let format = format_of(bytes, path, &[ImageFormat::Png, ImageFormat::Jpeg])?;
-    Ok(from_picture(checked(bytes, path, format)?, path))
+    Ok(from_picture(checked(bytes, path, format)?, path, reading))
 }
 
 /// The format of a file, which must be one of these.
@@ -143,35 +160,20 @@ fn checked_up_to(bytes: &[u8], path: &Path, format: ImageFormat, most: u64) -> R
     Ok(picture)
 }
 
-#[expect(
-    clippy::indexing_slicing,
-    reason = "a 16-bit value has its entry of 65536, and pixels are chunks of exactly three"
-)]
-fn from_picture(picture: DynamicImage, path: &Path) -> Texture {
+fn from_picture(picture: DynamicImage, path: &Path, reading: Reading) -> Texture {
     let (width, height) = (picture.width(), picture.height());
-    let warnings = warning_of_alpha(&picture, path).into_iter().collect();
-    let texels = match picture {
-        DynamicImage::ImageLumaA16(_)
-        | DynamicImage::ImageLuma16(_)
-        | DynamicImage::ImageRgb16(_)
-        | DynamicImage::ImageRgba16(_) => {
-            let table = tracer_kernels::srgb::linear_of_srgb16();
-            let picture = picture.into_rgb16();
-            Texels::Linear(
-                picture.as_raw().par_chunks_exact(3).map(|p| [0, 1, 2].map(|c| table[usize::from(p[c])])).collect(),
-            )
-        }
-        other => {
-            let picture = other.into_rgb8();
-            let pack = |p: &[u8]| u32::from_le_bytes([p[0], p[1], p[2], 0]);
-            Texels::Srgb8(picture.as_raw().par_chunks_exact(3).map(pack).collect())
-        }
-    };
-    Texture { width, height, texels, warnings }
+    let warnings = warning_of_alpha(&picture, path, reading.channel).into_iter().collect();
+    Texture { width, height, texels: reading.texels(picture), warnings }
 }
 
-/// The warning that a picture is not opaque everywhere.
-fn warning_of_alpha(picture: &DynamicImage, path: &Path) -> Option<Diagnostic> {
+/// The warning that a picture is not opaque everywhere, or that it has no alpha where that is all that counts.
+fn warning_of_alpha(picture: &DynamicImage, path: &Path, channel: Channel) -> Option<Diagnostic> {
+    match channel {
+        Channel::Alpha => return (!picture.color().has_alpha()).then(|| no_alpha(path)),
+        // Who names a channel knows that there are others.
+        Channel::Red | Channel::Green | Channel::Blue | Channel::Luminance => return None,
+        Channel::Color => {}
+    }
     let transparent = match picture {
         DynamicImage::ImageLumaA8(p) => p.pixels().any(|p| p.0[1] != u8::MAX),
         DynamicImage::ImageRgba8(p) => p.pixels().any(|p| p.0[3] != u8::MAX),
@@ -182,4 +184,11 @@ fn warning_of_alpha(picture: &DynamicImage, path: &Path) -> Option<Diagnostic> {
     let message = "the picture has an alpha channel, which is ignored";
     let warning = Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, message);
     transparent.then(|| warning.expected("an opaque picture").at_line(path, 0))
+}
+
+/// The warning that what counts of a picture is not there.
+fn no_alpha(path: &Path) -> Diagnostic {
+    let message = "the picture has no alpha channel, and its alpha is all that counts: it is 1 everywhere";
+    let warning = Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, message);
+    warning.expected("a picture with an alpha channel").hint("name another `channel`: Luminance").at_line(path, 0)
 }

@@ -33,6 +33,44 @@ const PATTERNS: [&str; 22] = [
     "Voronoi(feature: F2MinusF1, jitter: 0.3, mapping: Uv(scale: (8, 4), rotation: 10))",
 ];
 
+/// By points, and made of others.
+const MADE: [&str; 26] = [
+    "ColorRamp(input: Gradient(), interpolation: Constant, stops: [(at: 0.3, color: 0.1), (at: 0.3, color: 0.9), \
+     (at: 0.6, color: 0.4)])",
+    "Checkerboard(a: 0.1, b: 0.9, mapping: Planar(origin: (0.3, 0.1, 0.2), normal: (1, 2, 3), size: (0.3, 0.2)))",
+    "Lines(a: 0.2, b: 0.9, width: 0.4, mapping: Planar(size: 0.25))",
+    "Gradient(a: 0.1, b: 0.9, axis: X, mapping: Planar(origin: (-0.5, 0, 0), normal: (0, 0, 1), size: 1.2))",
+    "Dots(a: 0.1, b: 0.9, mapping: Spherical(center: (0.1, 0.2, 0.05), axis: (1, 2, 0.5), scale: (12, 6)))",
+    "Gradient(a: 0.1, b: 0.9, mapping: Spherical(axis: (0, 0, 1)))",
+    "Noise(mapping: Spherical(scale: (9, 4)))",
+    "Gradient(a: (0.1, 0.2, 0.9), b: 0.9, axis: X, mapping: Triplanar(scale: 1.7, blend: 0.5))",
+    "Noise(b: (0.9, 0.5, 0.2), mapping: Triplanar(scale: 3))",
+    "Marble(mapping: Triplanar(scale: -2, blend: 0.05))",
+    r#"Texture(file: "assets/tile.png", mapping: Planar(origin: (0.1, 0, 0), normal: (0, 1, 2), size: (3, 2)))"#,
+    r#"Texture(file: "assets/tile.png", channel: Green, mapping: Spherical(axis: (1, 1, 0), scale: (1, 0.5)))"#,
+    "Texture(file: \"assets/tile.png\", color_space: Linear, wrap: Mirror, mapping: Triplanar(scale: 0.6, blend: \
+     0.3))",
+    "Multiply(a: Noise(mapping: Object(scale: 3)), b: Marble(mapping: World(scale: 1.5)))",
+    "Multiply(a: (0.9, 0.5, 0.2), b: Texture(file: \"assets/tile.png\", channel: Luminance, mapping: Uv(scale: (2, \
+     1))))",
+    "Mix(a: (0.1, 0.2, 0.3), b: Wood(mapping: Object(scale: 2)), weight: Noise(mapping: Object(scale: 3)))",
+    "Mix(a: 0.1, b: (0.9, 0.3, 0.2))",
+    r#"Mix(a: Marble(), b: Gradient(), weight: Texture(file: "assets/tile.png", mapping: Planar(size: 3)))"#,
+    "Wood(a: Noise(mapping: Object(scale: 3)), b: (0.9, 0.6, 0.3), mapping: Object(scale: 2))",
+    "Gradient(a: Texture(file: \"assets/tile.png\"), b: Texture(file: \"assets/tile.png\", color_space: Linear), \
+     axis: X)",
+    "Checkerboard(a: Noise(mapping: Object(scale: 3)), b: 0.9, mapping: Uv(scale: 5))",
+    "Noise(a: Marble(), b: Noise(mapping: World(scale: 2)), mapping: Triplanar(scale: 2, blend: 0.4))",
+    "ColorRamp(input: Noise(mapping: Object(scale: 2)), stops: [(at: 0.3, color: 0.1), (at: 0.45, color: (0.9, 0.5, \
+     0.2)), (at: 0.7, color: (0.1, 0.3, 0.9))])",
+    "ColorRamp(input: Gradient(a: (0.9, 0.1, 0.3), b: (0.1, 0.9, 0.2)), interpolation: Smooth, stops: [(at: 0.2, \
+     color: 0.1), (at: 0.8, color: 0.9)])",
+    "ColorRamp(input: Marble(mapping: Object(scale: 2)), stops: [(at: 0, color: 0.1), (at: 1, color: (0.2, 0.5, \
+     0.9))], interpolation: Linear)",
+    "Multiply(a: ColorRamp(input: Mix(a: Noise(), b: Marble(), weight: Gradient()), stops: [(at: 0.2, color: 0.3), \
+     (at: 0.9, color: 0.9)]), b: Mix(a: Wood(), b: Multiply(a: Noise(), b: 0.8), weight: Marble()))",
+];
+
 fn loaded(text: &str) -> Scene {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden");
     let loaded = scene_format::load_str("s.ron", text, scene_format::Syntax::Ron, &golden, &[]);
@@ -111,11 +149,12 @@ fn seen(scene: &Scene, level: Level) -> Vec<[f32; 3]> {
 /// on the other side: such points are as rare as the width of the rounding, 2e-5 of a cell, is small.
 #[test]
 fn every_pattern_is_that_of_the_reference_at_every_level() {
-    for pattern in PATTERNS {
+    for pattern in PATTERNS.into_iter().chain(MADE) {
         let scene = scene(pattern);
         let expected = first_hits(&scene);
         let jumps =
-            ["Checkerboard", "Lines", "Dots", "Voronoi(feature: Cell"].iter().any(|name| pattern.starts_with(name));
+            ["Checkerboard", "Lines", "Dots", "Voronoi(feature: Cell"].iter().any(|name| pattern.starts_with(name))
+                || pattern.contains("Constant");
         let ours = seen(&scene, Level::PORTABLE);
         let mut other_side = 0;
         for (k, (got, hit)) in ours.iter().zip(&expected).enumerate() {

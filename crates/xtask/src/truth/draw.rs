@@ -1,14 +1,13 @@
 //! What is drawn at random for scenes of every kind: colours, materials, textures, lamps, lenses, filters.
 
 use super::meshes::{Point, Shape};
+use super::textures::albedo;
 use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Background, Checkerboard, Color, Conductor, Diffuse, Dots, Emission, Environment, Extent, Gradient,
-    GradientAxis, Instances, Light, Lines, LinesAlong, Mapping, Marble, Material, MaterialRef, Mesh, Metal, Mirror,
-    NamedMaterial, Noise, NoiseKind, Object, PerAxis, PixelFilter, Placements, Reflectance, SolidMapping, Texture,
-    TextureFilter, TextureWrap, ToneMap, Transform, Voronoi, VoronoiFeature, Wood,
+    Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, Material, MaterialRef,
+    Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -35,22 +34,6 @@ pub fn color(random: &mut Random) -> Color {
     if once_in(random, 2) { [brightness; 3] } else { [0; 3].map(|_| random.between(0.05, 0.9)) }
 }
 
-/// A small picture, coarse enough that its texels show.
-fn texture(world: &mut World, random: &mut Random) -> Albedo {
-    let (a, b, n) = (color(random), color(random), 2.0 + random.below(4) as f64);
-    let paint = |u: f64, v: f64| {
-        let checked = ((u * n).floor() + (v * n).floor()) % 2.0 == 0.0;
-        DVec3::from_array(if checked { a } else { b }) * (0.6 + 0.4 * u)
-    };
-    let picture = Picture::from_fn(8, 8, paint);
-    // Eight by eight pixels: the encoder has nothing to refuse.
-    let Ok(bytes) = picture.png() else { return Albedo::default() };
-    let file = world.file("texture", "png", bytes).into();
-    let filter = one_of(random, &[TextureFilter::Bilinear, TextureFilter::Nearest]);
-    let wrap = one_of(random, &[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]);
-    Albedo::Texture(Texture { file, filter, wrap, mapping: mapping(random) })
-}
-
 /// Light from where no object is: a colour, or a coarse picture of it with a bright patch.
 pub fn background(world: &mut World, random: &mut Random) -> Background {
     let sky = color(random);
@@ -72,73 +55,6 @@ pub fn background(world: &mut World, random: &mut Random) -> Background {
     let scale = if once_in(random, 2) { [times; 3] } else { color(random).map(|c| times * c) };
     let camera_visible = !once_in(random, 3);
     Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible }))
-}
-
-/// Where a texture lies, as often as not as it is.
-fn mapping(random: &mut Random) -> Mapping {
-    if once_in(random, 2) {
-        return Mapping::default();
-    }
-    let side = |random: &mut Random| magnitude(random, 0.5, 6.0);
-    let scale = if once_in(random, 2) { [side(random); 2] } else { [side(random), -side(random)] };
-    let offset = if once_in(random, 2) { [0.0; 2] } else { [random.number(), random.between(-3.0, 3.0)] };
-    Mapping::uv(scale, if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) }, offset)
-}
-
-/// Where a texture lies on a surface or in space.
-fn solid_mapping(random: &mut Random) -> SolidMapping {
-    let cells = |random: &mut Random| magnitude(random, 0.5, 6.0);
-    let scale = PerAxis(if once_in(random, 2) { [cells(random); 3] } else { [0; 3].map(|_| cells(random)) });
-    let offset = if once_in(random, 2) { [0.0; 3] } else { [0; 3].map(|_| random.between(-3.0, 3.0)) };
-    match random.below(4) {
-        0 => SolidMapping::object(),
-        1 => SolidMapping::Object { scale, offset },
-        2 => SolidMapping::World { scale, offset },
-        _ => mapping(random).into(),
-    }
-}
-
-/// A texture that is reckoned.
-fn pattern(random: &mut Random) -> Albedo {
-    let (a, b) = (color(random).into(), color(random).into());
-    let solid = solid_mapping(random);
-    let half = |random: &mut Random, usual: f64, high: f64| {
-        if once_in(random, 2) { usual } else { random.between(0.1 * high, high) }
-    };
-    match random.below(8) {
-        0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
-        1 => {
-            let along = one_of(random, &[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
-            let width = half(random, 0.05, 0.9);
-            Albedo::Lines(Box::new(Lines { a, b, width, along, mapping: mapping(random) }))
-        }
-        2 => Albedo::Dots(Box::new(Dots { a, b, radius: half(random, 0.3, 0.5), mapping: mapping(random) })),
-        3 => {
-            let axis = one_of(random, &[GradientAxis::X, GradientAxis::Y, GradientAxis::Z, GradientAxis::Radial]);
-            Albedo::Gradient(Box::new(Gradient { a, b, axis, mapping: solid }))
-        }
-        4 => {
-            let kind = one_of(random, &[NoiseKind::Fbm, NoiseKind::Perlin, NoiseKind::Turbulence]);
-            let octaves = if once_in(random, 2) { 6 } else { 1 + random.below(10) as u32 };
-            let (lacunarity, gain) = (half(random, 2.0, 3.0).max(1.0), half(random, 0.5, 0.9));
-            Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
-        }
-        5 => Albedo::Wood(Box::new(Wood { a, b, distortion: half(random, 0.2, 2.0), mapping: solid })),
-        6 => Albedo::Marble(Box::new(Marble { a, b, distortion: half(random, 1.0, 3.0), mapping: solid })),
-        _ => {
-            let feature = one_of(random, &[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
-            Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: half(random, 1.0, 1.0), mapping: solid }))
-        }
-    }
-}
-
-/// A colour or a texture.
-pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
-    match random.below(8) {
-        0 => texture(world, random),
-        1 => pattern(random),
-        _ => Albedo::Color(color(random).into()),
-    }
 }
 
 /// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.

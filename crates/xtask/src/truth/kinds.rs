@@ -464,16 +464,10 @@ pub const KINDS: [Kind; 16] = [
 
 /// Whether a pattern lies in the scene's space, whatever is done to what it is on.
 fn lies_in_the_world(albedo: &Albedo) -> bool {
-    let mapping = match albedo {
-        Albedo::Checkerboard(pattern) => &pattern.mapping,
-        Albedo::Gradient(pattern) => &pattern.mapping,
-        Albedo::Noise(pattern) => &pattern.mapping,
-        Albedo::Wood(pattern) => &pattern.mapping,
-        Albedo::Marble(pattern) => &pattern.mapping,
-        Albedo::Voronoi(pattern) => &pattern.mapping,
-        _ => return false,
-    };
-    matches!(mapping, SolidMapping::World { .. })
+    albedo.pattern().is_some_and(|pattern| {
+        matches!(pattern.mapping(), Some(SolidMapping::World { .. }))
+            || pattern.parts().into_iter().any(lies_in_the_world)
+    })
 }
 
 /// Takes off what has no mirror image: textures of spheres, which lie by longitude, and patterns that lie in the world.

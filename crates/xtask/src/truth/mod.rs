@@ -25,6 +25,7 @@ pub mod shining;
 mod shrink;
 mod solids;
 pub mod squares;
+mod textures;
 pub mod trial;
 mod view;
 pub mod world;

@@ -40,6 +40,8 @@ pub enum Albedo {
     Texture(u32),
     /// Index into the scene's patterns.
     Pattern(u32),
+    /// Index into the scene's programs: textures made of others.
+    Program(u32),
 }
 
 impl Albedo {
@@ -47,7 +49,7 @@ impl Albedo {
     fn largest(&self) -> f64 {
         match self {
             Albedo::Color(color) => color.iter().fold(0.0, |a, &b| a.max(b)),
-            Albedo::Texture(_) | Albedo::Pattern(_) => 1.0,
+            Albedo::Texture(_) | Albedo::Pattern(_) | Albedo::Program(_) => 1.0,
         }
     }
 }
@@ -175,7 +177,8 @@ impl Material {
 
 /// Materials as look-up tables, index = material; the last entry is the emitters' (black).
 pub struct MaterialTable {
-    /// The colour; the bits of one of [`Lobe`], and of texture + 1, or 0; patterns are numbered behind the textures.
+    /// The colour; the bits of one of [`Lobe`], and of texture + 1, or 0; patterns are numbered behind the textures,
+    /// programs behind them.
     pub rows: Table<5>,
     /// What the lobe says.
     pub parameters: Table<2>,
@@ -193,8 +196,8 @@ pub struct MaterialTable {
 
 impl MaterialTable {
     /// Of the materials, in their order. `first_pattern`: how many textures there are, behind which patterns are
-    /// numbered.
-    pub fn new(materials: &[Material], first_pattern: u32) -> Self {
+    /// numbered; `first_program`: how many both are, behind which programs are.
+    pub fn new(materials: &[Material], first_pattern: u32, first_program: u32) -> Self {
         let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
         let conductors =
             || materials.iter().enumerate().filter_map(|(k, material)| Some((k, material.kind().conductor()?)));
@@ -207,12 +210,13 @@ impl MaterialTable {
             Albedo::Color(_) => 0,
             Albedo::Texture(t) => t + 1,
             Albedo::Pattern(p) => first_pattern + p + 1,
+            Albedo::Program(p) => first_program + p + 1,
         };
         MaterialTable {
             rows: Table::new(rows.iter().map(|row| {
                 let color = match row.color {
                     Albedo::Color(color) => color,
-                    Albedo::Texture(_) | Albedo::Pattern(_) => [1.0; 3],
+                    Albedo::Texture(_) | Albedo::Pattern(_) | Albedo::Program(_) => [1.0; 3],
                 };
                 let [r, g, b] = color.map(|x| x as f32);
                 [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(row))]

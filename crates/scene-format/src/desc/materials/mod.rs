@@ -71,9 +71,9 @@ impl Material {
         self.words().color()
     }
 
-    /// The picture that it takes its colour from.
-    pub fn texture(&self) -> Option<&Texture> {
-        self.color()?.image()
+    /// The pictures that it takes its colour from.
+    pub fn textures(&self) -> Vec<&Texture> {
+        self.color().map_or_else(Vec::new, Albedo::images)
     }
 
     /// Whether light passes its surfaces.

@@ -1,8 +1,6 @@
 //! Squares, or cubes, of two colours.
 
-use super::{Pattern, SolidMapping, Uv};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping, Uv};
 use crate::schema::Rule;
 use crate::words::scene_struct;
 
@@ -11,9 +9,9 @@ scene_struct! {
     /// even. In space they are cubes.
     pub struct Checkerboard as "Checkerboard", "a checkerboard" {
         /// One colour.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The other one.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along
         /// a unit of length.
         mapping: SolidMapping = SolidMapping::Uv(Uv::default());
@@ -21,11 +19,11 @@ scene_struct! {
 }
 
 impl Pattern for Checkerboard {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

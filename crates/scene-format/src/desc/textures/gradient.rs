@@ -1,8 +1,6 @@
 //! From one colour to another.
 
-use super::{Pattern, SolidMapping, Uv};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping, Uv};
 use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
@@ -10,9 +8,9 @@ scene_struct! {
     /// From `a` where the mapped coordinate is 0 to `b` where it is 1, linear between, and constant beyond.
     pub struct Gradient as "Gradient", "a gradient" {
         /// The colour at 0.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour at 1.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// What runs from 0 to 1.
         axis: GradientAxis = GradientAxis::Y;
         /// How it lies.
@@ -35,11 +33,11 @@ scene_words! {
 }
 
 impl Pattern for Gradient {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

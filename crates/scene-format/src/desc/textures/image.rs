@@ -17,8 +17,26 @@ scene_struct! {
         filter: TextureFilter = TextureFilter::Bilinear;
         /// Beyond the borders.
         wrap: TextureWrap = TextureWrap::Repeat;
+        /// What the picture's numbers mean.
+        color_space: TextureColorSpace = TextureColorSpace::Auto;
+        /// What of the picture counts.
+        channel: TextureChannel = TextureChannel::Auto;
         /// Where it lies.
         mapping: Mapping = Mapping::default();
+    }
+}
+
+impl Texture {
+    /// The whole picture as it is.
+    pub fn of(file: Spanned<Arc<Path>>) -> Self {
+        Texture {
+            file,
+            filter: TextureFilter::Bilinear,
+            wrap: TextureWrap::Repeat,
+            color_space: TextureColorSpace::Auto,
+            channel: TextureChannel::Auto,
+            mapping: Mapping::default(),
+        }
     }
 }
 
@@ -41,5 +59,36 @@ scene_words! {
         Clamp,
         /// Tiles, every second one mirrored.
         Mirror,
+    }
+}
+
+scene_words! {
+    /// What the numbers of a picture mean. Alpha is linear whatever is said here.
+    pub enum TextureColorSpace, "colour space of a texture" {
+        /// `Srgb` where a colour is wanted, `Linear` where a number is: the `weight` of a `Mix`, the `input` of a
+        /// `ColorRamp`.
+        Auto,
+        /// Encoded as screens want it: photographs, and what is painted to look right.
+        Srgb,
+        /// The very numbers: masks, measured reflectance, what another program has reckoned.
+        Linear,
+    }
+}
+
+scene_words! {
+    /// What of a picture counts.
+    pub enum TextureChannel, "channel of a texture" {
+        /// Red, green and blue.
+        Auto,
+        /// Red alone, as a grey.
+        Red,
+        /// Green alone, as a grey.
+        Green,
+        /// Blue alone, as a grey.
+        Blue,
+        /// How opaque it is, as a grey; 1 where the picture does not say.
+        Alpha,
+        /// How light it is, as a grey: 0.2126 R + 0.7152 G + 0.0722 B.
+        Luminance,
     }
 }

@@ -1,8 +1,6 @@
 //! Lines at whole coordinates.
 
-use super::{Mapping, Pattern, SolidMapping};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Mapping, Pattern, SolidMapping};
 use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
@@ -10,9 +8,9 @@ scene_struct! {
     /// Lines where the mapped coordinates are whole: a grid, tiles with joints, stripes.
     pub struct Lines as "Lines", "a pattern of lines" {
         /// The colour of the lines.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour between them.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// How wide a line is; lines are one apart. 0.5 makes even stripes.
         width: f64 = 0.05 => Rule::within("a width", 0.0, 1.0);
         /// Which way the lines run.
@@ -35,11 +33,11 @@ scene_words! {
 }
 
 impl Pattern for Lines {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone().into()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone().into())
     }
 }

@@ -1,16 +1,16 @@
 //! Where a texture lies on a surface, or in space.
 
-use crate::desc::PerAxis;
+use crate::desc::{PerAxis, Vec3};
+use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Words, scene_enum, scene_struct};
 
-/// From a surface's texture coordinates to those of a texture: turned by `rotation` after they were scaled, then moved.
-/// Its size is that of a pointer, since nearly all textures lie as they are.
+/// Where a texture lies on a surface. Its size is that of a pointer, since nearly all textures lie as they are.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Mapping(Option<Box<Uv>>);
+pub struct Mapping(Option<Box<MappingWords>>);
 
 scene_struct! {
     /// By the surface's texture coordinates: scaled, then turned, then moved.
@@ -21,6 +21,48 @@ scene_struct! {
         rotation: f64 = 0.0 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");
         /// Added at last.
         offset: [f64; 2] = [0.0; 2] => Rule::within("two numbers", -1e6, 1e6);
+    }
+}
+
+scene_struct! {
+    /// Seen along a direction, as if a projector far away threw it on the object: from there it is upright, what faces
+    /// away shows it mirrored, what runs along the direction shows it drawn out. It goes by the coordinates that the
+    /// shape is written in, before its `transform` and `placements`, and needs no texture coordinates. To the right and
+    /// upwards are those of a `Rectangle` with this normal: to the right is (0, 1, 0) x normal, or (1, 0, 0) where the
+    /// normal is upright.
+    pub struct Planar as "Planar", "a mapping by a plane" {
+        /// Where its lower left corner is.
+        origin: Vec3 = [0.0; 3] => Rule::point();
+        /// The direction that it is seen from.
+        normal: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// How far it goes to the right and upwards before it begins again, or one number for both.
+        size: PerAxis<2> = PerAxis([1.0; 2]) => Rule::length("a length");
+    }
+}
+
+scene_struct! {
+    /// By longitude and latitude about a point, as a map lies on a globe: u goes round once and v is 0 at the lower
+    /// pole and 1 at the upper one, as on a `Sphere`. It goes by the coordinates that the shape is written in, before
+    /// its `transform` and `placements`, and needs no texture coordinates.
+    pub struct Spherical as "Spherical", "a mapping by longitude and latitude" {
+        /// The point in the middle.
+        center: Vec3 = [0.0; 3] => Rule::point();
+        /// The direction of the upper pole. Where it is upright u begins at -z and is 1/2 at +z.
+        axis: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
+        /// So many times round and from pole to pole, or one number for both.
+        scale: PerAxis<2> = PerAxis([1.0; 2]) => Rule::within("a factor", -1e6, 1e6);
+    }
+}
+
+scene_struct! {
+    /// Seen along x, along y and along z at once, each as much as the surface faces that way: no seams, no drawn out
+    /// sides, no texture coordinates. It is three `Planar` mappings in one, of the normals (1, 0, 0), (0, 1, 0) and (0,
+    /// 0, 1), mixed by |n|^(1 / `blend`) with n the normal in the coordinates that the shape is written in.
+    pub struct Triplanar as "Triplanar", "a mapping from three sides" {
+        /// So many times along a unit of length.
+        scale: f64 = 1.0 => Rule::within("a factor", -1e6, 1e6);
+        /// How softly one side goes over into the next: near 0 with a sharp edge.
+        blend: f64 = 0.2 => Rule::within("a number", 0.01, 1.0);
     }
 }
 
@@ -45,21 +87,37 @@ impl Default for Uv {
     }
 }
 
+impl Default for Planar {
+    fn default() -> Self {
+        Planar { origin: [0.0; 3], normal: [0.0, 1.0, 0.0].into(), size: PerAxis([1.0; 2]) }
+    }
+}
+
+impl Default for Spherical {
+    fn default() -> Self {
+        Spherical { center: [0.0; 3], axis: [0.0, 1.0, 0.0].into(), scale: PerAxis([1.0; 2]) }
+    }
+}
+
+impl Default for Triplanar {
+    fn default() -> Self {
+        Triplanar { scale: 1.0, blend: 0.2 }
+    }
+}
+
 impl Mapping {
     /// R(rotation)(scale uv) + offset; the rotation in degrees, counter-clockwise where v points up.
     pub fn uv(scale: [f64; 2], rotation: f64, offset: [f64; 2]) -> Self {
-        let uv = Uv { scale: PerAxis(scale), rotation, offset };
-        Mapping((uv != Uv::default()).then(|| Box::new(uv)))
+        Uv { scale: PerAxis(scale), rotation, offset }.into()
     }
 
-    /// What it says.
-    pub fn words(&self) -> Uv {
-        self.0.as_deref().cloned().unwrap_or_default()
-    }
-
-    /// Rows of the matrix (x, y, 1) from a surface's coordinates to the texture's.
-    pub fn rows(&self) -> [[f64; 3]; 2] {
-        self.words().rows()
+    /// By the surface's texture coordinates, if it is; `None` where it goes by points in space.
+    pub fn by_uv(&self) -> Option<Uv> {
+        match self.0.as_deref() {
+            None => Some(Uv::default()),
+            Some(MappingWords::Uv(uv)) => Some(uv.clone()),
+            Some(_) => None,
+        }
     }
 }
 
@@ -68,6 +126,12 @@ scene_enum! {
     pub(crate) enum MappingWords, "mapping" {
         /// By the surface's texture coordinates: scaled, then turned, then moved.
         Uv(Uv);
+        /// Seen along a direction.
+        Planar(Box<Planar>);
+        /// By longitude and latitude about a point.
+        Spherical(Box<Spherical>);
+        /// Seen along x, along y and along z at once.
+        Triplanar(Triplanar);
     }
 }
 
@@ -93,6 +157,12 @@ scene_enum! {
             /// Added at last.
             offset: [f64; 3] = [0.0; 3] => Rule::within("three numbers", -1e6, 1e6);
         };
+        /// Seen along a direction.
+        Planar(Box<Planar>);
+        /// By longitude and latitude about a point.
+        Spherical(Box<Spherical>);
+        /// Seen along x, along y and along z at once.
+        Triplanar(Triplanar);
     }
 }
 
@@ -103,9 +173,38 @@ impl SolidMapping {
     }
 }
 
+impl From<Uv> for Mapping {
+    fn from(uv: Uv) -> Self {
+        Mapping((uv != Uv::default()).then(|| Box::new(MappingWords::Uv(uv))))
+    }
+}
+
+impl From<Planar> for Mapping {
+    fn from(planar: Planar) -> Self {
+        Mapping(Some(Box::new(MappingWords::Planar(Box::new(planar)))))
+    }
+}
+
+impl From<Spherical> for Mapping {
+    fn from(spherical: Spherical) -> Self {
+        Mapping(Some(Box::new(MappingWords::Spherical(Box::new(spherical)))))
+    }
+}
+
+impl From<Triplanar> for Mapping {
+    fn from(triplanar: Triplanar) -> Self {
+        Mapping(Some(Box::new(MappingWords::Triplanar(triplanar))))
+    }
+}
+
 impl From<Mapping> for SolidMapping {
     fn from(mapping: Mapping) -> Self {
-        SolidMapping::Uv(mapping.words())
+        match mapping.0.map_or_else(|| MappingWords::Uv(Uv::default()), |words| *words) {
+            MappingWords::Uv(uv) => SolidMapping::Uv(uv),
+            MappingWords::Planar(planar) => SolidMapping::Planar(planar),
+            MappingWords::Spherical(spherical) => SolidMapping::Spherical(spherical),
+            MappingWords::Triplanar(triplanar) => SolidMapping::Triplanar(triplanar),
+        }
     }
 }
 
@@ -113,11 +212,16 @@ impl Words for Mapping {
     const TYPE: Type = MappingWords::TYPE;
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        let MappingWords::Uv(uv) = MappingWords::read(reader, item, at)?;
-        Some(Mapping::uv(uv.scale.0, uv.rotation, uv.offset))
+        Some(match MappingWords::read(reader, item, at)? {
+            MappingWords::Uv(uv) => uv.into(),
+            other => Mapping(Some(Box::new(other))),
+        })
     }
 
     fn form(&self, all: bool) -> Form {
-        MappingWords::Uv(self.words()).form(all)
+        match &self.0 {
+            None => MappingWords::Uv(Uv::default()).form(all),
+            Some(words) => words.form(all),
+        }
     }
 }

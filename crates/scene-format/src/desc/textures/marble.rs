@@ -1,8 +1,6 @@
 //! Veins of marble.
 
-use super::{Pattern, SolidMapping};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping};
 use crate::schema::Rule;
 use crate::words::scene_struct;
 
@@ -11,9 +9,9 @@ scene_struct! {
     /// Object()` they turn with the object's `transform`, as `Wood` does.
     pub struct Marble as "Marble", "marble" {
         /// The colour of the veins.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour between them.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// How far turbulence bends the veins, in veins.
         distortion: f64 = 1.0 => Rule::within("a distance", -1e3, 1e3);
         /// How it lies: `Object(scale: 4)` makes it four times finer.
@@ -22,11 +20,11 @@ scene_struct! {
 }
 
 impl Pattern for Marble {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

@@ -1,43 +1,52 @@
 //! Textures: one file each, with the texture's words, and one line in the registry below.
 
 mod checkerboard;
+mod color_ramp;
 mod dots;
 mod gradient;
 mod image;
 mod lines;
 mod mapping;
 mod marble;
+mod mix;
+mod multiply;
 mod noise;
 mod voronoi;
 mod wood;
 
 pub use checkerboard::Checkerboard;
+pub use color_ramp::{ColorRamp, RampInterpolation, Stop, Stops};
 pub use dots::Dots;
 pub use gradient::{Gradient, GradientAxis};
-pub use image::{Texture, TextureFilter, TextureWrap};
+pub use image::{Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap};
 pub use lines::{Lines, LinesAlong};
 pub(crate) use mapping::MappingWords;
-pub use mapping::{Mapping, SolidMapping, Uv};
+pub use mapping::{Mapping, Planar, SolidMapping, Spherical, Triplanar, Uv};
 pub use marble::Marble;
+pub use mix::Mix;
+pub use multiply::Multiply;
 pub use noise::{Noise, NoiseKind};
 pub use voronoi::{Voronoi, VoronoiFeature};
 pub use wood::Wood;
 
 use super::Color;
-use crate::diagnostic::Spanned;
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum};
 
-/// A texture that is reckoned: its colour at a point is mix(a, b, t), with t from 0 to 1 by the kind of pattern.
+/// A texture that is reckoned: of most kinds the colour at a point is mix(a, b, t), with t from 0 to 1 by the kind of
+/// pattern.
 pub trait Pattern {
-    /// a and b.
-    fn colors(&self) -> [Color; 2];
+    /// The colours and textures that it is made of, in the order of its fields: a and b.
+    fn parts(&self) -> Vec<&Albedo>;
 
-    /// From the surface's texture coordinates, or from points, to those that t depends on.
-    fn mapping(&self) -> SolidMapping;
+    /// From the surface's texture coordinates, or from points, to those that t depends on; `None`: it has no
+    /// coordinates of its own.
+    fn mapping(&self) -> Option<SolidMapping>;
 }
 
 macro_rules! textures {
@@ -115,6 +124,12 @@ textures! {
     pattern Marble;
     /// Cells about scattered points, one in each unit cube (Worley 1996): stones, scales, cracks.
     pattern Voronoi;
+    /// Colours by the luminance of another texture.
+    pattern ColorRamp;
+    /// Between two colours or textures, by a number or a texture.
+    pattern Mix;
+    /// The product of two colours or textures, channel by channel.
+    pattern Multiply;
 }
 
 impl Albedo {
@@ -126,9 +141,34 @@ impl Albedo {
         }
     }
 
+    /// All pictures in it.
+    pub fn images(&self) -> Vec<&Texture> {
+        let mut found = Vec::from_iter(self.image());
+        for part in self.pattern().map_or_else(Vec::new, Pattern::parts) {
+            found.extend(part.images());
+        }
+        found
+    }
+
     /// Whether it goes by a surface's texture coordinates.
     pub fn wants_uv(&self) -> bool {
-        self.image().is_some() || self.pattern().is_some_and(|pattern| matches!(pattern.mapping(), SolidMapping::Uv(_)))
+        let image = self.image().is_some_and(|image| image.mapping.by_uv().is_some());
+        image
+            || self.pattern().is_some_and(|pattern| {
+                matches!(pattern.mapping(), Some(SolidMapping::Uv(_)))
+                    || pattern.parts().iter().any(|part| part.wants_uv())
+            })
+    }
+
+    /// Whether it is the same everywhere.
+    pub fn is_color(&self) -> bool {
+        matches!(self, Albedo::Color(_))
+    }
+}
+
+impl From<Color> for Albedo {
+    fn from(color: Color) -> Self {
+        Albedo::Color(color.into())
     }
 }
 
@@ -148,8 +188,47 @@ fn is_color(name: &str) -> bool {
     ["rgb", "srgb", "color", "colour", "vec3", "float3"].iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
+/// Textures within each other, at most.
+const MOST_NESTED: usize = 16;
+/// Textures in one, at most: with so many no program needs more places than the engine has.
+const MOST_TEXTURES: usize = 1024;
+
+impl Albedo {
+    /// Reads a texture, within those that are being read.
+    fn texture(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let nested = &mut reader.textures;
+        if nested.depth == 0 {
+            nested.count = 0;
+        }
+        nested.count += 1;
+        let fault = if nested.depth >= MOST_NESTED {
+            Some(format!("textures stand more than {MOST_NESTED} deep"))
+        } else {
+            (nested.count == MOST_TEXTURES + 1)
+                .then(|| format!("a texture is made of more than {MOST_TEXTURES} others"))
+        };
+        if let Some(message) = fault {
+            reader.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
+            return None;
+        }
+        nested.depth += 1;
+        let words = PatternWords::read(reader, item, at);
+        reader.textures.depth -= 1;
+        words.map(Albedo::of)
+    }
+}
+
+/// Textures that are being read, one within the other.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Nested {
+    depth: usize,
+    /// How many of the outermost were read so far.
+    count: usize,
+}
+
 impl Words for Albedo {
-    const TYPE: Type = Type::OneOf(&[Type::Color, PatternWords::TYPE]);
+    // Textures hold textures.
+    const TYPE: Type = Type::OneOf(&[Type::Color, Type::Later(|| PatternWords::TYPE)]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         // `rgb(..)` and `red`: a colour, if not ours; `wood` may be a texture.
@@ -162,7 +241,7 @@ impl Words for Albedo {
             return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
-            return PatternWords::read(reader, item, at).map(Albedo::of);
+            return Albedo::texture(reader, item, at);
         }
         <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
     }

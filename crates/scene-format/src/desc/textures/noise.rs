@@ -1,8 +1,6 @@
 //! Clouds of noise.
 
-use super::{Pattern, SolidMapping};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping};
 use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
@@ -13,9 +11,9 @@ scene_struct! {
     /// what is to be seen.
     pub struct Noise as "Noise", "noise" {
         /// The colour where the noise is lowest.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour where it is highest.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// How octaves are mixed.
         kind: NoiseKind = NoiseKind::Fbm;
         /// How many; Perlin has one whatever is said here.
@@ -42,11 +40,11 @@ scene_words! {
 }
 
 impl Pattern for Noise {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

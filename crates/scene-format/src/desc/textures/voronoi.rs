@@ -1,8 +1,6 @@
 //! Cells about scattered points.
 
-use super::{Pattern, SolidMapping};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping};
 use crate::schema::Rule;
 use crate::words::{scene_struct, scene_words};
 
@@ -11,9 +9,9 @@ scene_struct! {
     /// scales, cracks.
     pub struct Voronoi as "Voronoi", "a pattern of cells" {
         /// The colour where the feature is 0.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour where it is 1.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// What goes from 0 to 1.
         feature: VoronoiFeature = VoronoiFeature::F1;
         /// How far points are from the middles of their cubes: at 0 they are there, at 1 anywhere in the cube.
@@ -36,11 +34,11 @@ scene_words! {
 }
 
 impl Pattern for Voronoi {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

@@ -1,8 +1,6 @@
 //! Rings of wood.
 
-use super::{Pattern, SolidMapping};
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use super::{Albedo, Pattern, SolidMapping};
 use crate::schema::Rule;
 use crate::words::scene_struct;
 
@@ -14,9 +12,9 @@ scene_struct! {
     /// degrees: 90)])`. The heart of the tree is at x = 0, z = 0: an `offset` moves it.
     pub struct Wood as "Wood", "wood" {
         /// The colour in a ring's middle, and on the axis.
-        a: Spanned<Color> = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::share();
         /// The colour between.
-        b: Spanned<Color> = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::share();
         /// How far noise bends the rings, in rings.
         distortion: f64 = 0.2 => Rule::within("a distance", -1e3, 1e3);
         /// How it lies: `Object(scale: 4)` makes it four times finer.
@@ -25,11 +23,11 @@ scene_struct! {
 }
 
 impl Pattern for Wood {
-    fn colors(&self) -> [Color; 2] {
-        [self.a.value, self.b.value]
+    fn parts(&self) -> Vec<&Albedo> {
+        vec![&self.a, &self.b]
     }
 
-    fn mapping(&self) -> SolidMapping {
-        self.mapping.clone()
+    fn mapping(&self) -> Option<SolidMapping> {
+        Some(self.mapping.clone())
     }
 }

@@ -2,8 +2,8 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Mapping, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
+    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Material, MaterialRef, Mesh,
+    MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
     TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
@@ -124,7 +124,7 @@ pub fn textured(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Materi
 
 /// A picture as an albedo.
 pub fn picture(file: &Path, filter: TextureFilter, wrap: TextureWrap) -> Albedo {
-    Albedo::Texture(Texture { file: file.to_owned().into(), filter, wrap, mapping: Mapping::default() })
+    Albedo::Texture(Texture { filter, wrap, ..Texture::of(file.to_owned().into()) })
 }
 
 /// A mirror.

@@ -126,7 +126,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
                 let reckoned = textured & pattern.lt(texture);
                 if reckoned.any() {
                     let id = texture - F::U::splat(1) - pattern;
-                    let color = pattern_color(&tables.patterns, id, s, reckoned);
+                    let color = pattern_color(tables, id, s, reckoned);
                     bsdf.color = V3::select(reckoned, color, bsdf.color);
                 }
                 textured = textured & !reckoned;

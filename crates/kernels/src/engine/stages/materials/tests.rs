@@ -46,7 +46,7 @@ impl Rough {
             }
         };
         // It may live for ever: there are few.
-        let table = Box::leak(Box::new(MaterialTable::new(&[material], 0)));
+        let table = Box::leak(Box::new(MaterialTable::new(&[material], 0, 0)));
         Bsdf::new(table, <S as Lanes>::U::splat(0), <S as Lanes>::M::from_bits(1)).0
     }
 

@@ -7,23 +7,30 @@ mod gradient;
 mod lines;
 mod marble;
 mod noise;
+mod program;
 mod voronoi;
 mod wood;
 
 use super::surface::Surface;
 use super::textures::floor;
 use crate::lanes::{Bits, Lanes, Mask, Part};
-use crate::math::V3;
-use crate::scene::{PatternTable, STRIDE, pattern_kind as kind};
+use crate::math::{V3, acos, atan2_turns};
+use crate::scene::{PatternTable, STRIDE, Tables, pattern_kind as kind};
 
-/// The colour of pattern `id` at a surface, in the lanes of the mask; anything elsewhere. A call, since all stages that
-/// meet materials look up their colours.
+/// The colour of pattern `id`, or of a program numbered behind the patterns, at a surface, in the lanes of the mask;
+/// anything elsewhere. A call, since all stages that meet materials look up their colours.
 #[inline(always)]
-pub fn pattern_color<F: Lanes>(table: &PatternTable, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
-    F::apart(Lookup { table, id, at: At { p: s.p, u: s.u, v: s.v, body: s.body }, mask })
+pub fn pattern_color<F: Lanes>(tables: &Tables, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
+    let table = &tables.patterns;
+    let at = At { p: s.p, u: s.u, v: s.v, body: s.body };
+    if table.programs.is_empty() {
+        return F::apart(Lookup { table, id, at, mask });
+    }
+    F::apart(program::Mixed { tables, id, at, normal: s.ns, mask })
 }
 
 /// Where a surface is met.
+#[derive(Clone, Copy)]
 struct At<F: Lanes> {
     p: V3<F>,
     u: F,
@@ -116,14 +123,31 @@ fn coordinates<F: Lanes>(table: &PatternTable, id: F::U, place: F::U, s: &At<F>,
     if table.solid {
         let space = F::U::gather(&table.space, id);
         let solid = mask & !space.eq(F::U::splat(0));
-        let of_object = solid & space.eq(F::U::splat(1));
+        let of_object = solid & !space.eq(F::U::splat(2));
         let world = F::U::splat(0);
         let entry = F::U::gather(&table.entry, F::U::select(of_object, s.body, world));
         let entry = F::U::select(of_object, entry, world);
         p = V3::select(solid, mapped(&table.to_object, entry * F::U::splat(12), s.p), p);
     }
-    let p = mapped(&table.rows, place, p);
+    let mut p = mapped(&table.rows, place, p);
+    if table.spherical {
+        let on = mask & F::U::gather(&table.space, id).eq(F::U::splat(3));
+        let [u, v] = F::gather2(&table.rows, place + F::U::splat(24));
+        let (longitude, latitude) = on_sphere(p);
+        p = V3::select(on, V3(longitude * u, latitude * v, F::splat(0.0)), p);
+    }
     V3(bounded(p.0), bounded(p.1), bounded(p.2))
+}
+
+/// Longitude and latitude of a direction, from 0 to 1, as spheres have them about their y axis.
+#[inline(always)]
+fn on_sphere<F: Lanes>(p: V3<F>) -> (F, F) {
+    let (zero, half) = (F::splat(0.0), F::splat(0.5));
+    let length = p.dot(p).sqrt();
+    let usable = zero.lt(length);
+    let sine = F::select(usable, p.1 / F::select(usable, length, F::splat(1.0)), zero);
+    let latitude = acos(sine.max(F::splat(-1.0)).min(F::splat(1.0)));
+    (atan2_turns(p.0, p.2) + half, latitude.fma(F::splat(-std::f32::consts::FRAC_1_PI), F::splat(1.0)))
 }
 
 /// Within what has a fraction worth the name; what is no number becomes one.

@@ -19,7 +19,7 @@ const GOLD: Fresnel = Fresnel::Complex { ior: [0.081, 0.503, 1.464], k: [5.586, 
 const TINTED: Fresnel = Fresnel::Tinted { reflectance: Albedo::Color([0.9, 0.5, 0.1]), edge_tint: [1.0, 0.6, 0.2] };
 
 fn table(fresnel: Fresnel, alpha: f64, multiple_scattering: bool) -> MaterialTable {
-    MaterialTable::new(&[Material::Conductor(materials::Conductor { fresnel, alpha, multiple_scattering })], 0)
+    MaterialTable::new(&[Material::Conductor(materials::Conductor { fresnel, alpha, multiple_scattering })], 0, 0)
 }
 
 fn bsdf(table: &MaterialTable) -> Bsdf<'_, S> {

@@ -1,0 +1,170 @@
+//! Textures drawn at random: pictures, patterns, and what is made of both.
+
+use super::draw::{color, magnitude, once_in, one_of};
+use super::world::World;
+use crate::picture::Picture;
+use glam::DVec3;
+use scene_format::desc::{
+    Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
+    Noise, NoiseKind, PerAxis, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Voronoi, VoronoiFeature, Wood,
+};
+use tracer_reference::Random;
+
+/// A small picture, coarse enough that its texels show.
+fn texture(world: &mut World, random: &mut Random) -> Albedo {
+    let (a, b, n) = (color(random), color(random), 2.0 + random.below(4) as f64);
+    let paint = |u: f64, v: f64| {
+        let checked = ((u * n).floor() + (v * n).floor()) % 2.0 == 0.0;
+        DVec3::from_array(if checked { a } else { b }) * (0.6 + 0.4 * u)
+    };
+    let picture = Picture::from_fn(8, 8, paint);
+    // Eight by eight pixels: the encoder has nothing to refuse.
+    let Ok(bytes) = picture.png() else { return Albedo::default() };
+    let file = world.file("texture", "png", bytes).into();
+    let filter = one_of(random, &[TextureFilter::Bilinear, TextureFilter::Nearest]);
+    let wrap = one_of(random, &[TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror]);
+    let spaces = [TextureColorSpace::Auto, TextureColorSpace::Auto, TextureColorSpace::Srgb, TextureColorSpace::Linear];
+    let channels = [
+        TextureChannel::Red,
+        TextureChannel::Green,
+        TextureChannel::Blue,
+        TextureChannel::Alpha,
+        TextureChannel::Luminance,
+    ];
+    let channel = if once_in(random, 3) { one_of(random, &channels) } else { TextureChannel::Auto };
+    Albedo::Texture(Texture {
+        file,
+        filter,
+        wrap,
+        color_space: one_of(random, &spaces),
+        channel,
+        mapping: mapping(random),
+    })
+}
+
+/// Where a texture lies, as often as not as it is.
+fn mapping(random: &mut Random) -> Mapping {
+    if once_in(random, 2) {
+        return Mapping::default();
+    }
+    match random.below(6) {
+        0 => return planar(random).into(),
+        1 => return spherical(random).into(),
+        2 => return triplanar(random).into(),
+        _ => {}
+    }
+    let side = |random: &mut Random| magnitude(random, 0.5, 6.0);
+    let scale = if once_in(random, 2) { [side(random); 2] } else { [side(random), -side(random)] };
+    let offset = if once_in(random, 2) { [0.0; 2] } else { [random.number(), random.between(-3.0, 3.0)] };
+    Mapping::uv(scale, if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) }, offset)
+}
+
+/// Any direction.
+fn direction(random: &mut Random) -> [f64; 3] {
+    [random.between(0.1, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)]
+}
+
+fn point(random: &mut Random) -> [f64; 3] {
+    if once_in(random, 2) { [0.0; 3] } else { [0; 3].map(|_| random.between(-1.0, 1.0)) }
+}
+
+fn planar(random: &mut Random) -> Planar {
+    let size = if once_in(random, 2) { [1.0; 2] } else { [0; 2].map(|_| magnitude(random, 0.2, 2.0)) };
+    let normal = if once_in(random, 2) { [0.0, 1.0, 0.0] } else { direction(random) };
+    Planar { origin: point(random), normal: normal.into(), size: PerAxis(size) }
+}
+
+fn spherical(random: &mut Random) -> Spherical {
+    let scale = if once_in(random, 2) { [1.0; 2] } else { [0; 2].map(|_| magnitude(random, 1.0, 8.0)) };
+    let axis = if once_in(random, 2) { [0.0, 1.0, 0.0] } else { direction(random) };
+    Spherical { center: point(random), axis: axis.into(), scale: PerAxis(scale) }
+}
+
+fn triplanar(random: &mut Random) -> Triplanar {
+    let blend = if once_in(random, 2) { 0.2 } else { magnitude(random, 0.02, 1.0) };
+    Triplanar { scale: magnitude(random, 0.5, 6.0), blend }
+}
+
+/// Where a texture lies on a surface or in space.
+fn solid_mapping(random: &mut Random) -> SolidMapping {
+    let cells = |random: &mut Random| magnitude(random, 0.5, 6.0);
+    let scale = PerAxis(if once_in(random, 2) { [cells(random); 3] } else { [0; 3].map(|_| cells(random)) });
+    let offset = if once_in(random, 2) { [0.0; 3] } else { [0; 3].map(|_| random.between(-3.0, 3.0)) };
+    match random.below(4) {
+        0 => SolidMapping::object(),
+        1 => SolidMapping::Object { scale, offset },
+        2 => SolidMapping::World { scale, offset },
+        _ => mapping(random).into(),
+    }
+}
+
+/// A colour, or seldom another texture, so many within each other at most.
+fn part(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
+    match random.below(if depth > 0 { 6 } else { 1 }) {
+        1 => texture(world, random),
+        2 => pattern(world, random, depth - 1),
+        _ => color(random).into(),
+    }
+}
+
+/// Colours of a ramp.
+fn stops(random: &mut Random) -> Stops {
+    let mut places: Vec<f64> = (0..2 + random.below(3)).map(|_| random.number()).collect();
+    places.sort_by(f64::total_cmp);
+    Stops(places.into_iter().map(|at| Stop { at: at.into(), color: color(random).into() }).collect())
+}
+
+/// A texture that is reckoned.
+// Long: one arm a kind.
+fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
+    let (a, b) = (part(world, random, depth), part(world, random, depth));
+    let solid = solid_mapping(random);
+    let half = |random: &mut Random, usual: f64, high: f64| {
+        if once_in(random, 2) { usual } else { random.between(0.1 * high, high) }
+    };
+    match random.below(11) {
+        0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
+        1 => {
+            let along = one_of(random, &[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
+            let width = half(random, 0.05, 0.9);
+            Albedo::Lines(Box::new(Lines { a, b, width, along, mapping: mapping(random) }))
+        }
+        2 => Albedo::Dots(Box::new(Dots { a, b, radius: half(random, 0.3, 0.5), mapping: mapping(random) })),
+        3 => {
+            let axis = one_of(random, &[GradientAxis::X, GradientAxis::Y, GradientAxis::Z, GradientAxis::Radial]);
+            Albedo::Gradient(Box::new(Gradient { a, b, axis, mapping: solid }))
+        }
+        4 => {
+            let kind = one_of(random, &[NoiseKind::Fbm, NoiseKind::Perlin, NoiseKind::Turbulence]);
+            let octaves = if once_in(random, 2) { 6 } else { 1 + random.below(10) as u32 };
+            let (lacunarity, gain) = (half(random, 2.0, 3.0).max(1.0), half(random, 0.5, 0.9));
+            Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
+        }
+        5 => Albedo::Wood(Box::new(Wood { a, b, distortion: half(random, 0.2, 2.0), mapping: solid })),
+        7 => {
+            let weight = if once_in(random, 3) { [0.5; 3].into() } else { part(world, random, depth.max(1)) };
+            Albedo::Mix(Box::new(Mix { a, b, weight }))
+        }
+        8 => Albedo::Multiply(Box::new(Multiply { a, b })),
+        9 => {
+            let kinds = [RampInterpolation::Linear, RampInterpolation::Smooth, RampInterpolation::Constant];
+            let (input, interpolation) = (part(world, random, depth.max(1)), one_of(random, &kinds));
+            Albedo::ColorRamp(Box::new(ColorRamp { input, stops: stops(random), interpolation }))
+        }
+        6 => Albedo::Marble(Box::new(Marble { a, b, distortion: half(random, 1.0, 3.0), mapping: solid })),
+        _ => {
+            let feature = one_of(random, &[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
+            Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: half(random, 1.0, 1.0), mapping: solid }))
+        }
+    }
+}
+
+/// A colour or a texture.
+pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
+    match random.below(8) {
+        0 => texture(world, random),
+        1 => pattern(world, random, 2),
+        _ => Albedo::Color(color(random).into()),
+    }
+}
