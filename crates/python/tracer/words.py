@@ -127,7 +127,7 @@ class Repeat(_RepeatRequired, total=False):
 
 
 class Animation(TypedDict, total=False):
-    """A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its seconds from the start. Each frame is a picture of its own: nothing moves while one is taken.
+    """A film of this scene, frame by frame. In expressions `frame` is the frame's number, from 0, and `time` its seconds from the start. Each frame is a picture of its own; `shutter` of the camera blurs what moves in it.
 
     frames: How many frames there are.
     fps: Frames in a second: `time` is `frame / fps`. Unit: per second.
@@ -152,6 +152,7 @@ class Camera(TypedDict, total=False):
     sensor_width: Width of the film for `focal_length`. Unit: millimetres.
     shift: Moves the film, as a view camera does: what is seen moves by so many picture heights to the right and up, and upright walls stay parallel where `up` lies in the film. (0, 0.5) shows the upper half twice as high up. Unit: picture heights.
     near: What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It still shades and shows in mirrors. Unit: the scene's unit.
+    shutter: Motion blur: the shutter is open from the frame's `time` on, for this share of a frame. What is an expression of `time` moves meanwhile; each sample sees the scene at a moment of its own. 0.5 is what films have. 0: nothing moves while a picture is taken.
     projection: How directions become places in the picture.
     """
 
@@ -165,6 +166,7 @@ class Camera(TypedDict, total=False):
     sensor_width: Either[float, str, PickItem]
     shift: Either[Sequence[Either[float, str]], Array, str, PickItem]
     near: Any
+    shutter: Either[float, str, PickItem]
     projection: Either[Projection, PickItem]
 
 
