@@ -1,7 +1,6 @@
 //! Textures that are reckoned, point by point in f64: written after the manual's formulas.
 
 use crate::surface::Surface;
-use crate::texture::texel_at;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 use tracer_core::Scene;
@@ -33,8 +32,8 @@ fn coordinates(scene: &Scene, space: Space, map: [[f64; 4]; 3], s: &Surface) -> 
     }
 }
 
-/// The colour of a texture made of others.
-pub fn program(scene: &Scene, index: u32, s: &Surface) -> DVec3 {
+/// The colour of a texture made of others. `texel`: that of a picture at coordinates before its own mapping.
+pub fn program(scene: &Scene, index: u32, s: &Surface, texel: impl Fn(u32, [f64; 2]) -> DVec3) -> DVec3 {
     let program = scene.program(index).expect("a program of the scene");
     let luminance = |c: DVec3| c.dot(DVec3::new(0.2126, 0.7152, 0.0722));
     let mut places = vec![DVec3::ZERO; 256];
@@ -43,10 +42,10 @@ pub fn program(scene: &Scene, index: u32, s: &Surface) -> DVec3 {
         let made = match op.made {
             Made::Color(color) => color.into(),
             Made::Pattern(index) => color(scene, index, s),
-            Made::Texture { texture, space: Space::Uv, .. } => texel_at(scene, texture, s.uv),
+            Made::Texture { texture, space: Space::Uv, .. } => texel(texture, s.uv),
             Made::Texture { texture, space, map } => {
                 let p = coordinates(scene, space, map, s);
-                texel_at(scene, texture, [p.x, p.y])
+                texel(texture, [p.x, p.y])
             }
             Made::Mix([a, b, weight]) => of(a).lerp(of(b), luminance(of(weight))),
             Made::Multiply([a, b]) => of(a) * of(b),

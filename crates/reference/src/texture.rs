@@ -13,13 +13,13 @@ pub fn albedo(scene: &Scene, albedo: Albedo, s: &Surface) -> DVec3 {
         Albedo::Color(color) => return DVec3::from(color),
         Albedo::Texture(index) => index,
         Albedo::Pattern(index) => return pattern::color(scene, index, s),
-        Albedo::Program(index) => return pattern::program(scene, index, s),
+        Albedo::Program(index) => return pattern::program(scene, index, s, |k, uv| texel_at(scene, k, uv)),
     };
     texel_at(scene, index, s.uv)
 }
 
 /// The colour of a texture at coordinates before its own mapping.
-pub fn texel_at(scene: &Scene, index: u32, [u, v]: [f64; 2]) -> DVec3 {
+fn texel_at(scene: &Scene, index: u32, [u, v]: [f64; 2]) -> DVec3 {
     let texture = scene.texture(index).expect("a texture of the scene");
     let [x, y] = texture.mapping;
     let (u, v) = (x[0] * u + x[1] * v + x[2], y[0] * u + y[1] * v + y[2]);

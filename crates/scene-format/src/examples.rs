@@ -184,8 +184,8 @@ const SNIPPETS: [(&str, &str, &str); 137] = [
     (
         "PatternWords",
         "ColorRamp",
-        "Diffuse(albedo: ColorRamp(input: Noise(mapping: Object(scale: 2)), stops: [(at: 0.35, color: \"#12305a\"), (at: \
-         0.5, color: \"#d8c690\"), (at: 0.6, color: \"#3d6b2a\")]))",
+        "Diffuse(albedo: ColorRamp(input: Noise(mapping: Object(scale: 2)), stops: [(at: 0.35, color: \"#12305a\"), \
+         (at: 0.5, color: \"#d8c690\"), (at: 0.6, color: \"#3d6b2a\")]))",
     ),
     (
         "PatternWords",

@@ -231,8 +231,8 @@ impl Default for Parameters {
     }
 }
 
-/// Numbers a pattern takes in [`PatternTable::rows`]: the map, both colours, the octaves' three, the kind's three, those
-/// of longitude and latitude.
+/// Numbers a pattern takes in [`PatternTable::rows`]: the map, both colours, the octaves' three, the kind's three,
+/// those of longitude and latitude.
 pub const STRIDE: u32 = 26;
 
 /// Which coordinates surfaces are written in. Nothing where no pattern asks for it.

@@ -210,8 +210,8 @@ const MATERIALS: Hints = &[
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
         &["mix", "blend", "blendbsdf", "layered"],
-        "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and a \
-         glossy share",
+        "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and \
+         a glossy share",
     ),
     (&["null", "none", "invisible"], "leave the object out"),
     (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),

@@ -93,8 +93,8 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
     Some(match name {
         "color_map" | "colour_map" | "colormap" | "color_ramp" | "colorramp" | "ramp" | "stops" | "palette"
         | "colors" | "colours" | "gradient" | "map" | "pigment" | "pigment_map" => {
-            "a pattern goes from `a` to `b`; steps between are a ramp about it: ColorRamp(input: Noise(..), stops: [(at: \
-             0, color: 0.1), (at: 1, color: 0.9)])"
+            "a pattern goes from `a` to `b`; steps between are a ramp about it: ColorRamp(input: Noise(..), stops: [\
+             (at: 0, color: 0.1), (at: 1, color: 0.9)])"
         }
         "color" | "colour" | "albedo" | "base_color" | "texture" => "a pattern has two colours: `a` and `b`",
         "mapping" | "scale" | "offset" => {

@@ -58,6 +58,10 @@ impl Reader<'_> {
                 match (fields.next(), fields.next()) {
                     (Some((key, value)), None) => (key.text(), key.span(), Body::Value(value)),
                     (Some((key, _)), Some((second, _))) if def.variant(&key.text()).is_some() => {
+                        // What stands beside may belong to a bracket that is never closed.
+                        if self.sink.diagnostics.iter().any(|fault| fault.code == codes::UNCLOSED_BRACKET) {
+                            return None;
+                        }
                         self.report(
                             Diagnostic::error(
                                 codes::UNKNOWN_FIELD,

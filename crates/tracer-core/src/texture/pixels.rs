@@ -90,8 +90,8 @@ impl Pixels {
         })
     }
 
-    /// Linear numbers, as EXR and HDR files have them: light, reflectance, heights. Alpha counts for textures alone that
-    /// ask for it.
+    /// Linear numbers, as EXR and HDR files have them: light, reflectance, heights. Alpha counts for textures alone
+    /// that ask for it.
     ///
     /// # Errors
     /// When they are no picture of this size.
