@@ -1,12 +1,11 @@
 //! The first of the five hands: from a file to a [`SceneDesc`].
 
 use crate::codes;
-use crate::desc::SceneDesc;
+use crate::desc::{self, Moments, SceneDesc};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
-use crate::moments::Moments;
 use crate::overrides::{self, Override};
 use crate::read::{self, Whole};
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
@@ -135,7 +134,7 @@ fn load_string(
         return Ok(Loaded { scene, warnings });
     }
     scene.sources.clone_from(&texts.sources);
-    scene.moments = Moments::new(texts, &scene);
+    scene.moments = Moments::new(Box::new(texts), &scene);
     // What is wrong between two frames is told before anything is rendered.
     for share in [0.5, 1.0].map(|part| part * scene.camera.shutter.value) {
         if let Err(diagnostics) = scene.at(share) {
@@ -147,7 +146,7 @@ fn load_string(
 
 /// A scene's texts, as they are read.
 #[derive(Debug)]
-pub(crate) struct Texts {
+struct Texts {
     /// The scene, the arguments of the command line, the files that are included.
     pub sources: Vec<Source>,
     syntax: Syntax,
@@ -157,7 +156,7 @@ pub(crate) struct Texts {
 }
 
 /// What is wrong with them.
-pub(crate) struct Faults {
+struct Faults {
     pub diagnostics: Diagnostics,
     /// The files that the text names, as far as it could be read.
     files: Vec<NamedFile>,
@@ -207,6 +206,16 @@ impl Texts {
         let includes = library.files.iter().map(|file| Arc::clone(&file.path)).collect();
         let scene = SceneDesc { base_dir: base_dir.clone(), includes, ..described(scene) };
         Ok((Loaded { scene, warnings: diagnostics }, moves))
+    }
+}
+
+impl desc::Texts for Texts {
+    fn scene(&self, share: f64) -> Result<SceneDesc, Diagnostics> {
+        self.read(share).map(|(loaded, _)| loaded.scene).map_err(|faults| faults.diagnostics)
+    }
+
+    fn sources(&self) -> &[Source] {
+        &self.sources
     }
 }
 

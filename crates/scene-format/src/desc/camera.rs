@@ -39,9 +39,9 @@ scene_struct! {
         /// What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It
         /// still shades and shows in mirrors.
         near: Option<Spanned<f64>> = None => Rule::length("a length");
-        /// Motion blur: the shutter is open from the frame's `time` on, for this share of a frame. What is an expression
-        /// of `time` moves meanwhile; each sample sees the scene at a moment of its own. 0.5 is what films have. 0:
-        /// nothing moves while a picture is taken.
+        /// Motion blur: the shutter is open from the frame's `time` on, for this share of a frame. What is an
+        /// expression of `time` moves meanwhile; each sample sees the scene at a moment of its own. 0.5 is what films
+        /// have. 0: nothing moves while a picture is taken.
         shutter: Spanned<f64> = 0.0 => Rule::within("a number", 0.0, 1.0).unit("of a frame");
         /// How directions become places in the picture.
         projection: Projection = Projection::Perspective;

@@ -19,6 +19,7 @@ mod lens;
 mod light;
 mod materials;
 pub(crate) mod matrix;
+mod moments;
 mod name;
 mod object;
 mod output;
@@ -46,6 +47,8 @@ pub use materials::{
     Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
     Transparent,
 };
+pub use moments::Moments;
+pub(crate) use moments::Texts;
 pub use name::Name;
 pub use object::{Faulty, Object, cannot_shine, solid_cannot_shine, with_operands};
 pub(crate) use object::{ShapeWords, no_length};
@@ -69,7 +72,6 @@ pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reus
 
 use crate::diagnostic::{Source, Spanned};
 use crate::files::FileKind;
-use crate::moments::Moments;
 use crate::read::{Includes, Vars};
 use crate::schema::Rule;
 use crate::words::scene_struct;

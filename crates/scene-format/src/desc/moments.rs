@@ -1,9 +1,18 @@
 //! A scene while its camera's shutter is open: read again, at other times.
 
-use crate::desc::{Animation, Camera, SceneDesc};
-use crate::diagnostic::Diagnostics;
-use crate::load::{Faults, Texts};
+use super::{Animation, Camera, SceneDesc};
+use crate::diagnostic::{Diagnostics, Source};
+use std::fmt::Debug;
 use std::sync::Arc;
+
+/// What a scene is read of.
+pub(crate) trait Texts: Debug + Send + Sync {
+    /// The scene as it is so large a share of a frame after its frame's beginning, or what is wrong with it.
+    fn scene(&self, share: f64) -> Result<SceneDesc, Diagnostics>;
+
+    /// The texts.
+    fn sources(&self) -> &[Source];
+}
 
 /// What a scene is read of again at other times, where its camera has a shutter and something goes by `time`; nothing
 /// where neither is so, and in scenes that were built in code. Two of them are the same if they are of one reading.
@@ -12,13 +21,13 @@ pub struct Moments(Option<Arc<Read>>);
 
 #[derive(Debug)]
 struct Read {
-    texts: Texts,
+    texts: Box<dyn Texts>,
     /// The camera as the texts say it at the frame's beginning.
     camera: Camera,
 }
 
 impl Moments {
-    pub(crate) fn new(texts: Texts, scene: &SceneDesc) -> Self {
+    pub(crate) fn new(texts: Box<dyn Texts>, scene: &SceneDesc) -> Self {
         Moments(Some(Arc::new(Read { texts, camera: scene.camera.clone() })))
     }
 }
@@ -27,7 +36,7 @@ impl PartialEq for Moments {
     fn eq(&self, other: &Self) -> bool {
         match (&self.0, &other.0) {
             (None, None) => true,
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.texts.sources == b.texts.sources,
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.texts.sources() == b.texts.sources(),
             _ => false,
         }
     }
@@ -61,8 +70,7 @@ impl SceneDesc {
     /// What is wrong with it then.
     pub fn at(&self, share: f64) -> Result<SceneDesc, Diagnostics> {
         let Some(read) = self.moments.0.as_deref().filter(|_| self.moves()) else { return Ok(self.clone()) };
-        let (loaded, _) = read.texts.read(share).map_err(|faults| self.told(faults, share))?;
-        let mut now = loaded.scene;
+        let mut now = read.texts.scene(share).map_err(|faults| self.told(faults, share))?;
         (now.animation, now.image, now.render) = (self.animation.clone(), self.image.clone(), self.render.clone());
         (now.output, now.cameras, now.camera_name) =
             (self.output.clone(), self.cameras.clone(), self.camera_name.clone());
@@ -74,11 +82,10 @@ impl SceneDesc {
     }
 
     /// Faults with the moment at which they are.
-    fn told(&self, faults: Faults, share: f64) -> Diagnostics {
+    fn told(&self, mut diagnostics: Diagnostics, share: f64) -> Diagnostics {
         let Animation { frame, .. } = &self.animation;
         // Not more digits than say something.
         let at = ((f64::from(frame.value) + share) * 1e6).round() / 1e6;
-        let mut diagnostics = faults.diagnostics;
         for fault in &mut diagnostics {
             fault.message += &format!(" (at frame {at}, while the shutter is open)");
             // What mends it then may be wrong at the beginning.
