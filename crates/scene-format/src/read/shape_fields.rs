@@ -46,7 +46,7 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
     Some(match (name, def.name) {
         (name, "Box") if ROUND.contains(&name) => "the radius of its edges and corners is its `rounding`",
         (name, _) if ROUND.contains(&name) => {
-            "of shapes with edges only a `Box` has round ones: make a mesh of it elsewhere, and name its file in a `Mesh`"
+            "only a `Box` has round ones: make a mesh of it elsewhere, and name its file in a `Mesh`"
         }
         ("holes" | "hole" | "inner" | "cutouts" | "windows", "Extrude") => {
             "holes are rings of the `outline`, after the outer one: [[outer points ..], [points of a hole ..]]"

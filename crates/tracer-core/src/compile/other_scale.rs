@@ -4,7 +4,8 @@ use scene_format::desc::{Projection, Transform};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
 
-/// A field of view below this many degrees, and above the other, is rather one in radians: 11 to 115 degrees.
+/// A field of view below this many degrees, and above the other, is rather one in radians: 11 to 115 degrees. Half a
+/// degree, one, and one and a half are telephoto lenses.
 const RADIANS: [f64; 2] = [0.2, 2.0];
 /// What people turn things by, as parts of half a turn.
 const TURNS: [f64; 9] = [1.0 / 6.0, 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 1.0, 1.5, 2.0];
@@ -18,7 +19,8 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
     let camera = &desc.camera;
     let fov = camera.fov.value;
     let [least, most] = RADIANS;
-    if camera.projection == Projection::Perspective && camera.focal_length.is_none() && fov >= least && fov < most {
+    let is_told = camera.projection == Projection::Perspective && camera.focal_length.is_none();
+    if is_told && fov >= least && fov < most && (2.0 * fov).fract() != 0.0 {
         let message = format!("a `fov` of {fov} degrees shows next to nothing; it looks like radians");
         diagnostics.push(
             Diagnostic::warning(codes::OTHER_SCALE, camera.fov.span, message)

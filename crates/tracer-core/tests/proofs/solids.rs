@@ -37,7 +37,8 @@ const BODIES: &str = r#"
     ]),
     Difference(material: "it", objects: [
         Intersection(objects: [
-            Sphere(center: (0.4, 0.4, 1.6), radius: 0.5), Plane(point: (0, 0.5, 0)), Plane(point: (0.5, 0, 1.5), normal: (1, 0.3, 0.2)),
+            Sphere(center: (0.4, 0.4, 1.6), radius: 0.5), Plane(point: (0, 0.5, 0)),
+            Plane(point: (0.5, 0, 1.5), normal: (1, 0.3, 0.2)),
         ]),
         Plane(point: (0, 0.2, 1.4), normal: (-0.3, -0.2, -1), transform: [Scale((1, 2, 1))]),
     ]),

@@ -17,8 +17,8 @@ scene_struct! {
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
         /// Lengths of its sides along x, y and z, or one number for all.
         size: Spanned<PerAxis<3>> = PerAxis([1.0; 3]) => Rule::length("a length");
-        /// Radius of its edges and corners, at most half the shortest side; 0: they are sharp. A box with round edges is
-        /// made of triangles, shaded as round; of a face's texture the rounded border shows what lies inwards of it.
+        /// Radius of its edges and corners, at most half the shortest side; 0: they are sharp. A box with round edges
+        /// is made of triangles, shaded as round; of a face's texture the rounded border shows what lies inwards of it.
         rounding: Spanned<f64> = 0.0 => Rule::within("a radius", 0.0, 1e12).unit("in the scene's unit");
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
