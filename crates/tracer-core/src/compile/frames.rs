@@ -4,7 +4,7 @@ use super::assets::Sources;
 use super::{Kept, check_files, gather};
 use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{Diagnostics, LoadError, Loaded, SceneDesc, Severity};
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 /// So many bytes of text are read for all frames together; of longer films fewer frames are looked at.
 const MOST_BYTES: usize = 256 << 20;
@@ -48,7 +48,7 @@ pub fn check_frames(
     let bytes: usize = desc.sources.iter().map(|source| source.text.len()).sum();
     let all = (last - first) as usize + 1;
     let looked = all.min((MOST_BYTES / bytes.max(1)).clamp(2, most.max(2)));
-    let (kept, mut known, mut wrong) = (Kept::default(), HashSet::new(), Vec::new());
+    let (kept, mut known, mut wrong) = (Kept::default(), BTreeSet::new(), Vec::new());
     for k in 0..looked {
         let frame = first + (k as u64 * u64::from(last - first) / (looked as u64 - 1).max(1)) as u32;
         let Some((mut diagnostics, sources)) = faults(desc, load(frame), &kept) else { continue };

@@ -42,9 +42,9 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
         );
     }
     let exposure = &desc.effects.exposure;
-    let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * exposure.value.exp2();
+    let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * libm::exp2(exposure.value);
     if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
-        let times = exposure.value.exp2();
+        let times = libm::exp2(exposure.value);
         let message = format!("an `exposure` of {} makes everything {times:.0} times as bright", exposure.value);
         diagnostics.push(
             Diagnostic::warning(codes::OTHER_SCALE, exposure.span, message)
