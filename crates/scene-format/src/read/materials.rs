@@ -3,7 +3,7 @@
 use super::{Reader, Step, make_room, shortened};
 use crate::codes;
 use crate::desc::{Material, NamedMaterial};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::schema::FieldDef;
 use crate::suggest;
 use crate::syntax::Syntax;
@@ -53,16 +53,17 @@ impl Materials {
         self.read.iter().any(|named| named.material.shines().is_some())
     }
 
-    /// The names that no object uses.
-    pub fn unused(&self) -> Vec<(Arc<str>, Span)> {
+    /// The numbers of those that no object uses.
+    pub fn unused(&self) -> impl Iterator<Item = u32> {
         let used = |of: &[bool], k: usize| of.get(k).copied().unwrap_or(false);
-        let [read, unread] = &self.used;
-        let of_read = self.read.iter().enumerate().filter(|(k, _)| !used(read, *k)).map(|(_, named)| &named.name);
-        let of_unread = self.unread.iter().enumerate().filter(|(k, _)| !used(unread, *k)).map(|(_, name)| name);
-        of_read.chain(of_unread).map(|name| (Arc::clone(&name.value), name.span)).collect()
+        let ([read, unread], first) = (&self.used, self.read.len());
+        let of_read = (0..first).filter(move |&k| !used(read, k));
+        let of_unread = (0..self.unread.len()).filter(move |&k| !used(unread, k));
+        of_read.map(|k| k as u32).chain(of_unread.map(|k| FREE - 1 - k as u32))
     }
 
-    fn name(&self, number: u32) -> &Spanned<Arc<str>> {
+    /// The name with this number: first those that could be read, then the others.
+    pub fn name(&self, number: u32) -> &Spanned<Arc<str>> {
         match self.read.get(number as usize) {
             Some(named) => &named.name,
             None => &self.unread[(FREE - 1 - number) as usize],

@@ -2,7 +2,7 @@
 
 use super::{Reader, Step, shortened};
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::expression;
 use crate::tree::{Kind, Tree};
 use std::collections::BTreeSet;
@@ -14,21 +14,24 @@ type Unused = (Arc<str>, Span);
 impl Reader<'_> {
     /// Warns of them.
     pub(super) fn unused_names(&mut self, tree: &Tree<'_>) {
-        let mut materials: Vec<Unused> = self.materials.unused();
-        materials.retain(|(_, span)| !self.is_included(*span));
+        // Numbers: of names there may be millions.
+        let own = |number: &u32| !self.is_included(self.materials.name(*number).span);
+        let mut materials: Vec<u32> = self.materials.unused().filter(own).collect();
         let vars = self.vars.list.iter().filter(|var| !var.used && !self.is_included(var.span));
         let mut vars: Vec<Unused> = vars.map(|var| (Arc::clone(&var.name), var.span)).collect();
         // What was passed over may be taken at another frame, or when a number is changed.
         if self.chosen && !(materials.is_empty() && vars.is_empty()) {
-            let names = |unused: &[Unused]| unused.iter().map(|(name, _)| Arc::clone(name)).collect();
-            let (texts, words) = mentioned(tree, names(&materials), names(&vars));
-            materials.retain(|(name, _)| !texts.contains(name));
+            let of_materials = materials.iter().map(|number| Arc::clone(&self.materials.name(*number).value));
+            let of_vars = vars.iter().map(|(name, _)| Arc::clone(name));
+            let (texts, words) = mentioned(tree, of_materials.collect(), of_vars.collect());
+            materials.retain(|number| !texts.contains(&self.materials.name(*number).value));
             vars.retain(|(name, _)| !words.contains(name));
         }
-        for (name, span) in materials {
+        for number in materials {
             if self.sink.is_full() {
                 break;
             }
+            let Spanned { value: name, span } = self.materials.name(number).clone();
             let message = format!("no object uses the material \"{}\"", shortened(&name));
             let fault = Diagnostic::warning(codes::UNUSED_MATERIAL, span, message);
             self.path = vec![Step::Field("materials"), Step::Key((*name).to_owned())];

@@ -340,7 +340,7 @@ impl<'s> Tables<'s> {
         item
     }
 
-    fn conflict(&mut self, key: &Key, found: u32, builder: &Builder, sink: &mut Sink) {
+    fn conflict(&mut self, key: &Key, found: u32, builder: &mut Builder, sink: &mut Sink) {
         let before = builder.nodes.at(found as usize);
         let name = name_of(self.text, &before);
         let (message, hint) = match builder.nodes.at(found as usize + 1).kind {
@@ -361,6 +361,11 @@ impl<'s> Tables<'s> {
                 .hint(hint)
                 .label(before, "first written here"),
         );
+        // What is to be a table is told no more for what it is instead.
+        let value = builder.nodes.at_mut(found as usize + 1);
+        if matches!(value.kind, Kind::Text | Kind::Integer | Kind::Float | Kind::Bool) {
+            value.kind = Kind::Broken;
+        }
     }
 }
 
@@ -431,6 +436,8 @@ mod tests {
             }
             Kind::List => Value::Array(item.children().map(value).collect()),
             Kind::Integer => Value::Integer(item.number().unwrap_or(f64::NAN) as i64),
+            // A value that would have to be a table.
+            Kind::Broken => Value::String("broken".to_owned()),
             other => panic!("{other:?} was not written"),
         }
     }

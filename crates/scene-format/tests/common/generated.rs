@@ -547,5 +547,7 @@ pub fn plain(scene: SceneDesc) -> SceneDesc {
     materials.sort_by(|a, b| a.name.value.cmp(&b.name.value));
     let mut cameras = scene.cameras;
     cameras.sort_by(|a, b| a.name.value.cmp(&b.name.value));
-    SceneDesc { cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, ..scene }
+    // Who reads only what stands there knows of no other time.
+    let moments = Default::default();
+    SceneDesc { cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, moments, ..scene }
 }

@@ -15,6 +15,7 @@ const PLACEMENTS: &str = "crates/mesh/src/placements.rs";
 const MTL: &str = "crates/mesh/src/mtl/library.rs";
 const SRGB: &str = "crates/kernels/src/srgb.rs";
 const TEXTURE: &str = "crates/tracer-core/src/texture/mod.rs";
+const READING: &str = "crates/tracer-core/src/texture/reading.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
@@ -160,9 +161,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "texture-blue-for-red",
-        file: TEXTURE,
-        find: "u32::from_le_bytes([p[0], p[1], p[2], 0])",
-        replace: "u32::from_le_bytes([p[2], p[1], p[0], 0])",
+        file: READING,
+        find: "u32::from_le_bytes([p[which[0]], p[which[1]], p[which[2]], 0])",
+        replace: "u32::from_le_bytes([p[which[2]], p[which[1]], p[which[0]], 0])",
         caught_by: suite("texture_load", &["eight_bit_pictures_keep_their_code_values_row_by_row_from_the_top"]),
     },
     Mutant {
