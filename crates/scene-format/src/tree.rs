@@ -187,6 +187,17 @@ pub(crate) struct Item<'t, 's> {
     node: Node,
 }
 
+/// ASCII characters that names are made of. A table: names are looked for a dozen times an object.
+static IN_NAMES: [bool; 256] = {
+    let mut table = [false; 256];
+    let mut byte = 0u8;
+    while byte < 128 {
+        table[byte as usize] = byte.is_ascii_alphanumeric() || byte == b'_';
+        byte += 1;
+    }
+    table
+};
+
 impl<'t, 's> Item<'t, 's> {
     /// Where the node stands on the tape.
     pub fn index(&self) -> usize {
@@ -264,8 +275,7 @@ impl<'t, 's> Item<'t, 's> {
         }
         let lexeme = self.lexeme();
         let bytes = lexeme.as_bytes();
-        let plain =
-            bytes.iter().position(|byte| !(byte.is_ascii_alphanumeric() || *byte == b'_')).unwrap_or(bytes.len());
+        let plain = bytes.iter().position(|byte| !IN_NAMES[usize::from(*byte)]).unwrap_or(bytes.len());
         let end = match bytes.get(plain) {
             Some(byte) if !byte.is_ascii() => {
                 lexeme.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(lexeme.len())
