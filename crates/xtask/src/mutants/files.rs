@@ -14,7 +14,6 @@ const POLYGON: &str = "crates/mesh/src/polygon.rs";
 const PLACEMENTS: &str = "crates/mesh/src/placements.rs";
 const MTL: &str = "crates/mesh/src/mtl/library.rs";
 const SRGB: &str = "crates/kernels/src/srgb.rs";
-const TEXTURE: &str = "crates/tracer-core/src/texture/mod.rs";
 const READING: &str = "crates/tracer-core/src/texture/reading.rs";
 
 /// The faults.
