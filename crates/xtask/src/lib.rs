@@ -9,7 +9,6 @@ pub mod denoise;
 mod file;
 pub mod gallery;
 pub mod layers;
-pub mod musl;
 pub mod mutants;
 pub mod noise;
 pub mod picture;

@@ -59,8 +59,6 @@ enum Command {
         #[arg(long)]
         list: bool,
     },
-    /// Makes the program as one static file of less than 16 MB (target/static/tracer), which runs on every Linux.
-    Musl,
     /// Makes the manual as a site (target/site/book), with a picture for every entry of the reference.
     Site,
     /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
@@ -160,7 +158,6 @@ fn main() -> anyhow::Result<()> {
             return Ok(());
         }
         Command::Prove { names, all, .. } => return xtask::prove::run(&root, &xtask::prove::chosen(&names, all)?),
-        Command::Musl => return xtask::musl::run(&root.canonicalize()?).map(drop),
         Command::Site => return xtask::site::run(&root.canonicalize()?).map(drop),
         Command::Sweeps { steps, pictures, samples, size, name } => {
             let options = xtask::sweeps::Options { steps, pictures, samples, size, name, only: 0..steps };
