@@ -1,26 +1,16 @@
 //! Open Image Denoise as it is: `cargo xtask prove oidn` runs this with the library that PyPI's wheel holds.
 
-#[allow(dead_code)]
+#[expect(dead_code, reason = "what other tests of the program need")]
 #[path = "cli/support.rs"]
 mod support;
 
-use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use support::{Ran, Sandbox, repository};
+use support::{Ran, Sandbox, channels, repository};
 
 fn run(sandbox: &Sandbox, arguments: &[&str]) -> Ran {
     let named = std::env::var_os("TRACER_OIDN").expect("TRACER_OIDN: `cargo xtask prove oidn` sets it");
     Ran::of(sandbox.command(arguments).env("TRACER_OIDN", named))
-}
-
-fn channels(sandbox: &Sandbox, name: &str) -> BTreeMap<String, Vec<f32>> {
-    let image = read_all_flat_layers_from_file(sandbox.path(name)).expect("an EXR file");
-    let of = |channel: &exr::prelude::AnyChannel<FlatSamples>| {
-        let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is no float", channel.name) };
-        (channel.name.to_string(), values.clone())
-    };
-    image.layer_data[0].channel_data.list.iter().map(of).collect()
 }
 
 /// Mean of (x - r)^2 / (r^2 + 0.01) over pixels and channels.

@@ -1,21 +1,10 @@
 //! `--denoise`: the picture, what EXR files keep of it, parts, checkpoints, the report.
 
-use crate::support::{Ran, Sandbox, repository};
-use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
+use crate::support::{Ran, Sandbox, channels, repository};
 use serde_json::Value;
-use std::collections::BTreeMap;
 
 fn render(sandbox: &Sandbox, more: &[&str]) -> Ran {
     sandbox.run(&[&["render", "scene.ron", "-q"], more].concat())
-}
-
-fn channels(sandbox: &Sandbox, name: &str) -> BTreeMap<String, Vec<f32>> {
-    let image = read_all_flat_layers_from_file(sandbox.path(name)).expect("an EXR file");
-    let of = |channel: &exr::prelude::AnyChannel<FlatSamples>| {
-        let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is no float", channel.name) };
-        (channel.name.to_string(), values.clone())
-    };
-    image.layer_data[0].channel_data.list.iter().map(of).collect()
 }
 
 fn json(sandbox: &Sandbox, name: &str) -> Value {

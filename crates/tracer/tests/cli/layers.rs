@@ -1,24 +1,10 @@
 //! Picture layers in EXR files: their names and numbers, and what is said where there is no place for them.
 
-use crate::support::{Sandbox, repository};
-use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
+use crate::support::{Sandbox, channels, repository};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use tracer_core::LayerSet;
 
 const LAYERS: [&str; 2] = ["--layers", "albedo,Normal,depth"];
-
-/// The channels of an EXR file, which has one part.
-fn channels(sandbox: &Sandbox, name: &str) -> BTreeMap<String, Vec<f32>> {
-    let image = read_all_flat_layers_from_file(sandbox.path(name)).expect("an EXR file");
-    assert_eq!(image.layer_data.len(), 1);
-    let list = &image.layer_data[0].channel_data.list;
-    let channel = |channel: &exr::prelude::AnyChannel<FlatSamples>| {
-        let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is no float", channel.name) };
-        (channel.name.to_string(), values.clone())
-    };
-    list.iter().map(channel).collect()
-}
 
 #[test]
 fn layers_stand_beside_the_picture() {

@@ -1,7 +1,7 @@
 //! Cryptomatte and masks in EXR files, and what is said where there is no place for them.
 
-use crate::support::Sandbox;
-use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
+use crate::support::{Sandbox, channels};
+use exr::prelude::read_all_flat_layers_from_file;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -31,19 +31,14 @@ fn sandbox() -> Sandbox {
 /// The channels of an EXR file, and its attributes of Cryptomatte.
 fn picture(sandbox: &Sandbox, name: &str) -> (BTreeMap<String, Vec<f32>>, BTreeMap<String, String>) {
     let image = read_all_flat_layers_from_file(sandbox.path(name)).expect("an EXR file");
-    assert_eq!(image.layer_data.len(), 1);
     let layer = &image.layer_data[0];
-    let channel = |channel: &exr::prelude::AnyChannel<FlatSamples>| {
-        let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is no float", channel.name) };
-        (channel.name.to_string(), values.clone())
-    };
     let others = layer.attributes.other.iter().chain(&image.attributes.other);
     let attributes = others.filter_map(|(name, value)| match value {
         exr::prelude::AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
         _ => None,
     });
     let attributes = attributes.filter(|(name, _)| name.starts_with("cryptomatte/")).collect();
-    (layer.channel_data.list.iter().map(channel).collect(), attributes)
+    (channels(sandbox, name), attributes)
 }
 
 fn render(sandbox: &Sandbox, name: &str, more: &[&str]) {

@@ -1,5 +1,7 @@
 //! The real program in a folder of its own.
 
+use exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -135,4 +137,15 @@ pub fn repository() -> &'static Path {
 pub fn is_done(line: &str) -> bool {
     let is_told = line.contains(" samples/s") || line.contains("all samples were there");
     line.contains(" s, ") && is_told && line.contains(" in ")
+}
+
+/// The channels of an EXR file, which has one part, by name.
+pub fn channels(sandbox: &Sandbox, name: &str) -> BTreeMap<String, Vec<f32>> {
+    let image = read_all_flat_layers_from_file(sandbox.path(name)).expect("an EXR file");
+    assert_eq!(image.layer_data.len(), 1);
+    let channel = |channel: &exr::prelude::AnyChannel<FlatSamples>| {
+        let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is no float", channel.name) };
+        (channel.name.to_string(), values.clone())
+    };
+    image.layer_data[0].channel_data.list.iter().map(channel).collect()
 }
