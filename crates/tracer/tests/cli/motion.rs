@@ -41,6 +41,30 @@ fn frames_parts_and_checkpoints_are_the_picture() {
     assert_eq!(sandbox.read("merged.pfm"), sandbox.read("alone.pfm"));
 }
 
+/// What goes by samples or by what is hit goes by moments, too: the same bytes by other threads and after a checkpoint.
+#[test]
+fn what_is_made_beside_the_picture_is_the_same_however_it_is_rendered() {
+    for more in [
+        &["--denoise"][..],
+        &["--set", "render.samples=64", "--noise", "0.05"],
+        &["--set", "output.alpha=true", "--layers", "albedo,depth,variance"],
+        &["--set", "output.masks=[\"ball\"]", "--set", "output.cryptomatte=[Objects]"],
+    ] {
+        let sandbox = Sandbox::new();
+        sandbox.write("film.ron", FILM.replace("radius: 0.6", "name: \"ball\", radius: 0.6"));
+        let line = ["render", "film.ron", "--frame", "2", "--no-metadata", "-q"];
+        let run = |own: &[&str]| sandbox.run(&[&line[..], more, own].concat()).ends(0);
+        run(&["-j", "1", "-o", "one.exr"]);
+        run(&["-j", "2", "-o", "two.exr"]);
+        run(&["--samples", "3", "--checkpoint", "c.film", "-o", "few.exr"]);
+        run(&["--resume", "c.film", "-o", "more.exr"]);
+        for name in ["two.exr", "more.exr"] {
+            assert!(sandbox.read(name) == sandbox.read("one.exr"), "{more:?} {name}");
+        }
+        assert!(sandbox.read("few.exr") != sandbox.read("one.exr"), "{more:?}");
+    }
+}
+
 /// Where things are at the frame's beginning says nothing of where they go.
 #[test]
 fn another_way_is_another_scene() {
