@@ -127,7 +127,10 @@ fn flipped(world: &World) -> World {
             *point = mirror_x(*point);
         }
         lens.tilt.value[1] = -lens.tilt.value[1];
-        lens.rotation.value = 180.0 - lens.rotation.value;
+        // A round aperture has none.
+        if lens.blades.value > 0 {
+            lens.rotation.value = 180.0 - lens.rotation.value;
+        }
     }
     other
 }
