@@ -15,10 +15,11 @@
 
 use super::layers::SavedLayer;
 use super::mattes::longest_record;
-use super::record::{kept, read_tile, record};
+use super::record::{Records, kept, read_tile, record};
 use super::{Crop, Film, FilmLayer, MattesKept, Part, Piece, TILE, Tile, Unfinished};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
+use rayon::prelude::*;
 use std::io::{self, Read, Write};
 use std::ops::RangeInclusive;
 use tracer_kernels::layers::Kept;
@@ -432,9 +433,12 @@ impl<R: Read> SavedFilm<R> {
     /// # Errors
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
-        let (mut tile, most) = (Tile::zeroed(), *self.head.samples.end());
+        let most = *self.head.samples.end();
         let kept = (kept(&self.head.film_layers()?), self.head.mattes);
-        self.tiles(|_, bytes| read_tile(bytes, most, kept, &mut tile))?;
+        self.tiles(|records| {
+            let read = |(_, bytes): (usize, &[u8])| read_tile(bytes, most, kept, &mut Tile::zeroed());
+            records.par_iter().try_for_each(read)
+        })?;
         Ok(self.head)
     }
 
@@ -448,10 +452,11 @@ impl<R: Read> SavedFilm<R> {
         let mut tiles: Vec<Tile> =
             try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
         let head = self.head.clone();
-        self.tiles(|place, bytes| {
-            let tile = tiles.get_mut(place)?;
-            read_tile(bytes, *head.samples.end(), (kept, head.mattes), tile)?;
-            head.has(tile, kept).then_some(())
+        self.tiles(|records| {
+            records.beside(&mut tiles, 0)?.into_par_iter().try_for_each(|(tile, bytes)| {
+                read_tile(bytes, *head.samples.end(), (kept, head.mattes), tile)?;
+                head.has(tile, kept).then_some(())
+            })
         })?;
         // Without tiles: theirs are at hand.
         let nothing = Crop { width: 0, height: 0, ..head.crop };
@@ -466,13 +471,13 @@ impl<R: Read> SavedFilm<R> {
         Ok(film)
     }
 
-    /// Reads the tiles, each once, and the checksum.
-    pub(super) fn tiles(&mut self, mut keep: impl FnMut(usize, &[u8]) -> Option<()>) -> Result<(), FilmError> {
+    /// Reads the tiles, each once, and the checksum. Some records come at a time, for all cores to look at.
+    pub(super) fn tiles(&mut self, mut keep: impl FnMut(&Records) -> Option<()>) -> Result<(), FilmError> {
         let count = tile_count(self.head.crop);
         let mut seen = vec![false; count];
-        let mut bytes = Vec::new();
+        let mut records = Records::default();
         let longest = self.head.longest_tile();
-        for _ in 0..count {
+        for left in (0..count).rev() {
             let mut start = [0; 8];
             self.from.read_exact(&mut start).map_err(cut_short)?;
             self.sum.update(&start);
@@ -482,13 +487,15 @@ impl<R: Read> SavedFilm<R> {
                 return Err(FilmError::Damaged("a tile is wrong"));
             }
             // Grows with what comes: a length that lies takes no memory.
-            bytes.clear();
-            self.from.by_ref().take(u64::from(length)).read_to_end(&mut bytes)?;
+            let bytes = records.add(place as usize, &mut self.from.by_ref().take(u64::from(length)))?;
             if bytes.len() < length as usize {
                 return Err(FilmError::Damaged("it is cut short"));
             }
-            self.sum.update(&bytes);
-            keep(place as usize, &bytes).ok_or(FilmError::Damaged("a tile is wrong"))?;
+            self.sum.update(bytes);
+            if left == 0 || records.is_full() {
+                keep(&records).ok_or(FilmError::Damaged("a tile is wrong"))?;
+                records.clear();
+            }
         }
         check_sum(&mut self.from, &mut self.sum)?;
         match self.from.read_exact(&mut [0]) {

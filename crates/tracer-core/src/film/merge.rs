@@ -1,7 +1,8 @@
 //! Parts of a rendering, wherever they were made, become its film. Sums are exact, so it is the film of one machine:
 //! whatever the parts are, in whatever order they come.
 //!
-//! One part is read at a time, and of it one tile: memory is the film's, however many parts there are.
+//! One part is read at a time, and of it some tiles, which all cores add: memory is the film's, however many parts
+//! there are.
 
 use super::file::PROGRAM;
 use super::layers::SavedLayer;
@@ -9,6 +10,7 @@ use super::record::{kept, read_tile};
 use super::{Crop, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
+use rayon::prelude::*;
 use std::io::Read;
 use std::ops::Range;
 use tracer_kernels::report::Counters;
@@ -264,7 +266,7 @@ impl Film {
         Ok(film)
     }
 
-    /// Adds a part, tile by tile.
+    /// Adds a part, some tiles at a time.
     fn add_part<R: Read>(&mut self, head: &FilmHead, mut saved: SavedFilm<R>) -> Result<(), FilmError> {
         if saved.head() != head {
             return Err(FilmError::Damaged("it has changed since its head was read"));
@@ -275,15 +277,12 @@ impl Film {
         let columns = ((x + width).div_ceil(TILE) - x / TILE) as usize;
         // In the same columns, but further down.
         let before = (y / TILE - self.first_tile[1]) as usize * columns;
-        let mut tile = Tile::zeroed();
-        saved.tiles(|place, bytes| {
-            tile = Tile::zeroed();
-            read_tile(bytes, most, kept, &mut tile)?;
-            if !head.has(&tile, kept.0) {
-                return None;
-            }
-            self.tiles.get_mut(before + place)?.merge(&tile);
-            Some(())
+        saved.tiles(|records| {
+            records.beside(&mut self.tiles, before)?.into_par_iter().try_for_each(|(sum, bytes)| {
+                let mut tile = Tile::zeroed();
+                read_tile(bytes, most, kept, &mut tile)?;
+                head.has(&tile, kept.0).then(|| sum.merge(&tile))
+            })
         })?;
         add_counters(&mut self.counters, &head.counters);
         self.costs.add(&head.costs);

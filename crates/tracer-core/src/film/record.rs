@@ -3,7 +3,67 @@
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
 use super::{FilmLayer, MattesKept, Splats, Squares, Sums, Taken, Tile, TileHalf, TileLayers, TileMattes};
 use bytemuck::Zeroable;
+use rayon::prelude::*;
+use std::io::{self, Read};
 use tracer_kernels::layers::{Kept, LayerSet};
+
+/// Bytes of records after which they are looked at: enough for all cores, and little beside a film.
+const AT_ONCE: usize = 1 << 20;
+
+/// Records of some tiles of a film, without their numbers and lengths.
+#[derive(Default)]
+pub(super) struct Records {
+    bytes: Vec<u8>,
+    /// Which tile a record is of, and where it ends.
+    ends: Vec<(usize, usize)>,
+}
+
+impl Records {
+    /// Reads one more, of the tile with this number, and gives its bytes.
+    pub fn add(&mut self, place: usize, from: &mut impl Read) -> io::Result<&[u8]> {
+        let start = self.bytes.len();
+        from.read_to_end(&mut self.bytes)?;
+        self.ends.push((place, self.bytes.len()));
+        Ok(&self.bytes[start..])
+    }
+
+    /// Whether it is time to look at them.
+    pub fn is_full(&self) -> bool {
+        self.bytes.len() >= AT_ONCE
+    }
+
+    /// Forgets them.
+    pub fn clear(&mut self) {
+        self.bytes.clear();
+        self.ends.clear();
+    }
+
+    fn get(&self, k: usize) -> (usize, &[u8]) {
+        let start = k.checked_sub(1).map_or(0, |before| self.ends[before].1);
+        (self.ends[k].0, &self.bytes[start..self.ends[k].1])
+    }
+
+    /// The numbers of their tiles, and their bytes.
+    pub fn par_iter(&self) -> impl ParallelIterator<Item = (usize, &[u8])> {
+        (0..self.ends.len()).into_par_iter().map(|k| self.get(k))
+    }
+
+    /// Their tiles, each once, and their bytes, where number 0 is the tile `first`; `None` where there is no such tile.
+    pub fn beside<'a>(&'a self, tiles: &'a mut [Tile], first: usize) -> Option<Vec<(&'a mut Tile, &'a [u8])>> {
+        let mut records: Vec<(usize, &[u8])> = (0..self.ends.len()).map(|k| self.get(k)).collect();
+        records.sort_unstable_by_key(|record| record.0);
+        let (mut rest, mut next) = (tiles.get_mut(first..)?, 0);
+        records
+            .into_iter()
+            .map(|(place, bytes)| {
+                let from_here = std::mem::take(&mut rest).get_mut(place.checked_sub(next)?..)?;
+                let (tile, behind) = from_here.split_first_mut()?;
+                (rest, next) = (behind, place + 1);
+                Some((tile, bytes))
+            })
+            .collect()
+    }
+}
 
 /// What tiles keep for these layers.
 pub(super) fn kept(layers: &[FilmLayer]) -> Kept {
