@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 
+import cornell
 import scenes
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -141,7 +142,7 @@ def peers(arguments):
     print("| scene | contestant | relMSE at " + " / ".join(map(str, arguments.marks)) + " samples | seconds at the last | "
           "s to 0.01 | s to 0.002 | blurred 1.5 px: s to 0.001 | blurred 4 px: s to 0.0002 | mean |")
     print("|---|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
-    for description in scenes.noise_scenes(arguments.work):
+    for description in scenes.noise_scenes(arguments.work) + cornell.scenes(arguments.work):
         if arguments.scene not in description.name:
             continue
         with tempfile.TemporaryDirectory() as folder:

@@ -174,8 +174,8 @@ pub struct LightTable {
     pub flat: Table<{ LightTable::FLAT }>,
     /// Nodes of [`LightTable::STRIDE`] numbers, the root first, the two children of a node side by side: centre, radius
     /// and power of the lights below, the bits of the first child's index, or of [`LightTable::LEAF`] and a light, and
-    /// 1 for [`LightTable::FEW`] lights at most, FEW / n for n; then the unit normal of a light with one side, and 0,
-    /// else zeros and 1.
+    /// 1 for [`LightTable::FEW`] lights at most, FEW / n for n; then which way they face ([`Facing`]): slack, axis,
+    /// around.
     pub tree: Vec<f32>,
     /// The way from the root to each light, level by level from the lowest bit on: 1 is the second child.
     pub trail: Vec<u32>,
@@ -231,7 +231,7 @@ impl LightTable {
     /// Where a node holds what it is: see [`LightTable::tree`].
     pub const CONTENT: usize = 5;
     /// Where it holds which way it faces.
-    pub const FACING: usize = 8;
+    pub const FACING: usize = 7;
     /// So many lights may all lie in the highest place of their sphere. Of more it is unlikely.
     const FEW: f64 = 4.0;
     /// Marks a node that is a light.
@@ -337,6 +337,47 @@ impl LightTable {
     }
 }
 
+/// Which way the lights of a node face: towards a receiver in the unit direction w and the distance d from the node's
+/// middle they turn max(0, min(1, axis . w + around + slack / d)) of their faces, about.
+///
+/// It is above zero wherever one of them faces the receiver. With normals at most a < 90 degrees off the axis, and all
+/// within r of the middle, that is where w is less than 90 degrees + a + asin(r / d) off it (Conty Estevez and Kulla
+/// 2018, section 4.1), so at cosines above -sin(a + asin(r / d)) >= -(sin a + r / d); from there on this grows with the
+/// cosine up to 1 on the axis, without an angle to be found.
+struct Facing {
+    axis: DVec3,
+    around: f64,
+    slack: f64,
+}
+
+impl Facing {
+    /// Where nothing is known.
+    const ALL: Facing = Facing { axis: DVec3::ZERO, around: 1.0, slack: 0.0 };
+    /// Added around, so that no light that faces a receiver is lost to roundings.
+    const LEAST: f64 = 0.01;
+
+    /// Of lights in a sphere of this radius.
+    fn new<'a>(lights: impl Iterator<Item = &'a Emitter> + Clone, radius: f64) -> Self {
+        let Some(normals) = lights.clone().map(|light| light.normal).collect::<Option<Vec<DVec3>>>() else {
+            return Facing::ALL;
+        };
+        if let [normal] = normals[..] {
+            return Facing { axis: normal, around: 0.0, slack: 0.0 };
+        }
+        let power: f64 = lights.clone().map(|light| light.power).sum();
+        let mean = normals.iter().zip(lights).map(|(&normal, light)| light.power * normal).sum::<DVec3>() / power;
+        let Some(axis) = mean.try_normalize() else { return Facing::ALL };
+        let cos = normals.iter().map(|normal| normal.dot(axis)).fold(1.0, f64::min);
+        if cos <= 0.0 {
+            // They may face any way: most of them as the mean does.
+            return Facing { axis: 0.5 * axis * mean.length().min(0.9), around: 0.5, slack: 0.0 };
+        }
+        let sin = (1.0 - cos * cos).sqrt();
+        let scale = 1.0 / (1.0 + sin);
+        Facing { axis: axis * scale, around: sin * scale + Self::LEAST, slack: radius * scale }
+    }
+}
+
 /// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their
 /// number.
 struct Builder<'a> {
@@ -378,8 +419,8 @@ impl Builder<'_> {
         self.tree[at..at + 5].copy_from_slice(&numbers);
         self.tree[at + LightTable::CONTENT] = f32::from_bits(content);
         self.tree[at + LightTable::CONTENT + 1] = (LightTable::FEW / lights.len() as f64).min(1.0) as f32;
-        let normal = if let [light] = *lights { of(light).normal } else { None };
-        let facing = normal.map_or([0.0, 0.0, 0.0, 1.0], |n| [n.x, n.y, n.z, 0.0]);
-        self.tree[at + LightTable::FACING..at + LightTable::FACING + 4].copy_from_slice(&facing.map(|x| x as f32));
+        let Facing { axis, around, slack } = Facing::new(lights.iter().map(|&light| of(light)), radius);
+        let facing = [slack, axis.x, axis.y, axis.z, around].map(|x| x as f32);
+        self.tree[at + LightTable::FACING..][..5].copy_from_slice(&facing);
     }
 }

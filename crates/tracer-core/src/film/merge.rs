@@ -31,6 +31,9 @@ pub enum Gaps {
     Refused,
     /// The film is of the samples that there are. It can be developed, but neither saved nor gone on with.
     Allowed,
+    /// They are an error between the parts, and not around them: the film is a part itself, the smallest that holds them
+    /// all. So many parts are merged by many machines.
+    Around,
 }
 
 /// Why parts do not make a film. Parts have the numbers of their heads, from zero.
@@ -134,8 +137,9 @@ impl FilmHead {
     }
 }
 
-/// What is wrong with parts, as far as their heads tell: all of it, each by itself. What is missing comes last.
-pub fn faults(heads: &[FilmHead]) -> Vec<MergeError> {
+/// What is wrong with parts, as far as their heads tell: all of it, each by itself. What is missing comes last: of the
+/// whole rendering, or with [`Gaps::Around`] of the smallest part that holds them all.
+pub fn faults(heads: &[FilmHead], allowed: Gaps) -> Vec<MergeError> {
     let Some(first) = heads.first() else { return vec![MergeError::Empty] };
     let mut found = Vec::new();
     let mut sound: Vec<(usize, Part)> = Vec::new();
@@ -149,11 +153,23 @@ pub fn faults(heads: &[FilmHead]) -> Vec<MergeError> {
         }
     }
     found.extend(overlaps(&sound));
-    let gaps = gaps(&first.part(), sound.iter().map(|&(_, part)| part));
+    let gaps = gaps(&made_of(heads, allowed).unwrap_or(first.part()), sound.iter().map(|&(_, part)| part));
     if !gaps.is_empty() {
         found.push(MergeError::Missing(gaps));
     }
     found
+}
+
+/// What parts are to make: the whole rendering, or the smallest part that holds them all.
+fn made_of(heads: &[FilmHead], allowed: Gaps) -> Option<Part> {
+    let parts = || heads.iter().map(FilmHead::part);
+    let Part { of_crop, of_samples, .. } = parts().next()?;
+    if allowed != Gaps::Around {
+        return Some(Part { crop: of_crop, first: 0, end: of_samples, of_crop, of_samples });
+    }
+    let (top, bottom) = (parts().map(|part| part.crop.y).min()?, parts().map(|part| rows(part.crop).end).max()?);
+    let (first, end) = (parts().map(|part| part.first).min()?, parts().map(|part| part.end).max()?);
+    Some(Part { crop: Crop { y: top, height: bottom - top, ..of_crop }, first, end, of_crop, of_samples })
 }
 
 fn rows(crop: Crop) -> Range<u32> {
@@ -173,11 +189,11 @@ fn overlaps(parts: &[(usize, Part)]) -> Vec<MergeError> {
     found
 }
 
-/// What the parts lack of their rendering. Rows that lack the same are told together.
+/// What the parts lack of a larger one. Rows that lack the same are told together.
 pub(super) fn gaps(of: &Part, parts: impl Iterator<Item = Part>) -> Vec<Gap> {
     let parts: Vec<Part> = parts.filter(|part| part.crop.height > 0).collect();
     let mut cuts: Vec<u32> = parts.iter().flat_map(|part| [rows(part.crop).start, rows(part.crop).end]).collect();
-    cuts.extend([rows(of.of_crop).start, rows(of.of_crop).end]);
+    cuts.extend([rows(of.crop).start, rows(of.crop).end]);
     cuts.sort_unstable();
     cuts.dedup();
     let mut gaps: Vec<Gap> = Vec::new();
@@ -185,8 +201,8 @@ pub(super) fn gaps(of: &Part, parts: impl Iterator<Item = Part>) -> Vec<Gap> {
         let here = parts.iter().filter(|part| rows(part.crop).contains(&band.start));
         let mut samples: Vec<Range<u32>> = here.map(|part| part.first..part.end).collect();
         samples.sort_unstable_by_key(|samples| samples.start);
-        samples.push(of.of_samples..of.of_samples);
-        let mut next = 0;
+        samples.push(of.end..of.end);
+        let mut next = of.first;
         for Range { start, end } in samples {
             if next < start {
                 let above = gaps.iter_mut().find(|gap| gap.rows.end == band.start && gap.samples == (next..start));
@@ -248,21 +264,23 @@ impl Film {
         allowed: Gaps,
     ) -> Result<Film, MergeError> {
         let mut is_whole = true;
-        for fault in faults(heads) {
+        for fault in faults(heads, allowed) {
             match fault {
                 MergeError::Missing(_) if allowed == Gaps::Allowed => is_whole = false,
                 fault => return Err(fault),
             }
         }
-        let mut film = empty(&heads[0])?;
+        let of = made_of(heads, allowed).ok_or(MergeError::Empty)?;
+        let mut film = empty(&heads[0], of.crop)?;
         let light = light_samples(heads).ok_or(MergeError::Uneven)?;
         for (part, head) in heads.iter().enumerate() {
             let added = open(part).and_then(|saved| film.add_part(head, saved));
             added.map_err(|error| MergeError::Part { part, error })?;
         }
-        film.light_samples = light;
-        film.whole = if is_whole { heads[0].part().of_samples } else { *film.samples().start() };
+        film.light_samples = of.first + light;
+        film.whole = if is_whole { of.end } else { *film.samples().start() };
         film.has_gaps = !is_whole;
+        film.part = (allowed == Gaps::Around).then_some(of);
         Ok(film)
     }
 
@@ -291,8 +309,7 @@ impl Film {
 }
 
 /// The film of a rendering before any part of it.
-fn empty(head: &FilmHead) -> Result<Film, MergeError> {
-    let of = head.part().of_crop;
+fn empty(head: &FilmHead, of: Crop) -> Result<Film, MergeError> {
     let whole = FilmHead { crop: of, ..head.clone() };
     let nothing = Crop { width: 0, height: 0, ..of };
     let mut film = Film::new(head.size, nothing, head.seed, head.unit, head.clamp);
@@ -409,6 +426,9 @@ mod tests {
         assert_eq!(missing(&[part(16..32, 0..10)]), [gap(0..16, 0..10), gap(32..64, 0..10)]);
         let parts = [part(0..64, 0..4), part(0..16, 4..10), part(16..48, 4..9), part(48..64, 5..10)];
         assert_eq!(missing(&parts), [gap(16..48, 9..10), gap(48..64, 4..5)]);
+        // Of a part, only what is within.
+        assert_eq!(gaps(&part(0..32, 2..7), parts.iter().copied()), []);
+        assert_eq!(gaps(&part(16..48, 4..10), parts.iter().copied()), [gap(16..48, 9..10)]);
         // Rows that lack the same though other parts hold them.
         assert_eq!(missing(&[part(0..32, 0..9), part(32..64, 0..9)]), [gap(0..64, 9..10)]);
     }
@@ -422,7 +442,8 @@ mod tests {
                     let parts: Vec<Part> = (1..=n).filter_map(|k| Part::of(crop, samples, split, k, n)).collect();
                     assert_eq!(parts.len(), n as usize);
                     assert!(parts.iter().all(|part| part.is_sound([100, 100]) && part.crop.height > 0), "{parts:?}");
-                    assert_eq!(gaps(&parts[0], parts.iter().copied()), []);
+                    let whole = Part { crop, first: 0, end: samples, ..parts[0] };
+                    assert_eq!(gaps(&whole, parts.iter().copied()), []);
                     assert!(overlaps(&parts.iter().copied().enumerate().collect::<Vec<_>>()).is_empty());
                 }
                 assert_eq!(Part::of(crop, samples, split, 1, Part::most(crop, samples, split) + 1), None);

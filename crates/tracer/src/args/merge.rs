@@ -10,6 +10,7 @@ const MERGE_EXAMPLES: &str = "\
 Examples:
   tracer merge scene.*of16.tracer -o scene.exr -o scene.png
   tracer merge a/*.tracer b/*.tracer -o half.png --allow-missing
+  tracer merge scene.0*.tracer -o first.tracer
 
 The bytes are those of one machine, for any parts in any order (docs/scale.md).";
 
@@ -20,7 +21,7 @@ pub struct MergeArgs {
     /// Parts that `tracer render --part` made
     #[arg(required = true, value_name = "PART")]
     pub parts: Vec<PathBuf>,
-    /// Picture: .png .exr .hdr .pfm, or - (repeatable)
+    /// Picture: .png .exr .hdr .pfm or - (repeatable), or a larger part: .tracer
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     pub output: Vec<PathBuf>,
     /// Kind of picture for `-o -`: png, exr, hdr or pfm

@@ -61,6 +61,36 @@ fn merged_pictures_are_those_of_one_machine() {
     }
 }
 
+/// Merged in two steps, on several machines, and what no part can be made of.
+#[test]
+fn parts_become_a_larger_part() {
+    let sandbox = Sandbox::new();
+    let more = ["--samples", "7", "--layers", "depth", "--denoise"];
+    render(&sandbox, &[&["-o", "one.exr"][..], &more].concat());
+    parts(&sandbox, 5, &more);
+    let part = |k: usize| format!("scene.{k}of5.tracer");
+    let (one, two, three, four, five) = (part(1), part(2), part(3), part(4), part(5));
+    let made = sandbox.run(&["merge", &four, &three, &five, "-o", "late.tracer", "--report", "late.json"]).ends(0);
+    made.says(&["late.tracer of 3 parts in ", "samples 2 to 6 of 7, rows 0 to"]);
+    assert_eq!(json(&sandbox, "late.json")["picture"]["samples_min"], 5);
+    sandbox.run(&["info", "late.tracer"]).ends(0).says(&["samples 2 to 6 of 7"]);
+    sandbox.run(&["merge", &one, &two, "-o", "early.tracer", "-q"]).ends(0);
+    sandbox.run(&["merge", "late.tracer", "early.tracer", "-o", "all.exr", "--denoise", "-q"]).ends(0);
+    assert_eq!(sandbox.read("all.exr"), sandbox.read("one.exr"));
+
+    let files = sandbox.files();
+    let wrong = |words: &[&str], code: i32, says: &[&str]| {
+        sandbox.run(&[&["merge"], words].concat()).ends(code).says(says);
+        assert_eq!(sandbox.files(), files);
+    };
+    wrong(&[&one, &three, "-o", "x.tracer"], 1, &["missing: samples 1 to 1 of rows", "must lie together"]);
+    wrong(&[&two, "late.tracer", &four, "-o", "x.tracer"], 2, &["have the same samples"]);
+    wrong(&[&one, &two, "-o", "x.tracer", "--denoise"], 2, &["--denoise is for pictures"]);
+    wrong(&[&one, &two, "-o", "x.tracer", "--allow-missing"], 2, &["--allow-missing is for pictures"]);
+    wrong(&[&one, &two, "-o", "x.tracer", "-o", "x.png"], 2, &["a part is one file"]);
+    wrong(&[&one, &two, "-o", &two], 2, &["would replace a part"]);
+}
+
 /// Parts of different numbers of parts, other threads and instructions.
 #[test]
 fn unequal_parts_of_unequal_machines() {

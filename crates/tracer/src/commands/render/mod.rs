@@ -5,7 +5,7 @@ pub(super) mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
-mod parts;
+pub(super) mod parts;
 mod reference;
 pub(super) mod repeat;
 pub(super) mod rescue;

@@ -32,7 +32,7 @@ pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
 ///
 /// # Errors
 /// What is no place for it.
-pub(super) fn place(args: &RenderArgs) -> Result<Place, Failure> {
+pub(in crate::commands) fn place(args: &RenderArgs) -> Result<Place, Failure> {
     let [path] = &args.output[..] else {
         return Err(Failure::wrong("a part is one file: name it by one -o; pictures are made by `tracer merge`"));
     };
@@ -121,7 +121,12 @@ pub(super) fn split_name(split: Split) -> &'static str {
 ///
 /// # Errors
 /// When it cannot be written; an older one is then as it was.
-pub(super) fn save(place: &Output, film: &Film, notes: &[Note], shell: &Shell) -> Result<Written, WriteError> {
+pub(in crate::commands) fn save(
+    place: &Output,
+    film: &Film,
+    notes: &[Note],
+    shell: &Shell,
+) -> Result<Written, WriteError> {
     let Output::File(path) = place else { return Err(WriteError::Stdout(io::ErrorKind::Unsupported.into())) };
     let could_not = |why: io::Error| WriteError::Io { path: path.clone(), why };
     // Its folder may be gone since.

@@ -19,9 +19,10 @@ pub struct Choice<F: Lanes> {
 pub const ENVIRONMENT: f32 = 0.5;
 
 /// Which light to ask: down the tree of lights, at each step to one of two children by what they may send, power over
-/// squared distance times a bound on the cosine at the receiver (Conty Estevez and Kulla: Importance Sampling of Many
-/// Lights with Adaptive Tree Splitting, 2018). Unlike there the way that lights face counts only for single ones, and
-/// distance and cosine are rather those of the middle than bounds ([`Node::importance`]).
+/// squared distance times a bound on the cosine at the receiver and one on how far they face it (Conty Estevez and
+/// Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018). Unlike there distance and cosine are
+/// rather those of the middle than bounds ([`Node::importance`]), and the way that lights face grows with a cosine
+/// instead of that of an angle ([`Node::facing`]).
 #[inline(always)]
 pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Choice<F> {
     let one = F::splat(1.0);
@@ -136,8 +137,9 @@ struct Node<F: Lanes> {
     content: F::U,
     /// See [`LightTable::tree`].
     few: F,
-    /// Unit normal of a light with one side, and zero, else zeros and one. Not loaded where all lights are spheres.
-    normal: V3<F>,
+    /// Which way the lights face, see [`LightTable::tree`]. Not loaded where all lights are spheres.
+    slack: F,
+    axis: V3<F>,
     around: F,
 }
 
@@ -152,40 +154,44 @@ impl<F: Lanes> Node<F> {
     fn load(lights: &LightTable, node: F::U) -> Self {
         let at = node * F::U::splat(LightTable::STRIDE);
         let [x, y, z, radius] = F::gather4(&lights.tree, at);
-        let [power, content, few] = F::gather3(&lights.tree, at + F::U::splat(4));
-        let (mut normal, mut around) = (V3::zero(), F::splat(1.0));
+        let (mut slack, mut axis, mut around) = (F::splat(0.0), V3::zero(), F::splat(1.0));
+        let (power, content, few);
         if lights.has_others() {
-            let [x, y, z, all] = F::gather4(&lights.tree, at + F::U::splat(LightTable::FACING as u32));
-            (normal, around) = (V3(x, y, z), all);
+            [power, content, few, slack] = F::gather4(&lights.tree, at + F::U::splat(4));
+            let [x, y, z, all] = F::gather4(&lights.tree, at + F::U::splat(8));
+            (axis, around) = (V3(x, y, z), all);
+        } else {
+            [power, content, few] = F::gather3(&lights.tree, at + F::U::splat(4));
         }
-        Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few, normal, around }
+        Node { center: V3(x, y, z), radius, power, content: content.to_bits(), few, slack, axis, around }
     }
 
     /// The same for all lanes, from its numbers.
     #[inline(always)]
     fn splat(numbers: &[f32; LightTable::STRIDE as usize]) -> Self {
         let c = F::splat;
-        let &[x, y, z, radius, power, content, few, _, nx, ny, nz, around] = numbers;
+        let &[x, y, z, radius, power, content, few, slack, nx, ny, nz, around] = numbers;
         Node {
             center: V3(c(x), c(y), c(z)),
             radius: c(radius),
             power: c(power),
             content: c(content).to_bits(),
             few: c(few),
-            normal: V3(c(nx), c(ny), c(nz)),
+            slack: c(slack),
+            axis: V3(c(nx), c(ny), c(nz)),
             around: c(around),
         }
     }
 
-    /// How much of its face a light with one side turns to the receiver: its cosine there, seen from its middle; above
-    /// zero wherever the receiver is in front of it. One for others.
+    /// How much of their faces lights with one side turn to the receiver: of a single one its cosine there, seen from
+    /// its middle; above zero wherever the receiver is in front of one of them. One for others.
     #[inline(always)]
     fn facing(&self, receiver: Receiver<F>) -> F {
         let from = receiver.p.sub(self.center);
         let length2 = from.dot(from);
-        let cos = from.dot(self.normal).max(F::splat(0.0))
-            / F::select(F::splat(0.0).lt(length2), length2, F::splat(1.0)).sqrt();
-        (cos + self.around).min(F::splat(1.0))
+        let cos =
+            (from.dot(self.axis) + self.slack) / F::select(F::splat(0.0).lt(length2), length2, F::splat(1.0)).sqrt();
+        (cos + self.around).max(F::splat(0.0)).min(F::splat(1.0))
     }
 
     /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine

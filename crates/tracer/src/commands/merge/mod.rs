@@ -1,4 +1,6 @@
-//! `tracer merge`: the parts of a rendering become its pictures.
+//! `tracer merge`: the parts of a rendering become its pictures, or a larger part.
+
+mod part;
 
 use super::render::outputs::{self, Output};
 use super::render::rescue::{Pictures, pictures};
@@ -14,26 +16,29 @@ use crate::shell::{Shell, counted};
 use crate::write::{Place, Provenance, is_one_file, leads_to_same};
 use rayon::prelude::*;
 use std::fs::File;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use tracer_core::{Backdrop, Film, FilmError, FilmHead, Gap, Gaps, MergeError, Part, SavedFilm, film_faults};
 
 pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+    if part::is_asked(args) {
+        return part::run(args, shell, started);
+    }
     let as_rendered = args.as_render();
     let outputs = outputs::outputs(&as_rendered)?;
     use_threads(args.threads)?;
     outputs::probe(&outputs, args.report.as_deref())?;
-    spare_parts(args, &outputs)?;
+    spare_parts(args, files(&outputs))?;
     let denoiser = Denoiser::ready(args.denoise.how())?;
     let (parts, damaged) = read(&args.parts)?;
-    let Sorted { parts, gaps } = sorted(parts, damaged, args, shell)?;
+    let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
+    let Sorted { parts, gaps } = sorted(parts, damaged, args, allowed, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     if args.denoise.is_on() {
         denoising::check(heads[0].has_halves(), heads[0].layers())?;
     }
     check_memory(&heads[0], args.denoise.how())?;
-    let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
     let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
     let film = Film::merge(&heads, open, allowed).map_err(|error| failure(&error, &parts))?;
     let merged = started.elapsed().as_secs_f64();
@@ -83,14 +88,21 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     Ok(ExitCode::from(if failed || is_noisy { exit::FAILED } else { exit::DONE }))
 }
 
-/// Sees that no picture replaces a part.
-fn spare_parts(args: &MergeArgs, outputs: &[Output]) -> Result<(), Failure> {
-    let pictures = outputs.iter().filter_map(|output| match &output.place {
+/// The pictures that are files.
+fn files(outputs: &[Output]) -> impl Iterator<Item = (&'static str, &Path)> {
+    outputs.iter().filter_map(|output| match &output.place {
         Place::File(path) => Some(("-o", path.as_path())),
         Place::Stdout => None,
-    });
+    })
+}
+
+/// Sees that nothing that is written replaces a part.
+fn spare_parts<'a>(
+    args: &'a MergeArgs,
+    written: impl Iterator<Item = (&'static str, &'a Path)>,
+) -> Result<(), Failure> {
     let report = args.report.as_deref().filter(|report| !is_dash(report)).map(|report| ("--report", report));
-    for (option, path) in pictures.chain(report) {
+    for (option, path) in written.chain(report) {
         if args.parts.iter().any(|part| is_one_file(path, part)) {
             return Err(Failure::wrong(format!("{option} {} would replace a part; name another file", path.display())));
         }
@@ -140,7 +152,13 @@ struct Sorted {
 }
 
 /// Sees that the parts belong together; all that is wrong is told at once.
-fn sorted(mut parts: Vec<Head>, damaged: Vec<String>, args: &MergeArgs, shell: &Shell) -> Result<Sorted, Failure> {
+fn sorted(
+    mut parts: Vec<Head>,
+    damaged: Vec<String>,
+    args: &MergeArgs,
+    allowed: Gaps,
+    shell: &Shell,
+) -> Result<Sorted, Failure> {
     parts.sort_by_key(|(path, head)| (head.part().first, head.part().crop.y, path.clone()));
     let mut wrong = foreign(&parts);
     let mut lost = damaged;
@@ -155,7 +173,7 @@ fn sorted(mut parts: Vec<Head>, damaged: Vec<String>, args: &MergeArgs, shell: &
             head.is_finished()
         });
         let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
-        for fault in film_faults(&heads) {
+        for fault in film_faults(&heads, allowed) {
             match fault {
                 MergeError::Missing(missing) => gaps = missing,
                 MergeError::Empty => {}
@@ -174,7 +192,10 @@ fn sorted(mut parts: Vec<Head>, damaged: Vec<String>, args: &MergeArgs, shell: &
     }
     lost.extend(missing);
     if !args.allow_missing && !lost.is_empty() {
-        lost.push("render what is missing, or leave it out of the picture by --allow-missing".to_owned());
+        lost.push(match allowed {
+            Gaps::Around => "parts that become one must lie together: add what is missing between them".to_owned(),
+            _ => "render what is missing, or leave it out of the picture by --allow-missing".to_owned(),
+        });
         return Err(Failure::could_not(lost.join("\n  ")));
     }
     lost.iter().for_each(|line| shell.say(&format!("warning: {line}")));
@@ -226,14 +247,23 @@ fn failure(fault: &MergeError, parts: &[Head]) -> Failure {
     Failure::could_not(told(fault, parts))
 }
 
+/// A film that cannot fit is refused here; it is of all rows at most.
+fn check_film(head: &FilmHead) -> Result<(), Failure> {
+    fits(head, 0)
+}
+
 /// A picture that cannot fit is refused here.
 fn check_memory(head: &FilmHead, denoise: DenoiseName) -> Result<(), Failure> {
     let crop = head.part().of_crop;
     // The developed picture, and an encoded one while it is made and written.
-    let mut whole = head.clone();
-    whole.crop = crop;
     let of_pixel = 48 + denoising::bytes_per_pixel(denoise);
-    let needed = whole.bytes() + of_pixel * u64::from(crop.width) * u64::from(crop.height);
+    fits(head, of_pixel * u64::from(crop.width) * u64::from(crop.height))
+}
+
+fn fits(head: &FilmHead, beside: u64) -> Result<(), Failure> {
+    let mut whole = head.clone();
+    whole.crop = head.part().of_crop;
+    let needed = whole.bytes() + beside;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "the picture takes {} of memory, and {} are free",
