@@ -93,6 +93,13 @@ pub const PROOFS: &[Proof] = &[
         &["cargo xtask musl --all-pictures --container"],
     ),
     proof(
+        "package",
+        Always,
+        "the packages of all crates are made; ten seconds",
+        &[],
+        &["cargo package --workspace --no-verify --locked --allow-dirty --quiet"],
+    ),
+    proof(
         "pairs",
         Always,
         "scenes that must look the same, in exact pairs; four minutes",
