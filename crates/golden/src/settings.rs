@@ -21,6 +21,8 @@ pub struct Settings {
     pub samples: Option<u32>,
     /// Seed of all random choices; that of the scene.
     pub seed: Option<u32>,
+    /// Which of the scenes' `cameras`; the one that a scene chooses itself.
+    pub camera: Option<String>,
     /// Fields of the scenes to set: `camera.fov=40`.
     pub set: Vec<String>,
     /// Whether the noise is kept beside the picture: pictures of other bytes then pass when they differ by noise alone.
@@ -56,6 +58,8 @@ pub struct OfScene {
     pub samples: Option<u32>,
     /// Seed of all random choices.
     pub seed: Option<u32>,
+    /// Which of its `cameras`.
+    pub camera: Option<String>,
     /// Fields to set.
     pub set: Vec<String>,
 }
@@ -68,6 +72,7 @@ impl Default for Settings {
             size: None,
             samples: None,
             seed: None,
+            camera: None,
             set: Vec::new(),
             noise: true,
             flip: None,
@@ -152,6 +157,7 @@ impl Settings {
             size: own.size.or(self.size),
             samples: own.samples.or(self.samples),
             seed: own.seed.or(self.seed),
+            camera: own.camera.or_else(|| self.camera.clone()),
             set: self.set.iter().chain(&own.set).cloned().collect(),
         }
     }
@@ -164,7 +170,8 @@ mod tests {
     #[test]
     fn a_scene_goes_before_all() {
         let settings = Settings::parse(
-            "size = [48, 32]\nsamples = 32\nset = [\"a=1\"]\n[scene.\"family/case\"]\nsamples = 64\nset = [\"b=2\"]\n",
+            "size = [48, 32]\nsamples = 32\ncamera = \"above\"\nset = [\"a=1\"]\n[scene.\"family/case\"]\n\
+             samples = 64\nset = [\"b=2\"]\n[scene.door]\ncamera = \"door\"\n",
         )
         .expect("right");
         assert!(settings.noise && settings.shows == Shows::Picture);
@@ -172,6 +179,8 @@ mod tests {
         assert_eq!((own.size, own.samples, own.seed), (Some([48, 32]), Some(64), None));
         assert_eq!(own.set, ["a=1", "b=2"]);
         assert_eq!(settings.of("other").samples, Some(32));
+        let cameras = ["other", "door"].map(|name| settings.of(name).camera);
+        assert_eq!(cameras, [Some("above".to_owned()), Some("door".to_owned())]);
         assert_eq!(Settings::parse(""), Ok(Settings::default()));
     }
 

@@ -4,6 +4,7 @@ use crate::documents::Document;
 use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit};
 use scene_format::diagnostic::{Edit, Source, Span};
 use scene_format::{Diagnostic, Diagnostics, LoadError, Loaded, Override, SceneDesc, Severity};
+use tracer_core::Looking;
 
 /// Frames that are looked at, at most: somebody is writing.
 const MOST_FRAMES: usize = 200;
@@ -60,9 +61,10 @@ pub fn with_files(document: &Document) -> Diagnostics {
 
 /// What is wrong at other frames of its animation.
 fn of_frames(document: &Document, scene: &SceneDesc) -> Diagnostics {
-    let frames = [0, scene.animation.frames.value - 1];
+    // Their warnings are left to `tracer check`: they would take longer than a keystroke may.
+    let looking = Looking { first: 0, last: scene.animation.frames.value - 1, most: MOST_FRAMES, warnings: false };
     let at = |frame: u32| load(document, &[Override::frame(frame)]);
-    let wrong = tracer_core::check_frames(scene, frames, MOST_FRAMES, at).map_or_else(Vec::new, |looked| looked.wrong);
+    let wrong = tracer_core::check_frames(scene, looking, at).map_or_else(Vec::new, |looked| looked.wrong);
     wrong.into_iter().flat_map(|frame| frame.diagnostics).collect()
 }
 

@@ -6,32 +6,39 @@ use crate::loading::{is_dash, use_threads};
 use crate::shell::{Shell, counted};
 use scene_format::{LoadError, Loaded, Override, SceneDesc, Syntax};
 use std::path::Path;
-use tracer_core::{LookedAt, check_frames};
+use tracer_core::{LookedAt, Looking, check_frames};
 
 /// No more frames than this are looked at.
 const MOST: usize = 1000;
 
+/// What there is to say of frames that are right.
+#[derive(Default)]
+pub struct Told {
+    /// How many there are; `None` where nothing can move.
+    pub count: Option<String>,
+    /// Warnings that only other frames have than the one that is seen; they have been told.
+    pub warnings: usize,
+}
+
 /// Looks at each frame from the first to the last one, or at all; what is wrong with one is told with its number, and
-/// once for all frames. Gives a word on how many there are; `None` where nothing can move.
+/// once for all frames. Of all frames warnings are told, too; of some they are told by who renders these.
 ///
 /// # Errors
 /// A frame is wrong, which has been told.
-pub fn told(
-    args: &SceneArgs,
-    desc: &SceneDesc,
-    range: Option<(u32, u32)>,
-    shell: &Shell,
-) -> Result<Option<String>, Failure> {
+pub fn told(args: &SceneArgs, desc: &SceneDesc, range: Option<(u32, u32)>, shell: &Shell) -> Result<Told, Failure> {
     use_threads(None)?;
     let (first, last) = range.unwrap_or((0, desc.animation.frames.value - 1));
     // Standard input is there once.
     if is_dash(&args.scene) {
-        return Ok(None);
+        return Ok(Told::default());
     }
-    let Some(LookedAt { all, looked, wrong }) = check_frames(desc, [first, last], MOST, |frame| load(args, frame))
-    else {
-        return Ok(None);
+    let looking = Looking { first, last, most: MOST, warnings: range.is_none() };
+    let Some(LookedAt { all, looked, wrong, warned }) = check_frames(desc, looking, |frame| load(args, frame)) else {
+        return Ok(Told::default());
     };
+    for frame in &warned {
+        shell.diagnostics(&frame.diagnostics, &frame.sources, args.diagnostics);
+    }
     for frame in &wrong {
         shell.diagnostics(&frame.diagnostics, &frame.sources, args.diagnostics);
     }
@@ -44,7 +51,8 @@ pub fn told(
         return Err(Failure::WrongScene);
     }
     let looked_at = if looked < all { format!(" ({looked} looked at)") } else { String::new() };
-    Ok(Some(format!("{}{looked_at}", counted(all, "frame"))))
+    let warnings = warned.iter().map(|frame| frame.diagnostics.len()).sum();
+    Ok(Told { count: Some(format!("{}{looked_at}", counted(all, "frame"))), warnings })
 }
 
 fn load(args: &SceneArgs, frame: u32) -> Result<Loaded, LoadError> {

@@ -6,6 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 /// Has the C library give large blocks back to the system as soon as they are freed. By itself it keeps blocks of up to
 /// 32 MB for later, once such a block has been freed; a mesh of a million triangles left 48 of 184 MB to it, most of
 /// them for good (docs/performance.md).
+#[cfg(target_env = "gnu")]
 pub fn give_back() {
     const LARGE: i32 = 1 << 20;
     // SAFETY: it sets two numbers of the allocator, before there is another thread.
@@ -14,6 +15,10 @@ pub fn give_back() {
         libc::mallopt(libc::M_TRIM_THRESHOLD, LARGE);
     }
 }
+
+/// Other C libraries have no such numbers. That of musl keeps no block of 128 KiB or more.
+#[cfg(not(target_env = "gnu"))]
+pub fn give_back() {}
 
 #[global_allocator]
 static ALLOCATOR: OnHugePages = OnHugePages;

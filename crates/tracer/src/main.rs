@@ -1,14 +1,14 @@
 //! The program `tracer`.
 
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[cfg(target_os = "linux")]
 mod large_blocks;
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[cfg(target_os = "linux")]
 mod out_of_memory;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    #[cfg(target_os = "linux")]
     {
         large_blocks::give_back();
         out_of_memory::listen();

@@ -59,6 +59,17 @@ enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Makes the program as one static file of less than 16 MB (target/static/tracer), which runs on every Linux.
+    ///
+    /// Some minutes. It is seen to be static and small, and to make expected pictures byte for byte.
+    Musl {
+        /// All expected pictures; a few otherwise.
+        #[arg(long)]
+        all_pictures: bool,
+        /// Makes the image of a container with it, too (target/static/image.tar), and renders in it. Needs buildah.
+        #[arg(long)]
+        container: bool,
+    },
     /// Makes the manual as a site (target/site/book), with a picture for every entry of the reference.
     Site,
     /// Draws random scenes and holds the default picture against the truth; fails where one is wrong.
@@ -158,6 +169,14 @@ fn main() -> anyhow::Result<()> {
             return Ok(());
         }
         Command::Prove { names, all, .. } => return xtask::prove::run(&root, &xtask::prove::chosen(&names, all)?),
+        Command::Musl { all_pictures, container } => {
+            let root = root.canonicalize()?;
+            let program = xtask::musl::run(&root, all_pictures)?;
+            if container {
+                xtask::musl::image(&root, &program)?;
+            }
+            return Ok(());
+        }
         Command::Site => return xtask::site::run(&root.canonicalize()?).map(drop),
         Command::Sweeps { steps, pictures, samples, size, name } => {
             let options = xtask::sweeps::Options { steps, pictures, samples, size, name, only: 0..steps };

@@ -118,10 +118,11 @@ codes! {
     /// ```
     IN_ONE_PLACE "W0316" "shapes in one place";
     /// A number is surely meant on another scale. A background whose channels are whole numbers up to 255, different
-    /// and one of them above 100, is a colour in bytes: write it as `"#87ceeb"`. A `fov` from 0.2 to 2 that is no half
-    /// or whole number, and `degrees` that are pi, a half, a third, a quarter or a sixth of it or a multiple of these,
-    /// are radians. An `exposure` above 10 is in stops, which double what is seen each, and makes a background more
-    /// than 500 times as bright as white.
+    /// and one of them above 100, is a colour in bytes: write it as `"#87ceeb"`. So is light whose channels are
+    /// whole numbers, different, the largest of them 255. A `fov` from 0.2 to 2 that is no half or whole number, and
+    /// `degrees` that are pi, a half, a third, a quarter or a sixth of it or a multiple of these, are radians. An
+    /// `exposure` above 10 is in stops, which double what is seen each, and makes a background more than 500 times as
+    /// bright as white.
     ///
     /// ```ron
     /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])

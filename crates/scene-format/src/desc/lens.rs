@@ -47,7 +47,7 @@ scene_struct! {
         focus_on: Option<Spanned<Vec3>> = None => Rule::point();
         /// Blades of the aperture, three or more: blurred lights become polygons with so many corners, as large as the
         /// disc. 0: discs.
-        blades: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 64.0);
+        blades: Spanned<u32> = 0u32 => Rule::within("a whole number (not 1 or 2)", 0.0, 64.0);
         /// Turns the aperture, counter-clockwise as the picture shows it; at 0 it has a corner to the right.
         /// A disc has none.
         rotation: Spanned<f64> = 0.0 => Rule::within("an angle", -1e9, 1e9).unit("in degrees");

@@ -1,7 +1,7 @@
 //! The frames of an animation, looked at before any is rendered.
 
 use super::assets::Sources;
-use super::{Kept, check_files, gather};
+use super::{Kept, check_files, gather, warn};
 use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{Diagnostics, LoadError, Loaded, SceneDesc, Severity};
 use std::collections::BTreeSet;
@@ -9,12 +9,12 @@ use std::collections::BTreeSet;
 /// So many bytes of text are read for all frames together; of longer films fewer frames are looked at.
 const MOST_BYTES: usize = 256 << 20;
 
-/// A frame that is wrong.
+/// A frame of which something is to be told.
 #[derive(Debug)]
-pub struct WrongFrame {
+pub struct ToldFrame {
     /// Its number.
     pub frame: u32,
-    /// What is wrong with it and was not so with an earlier one; each fault tells the number.
+    /// What is found in it and was not in an earlier one; each tells the number.
     pub diagnostics: Diagnostics,
     /// The texts that these point into.
     pub sources: Vec<Source>,
@@ -28,18 +28,32 @@ pub struct LookedAt {
     /// How many were: of long films not all.
     pub looked: usize,
     /// Those that are wrong.
-    pub wrong: Vec<WrongFrame>,
+    pub wrong: Vec<ToldFrame>,
+    /// Warnings of frames that are not wrong, beside those of the frame that is seen; where they were asked for.
+    pub warned: Vec<ToldFrame>,
 }
 
-/// Looks at the frames from the first to the last one, at no more than `most` of them, as far apart as may be: their
-/// texts, the files that they name, and all else that compiling may find but the tree. `load` reads the scene at a
-/// frame. `None` where nothing moves, so that all frames are as `desc`, which is one of them.
+/// Which frames are looked at, and what for.
+#[derive(Clone, Copy, Debug)]
+pub struct Looking {
+    /// From this one.
+    pub first: u32,
+    /// To this one.
+    pub last: u32,
+    /// No more than this, as far apart as may be.
+    pub most: usize,
+    /// Whether warnings are told, too.
+    pub warnings: bool,
+}
+
+/// Looks at frames: their texts, the files that they name, and all else that compiling may find but the tree. `load`
+/// reads the scene at a frame. `None` where nothing moves, so that all frames are as `desc`, which is one of them.
 pub fn check_frames(
     desc: &SceneDesc,
-    [first, last]: [u32; 2],
-    most: usize,
+    looking: Looking,
     load: impl Fn(u32) -> Result<Loaded, LoadError>,
 ) -> Option<LookedAt> {
+    let Looking { first, last, most, warnings } = looking;
     let frames = desc.animation.frames.value;
     let moves = desc.sources.iter().any(|source| source.text.contains("frame") || source.text.contains("time"));
     if last < frames && (frames == 1 || !moves) {
@@ -48,24 +62,55 @@ pub fn check_frames(
     let bytes: usize = desc.sources.iter().map(|source| source.text.len()).sum();
     let all = (last - first) as usize + 1;
     let looked = all.min((MOST_BYTES / bytes.max(1)).clamp(2, most.max(2)));
-    let (kept, mut known, mut wrong) = (Kept::default(), BTreeSet::new(), Vec::new());
+    let kept = Kept::default();
+    let found = |frame: u32| found(desc, load(frame), warnings, &kept);
+    // What is told of the frame that is seen is told by who compiles it.
+    let seen = desc.animation.frame.value;
+    let mut of_seen = warnings.then(|| found(seen));
+    let mut known = BTreeSet::new();
+    if let Some(Some((diagnostics, _))) = &of_seen {
+        let warnings = diagnostics.iter().filter(|fault| fault.severity == Severity::Warning);
+        known.extend(warnings.map(|fault| (fault.span, fault.code)));
+    }
+    let (mut wrong, mut warned) = (Vec::new(), Vec::new());
     for k in 0..looked {
         let frame = first + (k as u64 * u64::from(last - first) / (looked as u64 - 1).max(1)) as u32;
-        let Some((mut diagnostics, sources)) = faults(desc, load(frame), &kept) else { continue };
-        diagnostics.retain(|fault| fault.severity == Severity::Error && known.insert((fault.span, fault.code)));
+        let of_frame = if frame == seen { of_seen.take().unwrap_or_else(|| found(frame)) } else { found(frame) };
+        let Some((mut diagnostics, sources)) = of_frame else { continue };
+        let is_wrong = diagnostics.iter().any(|fault| fault.severity == Severity::Error);
+        diagnostics
+            .retain(|fault| (fault.severity == Severity::Error) == is_wrong && known.insert((fault.span, fault.code)));
         diagnostics.iter_mut().for_each(|fault| fault.message += &format!(" (frame {frame})"));
-        wrong.push(WrongFrame { frame, diagnostics, sources });
+        if is_wrong {
+            wrong.push(ToldFrame { frame, diagnostics, sources });
+        } else if !diagnostics.is_empty() {
+            warned.push(ToldFrame { frame, diagnostics, sources });
+        }
     }
-    Some(LookedAt { all, looked, wrong })
+    Some(LookedAt { all, looked, wrong, warned })
 }
 
-/// What is wrong with a frame, and the texts; `None`: nothing.
-fn faults(desc: &SceneDesc, loaded: Result<Loaded, LoadError>, kept: &Kept) -> Option<(Diagnostics, Vec<Source>)> {
+/// What is found in a frame, and the texts; `None`: nothing. Warnings of a frame that is not wrong where they are asked
+/// for.
+fn found(
+    desc: &SceneDesc,
+    loaded: Result<Loaded, LoadError>,
+    warnings: bool,
+    kept: &Kept,
+) -> Option<(Diagnostics, Vec<Source>)> {
     match loaded {
-        Ok(Loaded { scene, .. }) => {
-            let found = gather(&scene, &Sources::keeping(kept));
+        Ok(Loaded { scene, warnings: mut diagnostics }) => {
+            let gathered = gather(&scene, &Sources::keeping(kept));
             kept.sweep();
-            found.err().map(|error| (error.diagnostics, scene.sources))
+            match gathered {
+                Err(error) => diagnostics = error.diagnostics,
+                Ok(mut gathered) if warnings => {
+                    warn(&scene, &mut gathered);
+                    diagnostics.append(&mut gathered.diagnostics);
+                }
+                Ok(_) => return None,
+            }
+            Some((diagnostics, scene.sources))
         }
         Err(LoadError::Invalid { mut diagnostics, sources, files, .. }) => {
             diagnostics.extend(check_files(&files, &desc.base_dir, &sources));

@@ -33,7 +33,7 @@ pub use assets::{Asset, Assets};
 use assets::{DISK, Sources};
 use curved::Curved;
 pub use files::{check_files, check_files_from};
-pub use frames::{LookedAt, WrongFrame, check_frames};
+pub use frames::{LookedAt, Looking, ToldFrame, check_frames};
 use glam::{DAffine3, DVec3};
 pub use kept::Kept;
 use materials::{Finished, MaterialBuilder};
@@ -159,17 +159,24 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
     Ok(Gathered { loaded, assigned, curved, solid_objects, files, mattes, finished, background, placed, diagnostics })
 }
 
+/// Warns of what is surely not meant, as far as it is seen without a frame; of shapes in one place one is left.
+fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
+    let Gathered { loaded, curved, finished, background, placed, diagnostics, .. } = gathered;
+    in_one_place::leave_out(desc, curved, &finished.materials, diagnostics);
+    unmeant::warn(desc, loaded, placed, curved, diagnostics);
+    hidden_flat::warn(desc, placed, diagnostics);
+    curved::warn_of_open_glass(desc, diagnostics);
+    other_scale::warn(desc, background.brightest(), diagnostics);
+}
+
 fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<Scene, CompileError> {
     let start = Instant::now();
-    let gathered = gather(desc, sources)?;
-    let Gathered { loaded, assigned, mut curved, solid_objects, files, mattes, .. } = gathered;
+    let mut gathered = gather(desc, sources)?;
+    let assets = start.elapsed().as_secs_f64();
+    warn(desc, &mut gathered);
+    let Gathered { loaded, assigned, curved, solid_objects, files, mattes, .. } = gathered;
     let Gathered { finished, background, placed, mut diagnostics, .. } = gathered;
     let Finished { materials, images, uses, patterns, programs } = finished;
-    let assets = start.elapsed().as_secs_f64();
-    in_one_place::leave_out(desc, &mut curved, &materials, &mut diagnostics);
-    unmeant::warn(desc, &loaded, &placed, &curved, &mut diagnostics);
-    hidden_flat::warn(desc, &placed, &mut diagnostics);
-    curved::warn_of_open_glass(desc, &mut diagnostics);
     let start = Instant::now();
     let eye = DVec3::from(desc.camera.position.value);
     let look_at = DVec3::from(desc.camera.look_at.value);
@@ -180,7 +187,6 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
     let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
     let behind = background.brightest();
-    other_scale::warn(desc, behind, &mut diagnostics);
     let radiance_unit = like.radiance_unit.unwrap_or_else(|| radiances::unit(desc, &shining, behind));
     diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
     let is_dark = behind == [0.0; 3];

@@ -1,6 +1,8 @@
-//! Numbers that are surely meant on another scale: radians where degrees stand, an exposure in other units.
+//! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
+//! exposure in other units.
 
-use scene_format::desc::{Projection, Transform};
+use scene_format::desc::{Amount, Color, Emission, Light, Material, MaterialRef, Projection, Transform};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
 
@@ -41,6 +43,14 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
                 .hint(format!("as radians that is `degrees: {:.0}`", degrees.to_degrees())),
         );
     }
+    if let Some((span, color)) = light_in_bytes(desc) {
+        let hex: String = color.iter().map(|channel| format!("{:02x}", *channel as u8)).collect();
+        diagnostics.push(
+            Diagnostic::warning(codes::OTHER_SCALE, span, "the light looks like a colour in bytes")
+                .expected("an amount of light for red, green and blue, without an upper end")
+                .hint(format!("write \"#{hex}\" for the colour, or 256 for 255 where the amount is meant")),
+        );
+    }
     let exposure = &desc.effects.exposure;
     let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * libm::exp2(exposure.value);
     if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
@@ -52,6 +62,31 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
                 .hint("write `exposure: 0`, and look at the picture"),
         );
     }
+}
+
+/// The first light whose three numbers are whole, the largest of them 255, and not all the same: light has no upper
+/// end, and nobody who means an amount stops just there.
+fn light_in_bytes(desc: &SceneDesc) -> Option<(Span, Color)> {
+    let of_light = |light: &Light| {
+        let Light::SphereLight(light) = light;
+        let (Emission::Intensity(color) | Emission::Radiance(color) | Emission::Power(color)) = light.emission.value;
+        (light.emission.span, color)
+    };
+    let of_material = |material: &Material| {
+        let amount = &material.shines()?.amount;
+        let (Amount::Radiance(color) | Amount::Power(color)) = amount.value;
+        Some((amount.span, color))
+    };
+    let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
+        MaterialRef::Inline(material) => of_material(&material.value),
+        _ => None,
+    });
+    let named = desc.materials.iter().filter_map(|named| of_material(&named.material));
+    desc.lights.iter().map(|light| of_light(&light.value)).chain(named).chain(inline).find(|(_, color)| {
+        let whole = color.iter().all(|channel| channel.fract() == 0.0 && *channel >= 0.0);
+        let most = color.iter().fold(0.0, |most: f64, channel| most.max(*channel));
+        whole && most == 255.0 && color.iter().any(|channel| *channel != most)
+    })
 }
 
 /// Whether an angle is one of those that people turn things by, in radians.

@@ -38,16 +38,16 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let pictured =
             material.is_some_and(wants_uv) || own && data.materials.iter().any(|named| wants_uv(&named.material));
         if pictured && data.uvs.is_empty() {
+            // A material of the file has no `mapping` to write.
+            let way = if own {
+                "export the mesh with UVs, or give it a material with `mapping: Triplanar()` in its texture"
+            } else {
+                "write `mapping: Triplanar()` in the texture, which needs none, or export the mesh with UVs"
+            };
             diagnostics.push(
-                Diagnostic::warning(
-                    codes::NO_COORDINATES,
-                    span,
-                    "the mesh has a texture and no texture coordinates",
-                )
-                .expected("texture coordinates in the mesh file (`vt` in OBJ)")
-                .hint(
-                    "one colour of the texture is all that shows: export the mesh with UVs, or give it a plain colour",
-                ),
+                Diagnostic::warning(codes::NO_COORDINATES, span, "the mesh has a texture and no texture coordinates")
+                    .expected("texture coordinates in the mesh file (`vt` in OBJ)")
+                    .hint(format!("one colour of the texture is all that shows: {way}")),
             );
         }
         let mirrored = placed.maps_of(k).iter().any(|map| map.matrix3.determinant() < 0.0);

@@ -115,6 +115,9 @@ pub struct GoldenNewArgs {
     /// Seed of all random choices
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
+    /// Use this one of the scenes' `cameras`
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
     /// Set a field of all scenes: camera.fov=40 (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,

@@ -42,7 +42,7 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
     let scene = compile(&desc, args.diagnostics, None, shell)?;
     let frames = frames::told(&args_of_scene, &desc, None, shell)?;
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
-    let warnings = warnings + scene.warnings.len();
+    let warnings = warnings + scene.warnings.len() + frames.warnings;
     if args.deny_warnings && warnings > 0 {
         if args.diagnostics == DiagnosticsForm::Text {
             shell.error(&anyhow::anyhow!("{name}: {}, denied by --deny-warnings", counted(warnings, "warning")));
@@ -51,7 +51,7 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
     }
     if args.diagnostics == DiagnosticsForm::Text {
         let (objects, lights) = (counted(desc.objects.len(), "object"), counted(lights(&desc, &scene), "light"));
-        let frames = frames.map_or(String::new(), |frames| format!(", {frames}"));
+        let frames = frames.count.map_or(String::new(), |frames| format!(", {frames}"));
         let cameras = args_of_scene
             .camera
             .map_or(String::new(), |_| format!(", {} of which none is chosen", counted(desc.cameras.len(), "camera")));

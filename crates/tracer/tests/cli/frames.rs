@@ -120,6 +120,31 @@ fn files_of_later_frames_are_looked_at_before_the_first() {
     }
 }
 
+/// Warnings of other frames than the one that is seen are told with the number, each once, and count.
+#[test]
+fn warnings_of_later_frames_are_told_by_check() {
+    let sandbox = film();
+    // What reading finds, what compiling finds, and what the frame that is seen has, too.
+    let sky = "background: Pick(from: [(1, 1, 1), (135, 206, 235)], index: \"=if(frame >= 2, 1, 0)\")";
+    let turned = "Box(transform: [Rotate(axis: (0, 1, 0), degrees: \"=if(frame == 1, 1.5708, 0)\")])";
+    let objects = format!("vars: {{ \"unused\": 1 }}, objects: [{turned}, ");
+    let text = FILM.replace("background: 1", sky).replace("objects: [", &objects);
+    sandbox.write("warned.ron", text);
+    let ran = sandbox.run(&["check", "warned.ron"]).ends(0);
+    assert_eq!(ran.err.matches("W0402").count(), 1, "{}", ran.err);
+    assert!(ran.err.contains("looks like radians (frame 1)"), "{}", ran.err);
+    let told = ["looks like a colour in bytes (frame 2)", "(frame 3)", "(frame 0)"].map(|what| ran.err.contains(what));
+    assert_eq!(told, [true, false, false], "{}", ran.err);
+    let ran = sandbox.run(&["check", "warned.ron", "--deny-warnings"]).ends(2);
+    ran.says(&["3 warnings, denied by --deny-warnings"]);
+    // Seen at that frame it is told without a number.
+    let ran = sandbox.run(&["check", "warned.ron", "--set", "animation.frame=1"]).ends(0);
+    assert!(ran.err.contains("looks like radians\n") && ran.err.contains("bytes (frame 2)"), "{}", ran.err);
+    // Who renders frames tells warnings as they come.
+    let ran = sandbox.run(&["render", "warned.ron", "--frames", "0-1", "-o", "w_#.png"]).ends(0);
+    assert_eq!((ran.err.matches("W0317").count(), ran.err.matches("W0402").count()), (1, 1), "{}", ran.err);
+}
+
 /// A warning is told once for a film.
 #[test]
 fn warnings_are_told_once_for_all_frames() {

@@ -141,6 +141,38 @@ fn scenes_elsewhere() {
     sandbox.run(&["compare", "a.png", "deep/golden/scene.png", "--fail-above", "max=0"]).ends(0);
 }
 
+/// Of scenes with several cameras one is chosen for all of the folder, or for each.
+#[test]
+fn cameras_are_chosen() {
+    let sandbox = Sandbox::new();
+    let near = "\"near\": Camera(position: (0, 0, 3), look_at: (0, 0, 0))";
+    let far = "\"far\": Camera(position: (0, 0, 9), look_at: (0, 0, 0))";
+    let rest = "background: (0.2, 0.4, 0.8), image: Image(width: 16, height: 12), render: Render(samples: 2), \
+                objects: [Sphere(center: (0, 0, 0), radius: 1)]";
+    sandbox.write("room.ron", format!("Scene(cameras: {{ {near}, {far} }}, {rest})"));
+    let new = ["golden", "new", "golden", "--bytes", "--scene", "room.ron"];
+    sandbox.run(&[&new[..], &["--camera", "far"]].concat()).ends(0);
+    assert!(sandbox.text("golden/golden.toml").contains("\ncamera = \"far\"\n"));
+    sandbox.run(&["golden", "run", "golden"]).ends(1);
+    sandbox.run(&["golden", "accept", "golden", "room", "--reason", "first"]).ends(0);
+    for camera in ["near", "far"] {
+        sandbox.run(&["render", "room.ron", "--camera", camera, "-o", &format!("{camera}.png")]).ends(0);
+    }
+    sandbox.run(&["compare", "far.png", "golden/room.png", "--fail-above", "max=0"]).ends(0);
+    sandbox.run(&["compare", "far.png", "near.png", "--fail-above", "max=0"]).ends(1);
+    // One scene's own goes before that of all.
+    let text = sandbox.text("golden/golden.toml");
+    sandbox.write("golden/golden.toml", format!("{text}[scene.room]\ncamera = \"near\"\n"));
+    sandbox.run(&["golden", "run", "golden"]).ends(1);
+    // None: what is said is how it is written here.
+    sandbox.write("golden/golden.toml", text.replace("camera = \"far\"\n", ""));
+    let out = sandbox.run(&["golden", "run", "golden"]).ends(1).out_text();
+    assert!(out.contains("here one is chosen in golden.toml: `camera = \"near\"`"), "{out}");
+    sandbox.write("golden/golden.toml", text.replace("far", "fur"));
+    let out = sandbox.run(&["golden", "run", "golden"]).ends(1).out_text();
+    assert!(out.contains("there is no camera \"fur\""), "{out}");
+}
+
 /// Without noise every byte counts, or FLIP where the folder says so much is allowed.
 #[test]
 fn bytes_alone() {

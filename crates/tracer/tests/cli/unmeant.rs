@@ -60,6 +60,11 @@ fn a_texture_needs_coordinates() {
     let with = |file: &str| format!("Mesh(file: {file:?}, material: Diffuse(albedo: Checkerboard()))");
     assert_eq!(codes(&sandbox, &scene("background: 1,", &with("cube.obj"))), ["W0521"]);
     assert!(codes(&sandbox, &scene("background: 1,", &with("flat.obj"))).is_empty());
+    // The way that is offered works.
+    sandbox.write("odd.ron", scene("background: 1,", &with("cube.obj")));
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["W0521", "write `mapping: Triplanar()` in the texture"]);
+    let mended = with("cube.obj").replace("Checkerboard()", "Checkerboard(mapping: Triplanar())");
+    assert!(codes(&sandbox, &scene("background: 1,", &mended)).is_empty());
     assert!(codes(&sandbox, &scene("background: 1,", "Mesh(file: \"cube.obj\")")).is_empty());
 }
 
@@ -209,6 +214,22 @@ fn numbers_on_another_scale_are_told() {
     assert_eq!(code("background: 150,", ball), ["W0318"]);
     assert_eq!(code("background: 0.5, effects: Effects(exposure: 12),", ball), ["W0317", "W0318"]);
     assert!(code("background: 0.0005, effects: Effects(exposure: 11),", ball).is_empty());
+    let shining = |light: &str| code("", &format!("Sphere(center: (0, 3, 0), radius: 1, material: Emissive({light}))"));
+    let lamp = |light: &str| code(&format!("lights: [SphereLight(center: (0, 3, 0), radius: 1, {light})],"), ball);
+    for light in ["radiance: (255, 240, 200)", "power: (0, 255, 0)"] {
+        for codes in [shining(light), lamp(light)] {
+            assert!(codes.contains(&"W0317".to_owned()), "{light} {codes:?}");
+        }
+    }
+    assert!(lamp("intensity: (255, 0, 0)").contains(&"W0317".to_owned()));
+    // Grey, another amount, parts, a colour.
+    for light in
+        ["power: 255", "power: (256, 240, 200)", "power: (254, 0, 0)", "power: (255, 0.5, 0)", "radiance: \"#ff0000\""]
+    {
+        for codes in [shining(light), lamp(light)] {
+            assert!(!codes.contains(&"W0317".to_owned()), "{light} {codes:?}");
+        }
+    }
     let turned = |degrees: &str| {
         code("background: 0.5,", &format!("Box(transform: [Rotate(axis: (0, 1, 0), degrees: {degrees})])"))
     };

@@ -54,6 +54,9 @@ fn text(args: &GoldenNewArgs, folder: &Path) -> Result<String, Failure> {
     if let Some(seed) = args.seed {
         text += &format!("seed = {seed}\n");
     }
+    if let Some(camera) = &args.camera {
+        text += &format!("camera = {}\n", string(camera));
+    }
     if !args.set.is_empty() {
         text += &format!("set = [{}]\n", args.set.iter().map(|set| string(set)).collect::<Vec<_>>().join(", "));
     }

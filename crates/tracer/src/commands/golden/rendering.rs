@@ -14,7 +14,7 @@ use tracer_core::{Film, LayerImage, Level, Observer, Progress, RenderOptions, Sc
 use tracer_golden::folder::Case;
 use tracer_golden::measured::{Measured, Recorder};
 use tracer_golden::picture::Rgb8;
-use tracer_golden::settings::{Settings, Shows};
+use tracer_golden::settings::{FILE, Settings, Shows};
 
 /// What was made of a scene.
 pub struct Rendered {
@@ -50,15 +50,24 @@ const STYLE: Style = Style { color: false, width: 100 };
 /// When it is wrong.
 pub fn load(case: &Case, settings: &Settings) -> Result<SceneDesc, NoPicture> {
     let own = settings.of(&case.name);
-    let overrides: Vec<Override> = own.set.iter().cloned().map(Override::from).collect();
+    let camera = own.camera.as_deref().map(Override::camera);
+    let overrides: Vec<Override> = own.set.iter().cloned().map(Override::from).chain(camera).collect();
     let folder = case.scene.parent().unwrap_or(Path::new(""));
     let Loaded { scene: mut desc, .. } = scene_format::load_with(&case.scene, &overrides).map_err(|error| {
         let error = with_faults_of_files(error, folder);
         let what = match &error {
-            LoadError::Invalid { diagnostics, sources, .. } => {
+            LoadError::Invalid { diagnostics, sources, undecided, .. } => {
                 let mut errors = diagnostics.to_vec();
                 errors.retain(|fault| fault.severity == scene_format::Severity::Error);
-                text(&errors, sources, STYLE).trim_end().to_owned()
+                let mut told = text(&errors, sources, STYLE).trim_end().to_owned();
+                if let Some(camera) = undecided {
+                    told += &format!(
+                        "\n\nhere one is chosen in {FILE}: `camera = {camera:?}` for all scenes, or below \
+                         `[scene.{:?}]` for this one",
+                        case.name
+                    );
+                }
+                told
             }
             LoadError::Io { .. } => error.to_string(),
         };
