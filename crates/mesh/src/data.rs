@@ -37,11 +37,22 @@ pub struct MeshData {
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,
+    /// What the file says of MTL, where its triangles use that: what `materials` and `triangle_material` were made of.
+    pub mtl: MtlNames,
     /// Further files that were read for it: MTL files, buffers of glTF.
     pub libraries: Vec<PathBuf>,
     /// Recoverable oddities: at most one `W0510` for the mesh file, one `W0511` for its materials, and one
     /// `W0512` for what else of it is not taken. They have no span.
     pub warnings: Diagnostics,
+}
+
+/// What an OBJ file says of materials.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlNames {
+    /// The names of MTL files as it has them (`mtllib`).
+    pub libraries: Vec<String>,
+    /// The names of materials that faces use, in order of first use, and whether the MTL files have them.
+    pub used: Vec<(String, bool)>,
 }
 
 impl MeshData {

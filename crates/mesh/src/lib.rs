@@ -44,7 +44,7 @@ pub mod placements;
 pub mod shapes;
 
 pub use arrays::MeshArrays;
-pub use data::{MAX_COORDINATE, MeshData, NO_INDEX};
+pub use data::{MAX_COORDINATE, MeshData, MtlNames, NO_INDEX};
 pub use error::{MeshError, Place};
 pub use files::{FileError, Files, plain, read_regular_file};
 pub use format::MeshFormat;

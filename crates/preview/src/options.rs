@@ -4,7 +4,8 @@ use crate::editor::Editor;
 use scene_format::{Override, SceneDesc, Syntax};
 use std::net::IpAddr;
 use std::path::{Path, PathBuf};
-use tracer_core::{Film, Look};
+use std::sync::Arc;
+use tracer_core::{Film, Look, Store};
 
 /// What to preview.
 #[derive(Clone, Debug)]
@@ -59,4 +60,9 @@ pub trait Host: Send + Sync + 'static {
 
     /// Bytes of memory that are free, if the system tells.
     fn free_memory(&self) -> Option<u64>;
+
+    /// Where meshes and trees are kept from one run of the program to the next, if anywhere.
+    fn store(&self) -> Option<Arc<dyn Store>> {
+        None
+    }
 }

@@ -34,7 +34,8 @@ pub fn run(shared: &Arc<Shared>) {
     let teller = Arc::clone(shared);
     // Without it there is no noise to be seen, and all else goes on.
     let _ = std::thread::Builder::new().name("noise".to_owned()).spawn(move || tell_noise(&teller, &frames));
-    let mut studio = Studio { shared, read: None, pose: None, fit: None, stages: 0, kept: Kept::default(), noise };
+    let kept = shared.host.store().map_or_else(Kept::default, Kept::storing);
+    let mut studio = Studio { shared, read: None, pose: None, fit: None, stages: 0, kept, noise };
     loop {
         let orders = shared.orders();
         if orders.quit {

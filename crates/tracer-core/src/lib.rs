@@ -47,7 +47,8 @@ pub mod texture;
 
 pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
-pub use compile::{LookedAt, Looking, ToldFrame, check_frames};
+pub use compile::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told as StoreTold};
+pub use compile::{LookedAt, Looking, ToldFrame, check_frames, compile_storing, is_kept_file};
 pub use denoise::{DENOISE_REACH, DenoiseError, DenoiseTold, Denoised, GUIDES, Noisy, denoise, lacks as denoise_lacks};
 pub use develop::{Backdrop, Image, Look, develop, develop_denoised, develop_radiance, srgb_decode, srgb_encode};
 pub use engine::{

@@ -1,6 +1,7 @@
 //! The command line's words.
 
 mod bench;
+mod cache;
 mod denoise;
 mod farm;
 mod fmt;
@@ -12,6 +13,7 @@ mod render;
 mod repro;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
+pub use cache::CacheArgs;
 pub use denoise::{DenoiseArgs, DenoiseName};
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
@@ -510,6 +512,25 @@ fn interval(text: &str) -> Result<Duration, String> {
     (1e-3..=3.6e6).contains(&seconds).then(|| Duration::from_secs_f64(seconds)).ok_or_else(expected)
 }
 
+/// A number of bytes: 500MB, 10GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    let expected = || "expected a size from 1MB to 1000TB, as in 500MB, 20GB or 20GiB".to_owned();
+    let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.').len();
+    let (number, unit) = text.split_at(digits);
+    let of_one = match unit.trim_start().to_ascii_lowercase().as_str() {
+        "b" => 1.0,
+        "m" | "mb" => 1e6,
+        "mib" => f64::from(1 << 20),
+        "g" | "gb" => 1e9,
+        "gib" => f64::from(1 << 30),
+        "t" | "tb" => 1e12,
+        "tib" => f64::from(1 << 20) * f64::from(1 << 20),
+        _ => return Err(expected()),
+    };
+    let bytes = number.parse::<f64>().map_err(|_| expected())? * of_one;
+    (1e6..=1e15).contains(&bytes).then_some(bytes as u64).ok_or_else(expected)
+}
+
 /// A relative error: 0.01, or 1%.
 fn noise(text: &str) -> Result<f64, String> {
     let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent, 0.01));
@@ -550,6 +571,18 @@ mod tests {
         }
         for bad in ["", "0", "-1", "1.5", "1e10", "k", "inf", "nan", "1kk", "0x10"] {
             assert!(count(bad).is_err(), "{bad}");
+        }
+        for (text, size) in [
+            ("500MB", 500_000_000),
+            ("10GiB", 10 << 30),
+            ("1.5 g", 1_500_000_000),
+            ("1TiB", 1 << 40),
+            ("1234567B", 1_234_567),
+        ] {
+            assert_eq!(bytes(text), Ok(size));
+        }
+        for bad in ["", "10", "10B", "1KB", "0GB", "-1GB", "nanGB", "2000TB", "GB"] {
+            assert!(bytes(bad).is_err(), "{bad}");
         }
         assert_eq!((noise("0.01"), noise("1%"), noise("2.5 %")), (Ok(0.01), Ok(0.01), Ok(0.025)));
         for bad in ["", "0", "1", "-1%", "100%", "nan", "%", "1 percent"] {

@@ -46,11 +46,19 @@ pub fn command() -> Command {
                         "denoise",
                         "integrator",
                         "no_metadata",
+                        "cache",
+                        "cache_size",
+                        "cache_verify",
                     ]
                     .into_iter()
                     .chain(["pause", "program", "retries"])
                     .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
                 })
+        })
+        .mut_subcommand("preview", |command| {
+            ["cache", "cache_size", "cache_verify"]
+                .into_iter()
+                .fold(command, |command, name| command.mut_arg(name, |arg| arg.hide(true)))
         })
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
@@ -71,6 +79,9 @@ pub fn command() -> Command {
                 "checkpoint",
                 "skip_existing",
                 "report",
+                "cache",
+                "cache_size",
+                "cache_verify",
                 "integrator",
                 "show",
                 "no_metadata",

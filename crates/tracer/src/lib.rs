@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod args;
+pub mod cache;
 pub mod checkpoint;
 pub mod command_line;
 pub mod commands;

@@ -1,6 +1,7 @@
 //! The scene on the command line, read and compiled, its faults told.
 
 use crate::args::{DiagnosticsForm, SceneArgs};
+use crate::cache::Cache;
 use crate::failure::Failure;
 use crate::memory::human;
 use crate::shell::{Shell, counted};
@@ -203,16 +204,28 @@ fn unread(path: &Path, error: &std::io::Error) -> Failure {
     Failure::could_not(format!("cannot read the scene file {shown}: {error}"))
 }
 
-/// Compiles the scene: the second hand. Warnings are printed. What is in `kept` is neither read nor built anew.
+/// What is neither read nor built anew.
+#[derive(Clone, Copy)]
+pub enum Known<'k> {
+    /// All is.
+    Nothing,
+    /// What the scene before has left.
+    Kept(&'k Kept),
+    /// What an earlier run of the program has left.
+    Cached(&'k Cache),
+}
+
+/// Compiles the scene: the second hand. Warnings are printed.
 ///
 /// # Errors
 /// When assets are wrong: then everything that is wrong has been printed.
-pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, kept: Option<&Kept>, shell: &Shell) -> Result<Scene, Failure> {
+pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, known: Known<'_>, shell: &Shell) -> Result<Scene, Failure> {
     use_threads(None)?;
     let sources: &[Source] = &desc.sources;
-    let compiled = match kept {
-        Some(kept) => tracer_core::compile_keeping(desc, kept),
-        None => tracer_core::compile(desc),
+    let compiled = match known {
+        Known::Nothing => tracer_core::compile(desc),
+        Known::Kept(kept) => tracer_core::compile_keeping(desc, kept),
+        Known::Cached(cache) => tracer_core::compile_storing(desc, cache),
     };
     let scene = compiled.map_err(|CompileError { diagnostics }| {
         shell.diagnostics(&diagnostics, sources, form);

@@ -1,5 +1,6 @@
 //! The report of a rendering as JSON; `docs/report.md` is its documentation.
 
+use crate::cache::CacheReport;
 use crate::denoising::DenoiseReport;
 use scene_format::desc::Render;
 use serde::Serialize;
@@ -43,6 +44,8 @@ pub struct Report {
     pub tree: Option<Tree>,
     /// Memory.
     pub memory: Memory,
+    /// What came from the cache, of all frames so far; null without `--cache`.
+    pub cache: Option<CacheReport>,
     /// Where the time of rendering went; null unless `--stats` asked for it.
     pub stats: Option<Stats>,
     /// What it ran on.

@@ -25,6 +25,7 @@ mod kernels;
 mod layout;
 mod ray_space;
 mod sphere;
+mod stored;
 mod triangle;
 mod validate;
 
@@ -32,6 +33,7 @@ pub use build::BuildError;
 pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
 pub use kernels::Counters;
 pub use sphere::sphere_hit;
+pub use stored::{RestoreError, TreeHead};
 pub use triangle::{part_hit, triangle_hit};
 pub use validate::{Invalid, TrianglePart};
 
@@ -40,6 +42,7 @@ pub use ray_space::{PAD, SMALLEST_COMPONENT};
 
 use crate::level::Level;
 use arena::Arena;
+use bounds::Bounds;
 use coplanar::Coplanar;
 pub use coplanar::{Materials, Ranks, SAME_SIDE, TRANSMITS};
 use kernels::{Batch, MeshRecord, TreeView};
@@ -139,6 +142,8 @@ pub struct Accel {
     parts: Vec<crate::shapes::csg::Part>,
     spheres: u32,
     instances: u32,
+    /// Of all that is in the tree.
+    bounds: Bounds,
     size: f32,
     level: Level,
     coplanar: Option<Coplanar>,

@@ -17,6 +17,7 @@
 
 mod library;
 
+use super::data::MeshData;
 use super::error::MeshError;
 use super::files::Files;
 use library::{Library, MtlMaterial};
@@ -44,6 +45,32 @@ pub(super) struct MeshMaterials {
     pub(super) warning: Option<Diagnostic>,
     /// The files that were read.
     pub(super) libraries: Vec<PathBuf>,
+}
+
+impl MeshMaterials {
+    /// The used names, each with whether it is defined.
+    pub(super) fn defined<'n>(&self, used: &[&'n str]) -> impl Iterator<Item = (&'n str, bool)> {
+        used.iter().zip(&self.index_of_name).map(|(&name, index)| (name, index.is_some()))
+    }
+}
+
+impl MeshData {
+    /// Reads the materials of its triangles anew, for a mesh that was kept without them: what its MTL files and the
+    /// pictures that these name are now. Says whether the same names are defined as when `triangle_material` was made.
+    ///
+    /// # Errors
+    /// When an MTL file is broken.
+    pub fn read_materials(&mut self, path: &Path, files: &Files) -> Result<bool, MeshError> {
+        let libraries: Vec<&str> = self.mtl.libraries.iter().map(String::as_str).collect();
+        let used: Vec<&str> = self.mtl.used.iter().map(|(name, _)| name.as_str()).collect();
+        let found = load(&libraries, &used, path, files)?;
+        let is_as_before = found.defined(&used).eq(self.mtl.used.iter().map(|(name, known)| (name.as_str(), *known)));
+        self.materials = found.materials;
+        self.libraries.extend(found.libraries);
+        // The mesh's own warning comes before that of its materials.
+        self.warnings.extend(found.warning);
+        Ok(is_as_before)
+    }
 }
 
 /// Reads the MTL files that `mtllib` names in the OBJ file at `obj_path`, and turns the used materials.

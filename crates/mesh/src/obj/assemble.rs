@@ -3,7 +3,7 @@
 use super::piece::{FoundCorner, Piece, RawIndex};
 use super::{MOST, Oddities, Oddity};
 use crate::cursor::{Fault, shown};
-use crate::data::{MeshData, NO_INDEX};
+use crate::data::{MeshData, MtlNames, NO_INDEX};
 use crate::error::MeshError;
 use crate::files::Files;
 use crate::mtl;
@@ -139,6 +139,13 @@ impl<'a> Assembly<'a> {
         let uvs = without_needless_indices(uvs, take(|part| &mut part.uvs), &triangles, positions.len());
 
         let materials = mtl::load(&libraries, &names, path, files)?;
+        let mtl = match names.is_empty() {
+            true => MtlNames::default(),
+            false => MtlNames {
+                libraries: libraries.iter().map(|&name| name.to_owned()).collect(),
+                used: materials.defined(&names).map(|(name, is_defined)| (name.to_owned(), is_defined)).collect(),
+            },
+        };
         let mut triangle_material = join(good.into_iter().map(|part| part.materials).collect());
         if materials.materials.is_empty() {
             triangle_material.clear();
@@ -155,6 +162,7 @@ impl<'a> Assembly<'a> {
             uv_triangles: uvs.triangles,
             materials: materials.materials,
             triangle_material,
+            mtl,
             libraries: materials.libraries,
             warnings: materials.warning.into_iter().collect(),
         })

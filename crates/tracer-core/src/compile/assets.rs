@@ -1,6 +1,7 @@
 //! What a scene names and programs have in memory, and where compiling takes files from.
 
 use super::kept::{self, Kept};
+use super::stored::{self, Store};
 use crate::texture::{self, Landscape, Panorama, Pixels, Reading, Texture, TextureError};
 use glam::DAffine3;
 use std::collections::BTreeMap;
@@ -94,6 +95,8 @@ impl From<Pixels> for Asset {
 pub(super) struct Sources<'a> {
     /// What the last compiling has kept.
     pub kept: Option<&'a Kept>,
+    /// What the last run of the program has kept.
+    pub store: Option<&'a dyn Store>,
     /// By whole path.
     meshes: BTreeMap<PathBuf, Arc<MeshArrays>>,
     pixels: BTreeMap<PathBuf, Arc<Pixels>>,
@@ -120,17 +123,23 @@ impl<'a> Sources<'a> {
 
     /// The disk, and what was kept of it.
     pub fn keeping(kept: &'a Kept) -> Self {
-        Sources { kept: Some(kept), ..Sources::default() }
+        Sources { kept: Some(kept), store: kept.store.as_deref(), ..Sources::default() }
+    }
+
+    /// The disk, and what was kept of it by the last run of the program.
+    pub fn storing(store: &'a dyn Store) -> Self {
+        Sources { store: Some(store), ..Sources::default() }
     }
 
     /// The same without what was kept.
     pub fn in_memory(&self) -> Sources<'static> {
-        Sources { kept: None, meshes: self.meshes.clone(), pixels: self.pixels.clone(), files: self.files.clone() }
+        let (meshes, pixels, files) = (self.meshes.clone(), self.pixels.clone(), self.files.clone());
+        Sources { kept: None, store: None, meshes, pixels, files }
     }
 
     /// The same with what was kept.
-    pub fn with<'k>(&self, kept: &'k Kept) -> Sources<'k> {
-        Sources { kept: Some(kept), ..self.in_memory() }
+    pub fn with<'k>(&self, kept: &'k Kept, store: Option<&'k dyn Store>) -> Sources<'k> {
+        Sources { kept: Some(kept), store, ..self.in_memory() }
     }
 
     pub fn mesh(&self, path: &Path) -> Result<Arc<MeshData>, MeshError> {
@@ -141,9 +150,13 @@ impl<'a> Sources<'a> {
             let (message, expected) = ("it is a picture".to_owned(), "a mesh".to_owned());
             return Err(MeshError::Arrays { path: path.to_owned(), message, expected });
         }
+        let read = || match self.store {
+            Some(store) if self.files.get(path).is_none() => stored::load_mesh(store, path),
+            _ => mesh::load_from(path, &self.files).map(Arc::new),
+        };
         match self.kept {
-            Some(kept) => kept::load_mesh(kept, path, &self.files),
-            None => mesh::load_from(path, &self.files).map(Arc::new),
+            Some(kept) => kept::load_mesh(kept, path, read),
+            None => read(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! What is kept from one compiling to the next, for programs that compile a scene again and again while it is edited.
 
+use super::stored::{self, Store};
 use crate::texture::{self, Landscape, Panorama, Reading, Texture, TextureError};
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
-use tracer_mesh::{self as mesh, Files, MeshData, MeshError};
+use tracer_mesh::{MeshData, MeshError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
@@ -21,6 +22,8 @@ pub struct Kept {
     environments: Mutex<BTreeMap<PathBuf, Entry<Panorama>>>,
     /// Files are as they were when they were read, whatever became of them since.
     is_frozen: bool,
+    /// What is kept from one run of the program to the next.
+    pub(super) store: Option<Arc<dyn Store>>,
     /// By what they were built of.
     trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
 }
@@ -60,7 +63,7 @@ fn file<K: Ord, T, E>(
     entries: &Mutex<BTreeMap<K, Entry<T>>>,
     key: K,
     path: &Path,
-    load: impl FnOnce() -> Result<T, E>,
+    load: impl FnOnce() -> Result<Arc<T>, E>,
     others: impl FnOnce(&T) -> Vec<PathBuf>,
 ) -> Result<Arc<T>, E> {
     if let Some(entry) = lock(entries).get_mut(&key)
@@ -72,7 +75,7 @@ fn file<K: Ord, T, E>(
     // Before it is read: what is written meanwhile is read the next time.
     let own = stamp(path);
     let began = SystemTime::now();
-    let value = Arc::new(load()?);
+    let value = load()?;
     let fresh = |path: &Path| stamp(path).filter(|(written, _)| *written < began);
     let others = others(&value).into_iter().map(|path| (path.clone(), fresh(&path)));
     let stamps = std::iter::once((path.to_owned(), own)).chain(others).collect();
@@ -81,42 +84,55 @@ fn file<K: Ord, T, E>(
 }
 
 /// A mesh file, read or kept.
-pub(super) fn load_mesh(kept: &Kept, path: &Path, files: &Files) -> Result<Arc<MeshData>, MeshError> {
+pub(super) fn load_mesh(
+    kept: &Kept,
+    path: &Path,
+    read: impl FnOnce() -> Result<Arc<MeshData>, MeshError>,
+) -> Result<Arc<MeshData>, MeshError> {
     // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read
     // again.
     let others = |mesh: &MeshData| {
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()
     };
-    file(kept.is_frozen, &kept.meshes, path.to_owned(), path, || mesh::load_from(path, files), others)
+    file(kept.is_frozen, &kept.meshes, path.to_owned(), path, read, others)
 }
 
 /// A texture, read or kept.
 pub(super) fn load_texture(kept: &Kept, path: &Path, reading: Reading) -> Result<Arc<Texture>, TextureError> {
-    let load = || texture::load_as(path, reading);
+    let load = || texture::load_as(path, reading).map(Arc::new);
     file(kept.is_frozen, &kept.textures, (path.to_owned(), reading), path, load, |_| Vec::new())
 }
 
 /// Heights, read or kept.
 pub(super) fn load_heights(kept: &Kept, path: &Path) -> Result<Arc<Landscape>, TextureError> {
-    file(kept.is_frozen, &kept.heights, path.to_owned(), path, || texture::load_heights(path), |_| Vec::new())
+    let load = || texture::load_heights(path).map(Arc::new);
+    file(kept.is_frozen, &kept.heights, path.to_owned(), path, load, |_| Vec::new())
 }
 
 /// The picture of a background, read or kept.
 pub(super) fn load_environment(kept: &Kept, path: &Path) -> Result<Arc<Panorama>, TextureError> {
-    file(kept.is_frozen, &kept.environments, path.to_owned(), path, || texture::load_environment(path), |_| Vec::new())
+    let load = || texture::load_environment(path).map(Arc::new);
+    file(kept.is_frozen, &kept.environments, path.to_owned(), path, load, |_| Vec::new())
 }
 
 /// A tree, built or kept.
 pub(super) fn build_tree(
-    kept: Option<&Kept>,
+    (kept, store): (Option<&Kept>, Option<&dyn Store>),
     geometry: &Geometry<'_>,
     acceleration: Acceleration,
     ranks: &Ranks,
 ) -> Result<Arc<Accel>, BuildError> {
     let build = || Accel::build_with(geometry, acceleration, ranks).map(Arc::new);
-    let Some(kept) = kept else { return build() };
+    if kept.is_none() && store.is_none() {
+        return build();
+    }
     let key = key(geometry, acceleration, ranks);
+    let build = || match store {
+        Some(store) => stored::build_tree(store, geometry, ranks, key, build),
+        None => build(),
+    };
+    let Some(kept) = kept else { return build() };
     if let Some((used, tree)) = lock(&kept.trees).get_mut(&key) {
         *used = true;
         return Ok(Arc::clone(tree));
@@ -127,6 +143,11 @@ pub(super) fn build_tree(
 }
 
 impl Kept {
+    /// What is kept in memory of what is kept from one run of the program to the next.
+    pub fn storing(store: Arc<dyn Store>) -> Self {
+        Kept { store: Some(store), ..Kept::default() }
+    }
+
     /// What the last scene has used, its files as they are now for ever.
     pub(super) fn frozen(&self) -> Kept {
         let trees = lock(&self.trees);
@@ -138,6 +159,8 @@ impl Kept {
             heights: of_last_scene(&self.heights),
             environments: of_last_scene(&self.environments),
             is_frozen: true,
+            // Each moment has trees of its own.
+            store: None,
             trees: Mutex::new(trees),
         }
     }

@@ -6,7 +6,7 @@
 //! a size of about one, and its instances carry matrices.
 
 use super::assets::Sources;
-use super::kept::{Kept, build_tree};
+use super::kept::build_tree;
 pub use super::loading::{Loaded, load};
 use super::materials::MaterialBuilder;
 use super::placing::{Subject, check, place_all};
@@ -324,7 +324,7 @@ impl Built {
         (shapes, solids): (&[Shape], &Solids),
         first_shape: u32,
         materials: &[Material],
-        kept: Option<&Kept>,
+        sources: &Sources<'_>,
     ) -> Result<Arc<bvh::Accel>, bvh::BuildError> {
         let first_primitive = first_shape + shapes.len() as u32;
         let t = &self.triangles;
@@ -345,7 +345,7 @@ impl Built {
         let (meshes, instances) = (&meshes[..], &instances[..]);
         let (parts, planes) = (&solids.parts[..], &planes[..]);
         let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, parts, planes, meshes, instances };
-        build_tree(kept, &geometry, acceleration, &self.ranks(shapes, materials))
+        build_tree((sources.kept, sources.store), &geometry, acceleration, &self.ranks(shapes, materials))
     }
 
     /// Adds what the copies of an object are written in.

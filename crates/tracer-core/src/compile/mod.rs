@@ -23,6 +23,7 @@ mod placing;
 mod polygonal;
 mod programs;
 mod radiances;
+mod stored;
 mod textures;
 mod unmeant;
 
@@ -45,6 +46,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+pub use stored::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told, is_kept_file};
 use tracer_kernels::scene::{
     CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
     PlaneTable, Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
@@ -97,6 +99,15 @@ pub fn compile_keeping(desc: &SceneDesc, kept: &Kept) -> Result<Scene, CompileEr
         kept.sweep();
     }
     compiled
+}
+
+/// As [`compile`], to the same scene, but meshes that were read and trees that were built by an earlier run of the
+/// program are taken from where it keeps them, and new ones are kept there.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_storing(desc: &SceneDesc, store: &dyn Store) -> Result<Scene, CompileError> {
+    compile_with(desc, &Sources::storing(store))
 }
 
 /// What is rendered.
@@ -232,7 +243,6 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let kept = sources.kept;
     let accel = build_tree(
         desc.render.acceleration,
         &spheres,
@@ -240,7 +250,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         (&shapes, &solids),
         &built,
         &materials,
-        kept,
+        sources,
     )
     .map_err(|message| CompileError { diagnostics: vec![*message] })?;
     let full = desc.render.integrator == Integrator::Full;
@@ -248,11 +258,17 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
-        Some(_) if desc.render.acceleration != Acceleration::Bvh && full => {
-            build_tree(Acceleration::Bvh, &spheres, sphere_table.in_tree, (&shapes, &solids), &built, &materials, kept)
-                .map_err(|message| CompileError { diagnostics: vec![*message] })?
-                .map(|accel| boxes_of(&accel))
-        }
+        Some(_) if desc.render.acceleration != Acceleration::Bvh && full => build_tree(
+            Acceleration::Bvh,
+            &spheres,
+            sphere_table.in_tree,
+            (&shapes, &solids),
+            &built,
+            &materials,
+            sources,
+        )
+        .map_err(|message| CompileError { diagnostics: vec![*message] })?
+        .map(|accel| boxes_of(&accel)),
         accel => accel.as_deref().map(boxes_of),
     }
     .unzip();
@@ -401,7 +417,7 @@ fn build_tree(
     (shapes, solids): (&[Shape], &Solids),
     built: &meshes::Built,
     materials: &[Material],
-    kept: Option<&Kept>,
+    sources: &Sources<'_>,
 ) -> Result<Option<Arc<bvh::Accel>>, Box<Diagnostic>> {
     if built.instances.is_empty() && in_tree == 0 && shapes.iter().all(|shape| shape.unit.is_endless()) {
         return Ok(None);
@@ -409,7 +425,7 @@ fn build_tree(
     let acceleration = self::acceleration(acceleration);
     let hung: Vec<bvh::SphereGeometry> =
         spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    built.tree(acceleration, &hung, (shapes, solids), spheres.len() as u32, materials, kept).map(Some).map_err(
+    built.tree(acceleration, &hung, (shapes, solids), spheres.len() as u32, materials, sources).map(Some).map_err(
         |error| {
             Box::new(
                 Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))

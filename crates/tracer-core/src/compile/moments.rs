@@ -28,7 +28,7 @@ pub(super) fn compile(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, 
     let own = Kept::default();
     let kept = sources.kept.unwrap_or(&own);
     let in_memory = sources.in_memory();
-    let keeping = in_memory.with(kept);
+    let keeping = in_memory.with(kept, sources.store);
     let mut scene = compile_like(desc, &keeping, Like::default())?;
     let mut moments = OfTexts {
         desc: of_all_times(desc),
@@ -69,7 +69,7 @@ fn of_all_times(desc: &SceneDesc) -> SceneDesc {
 impl OfTexts {
     fn compile(&self, share: f64, radiance_unit: Option<f64>) -> Result<Scene, CompileError> {
         let desc = self.desc.at(share).map_err(|diagnostics| CompileError { diagnostics })?;
-        let sources = self.sources.with(&self.kept);
+        let sources = self.sources.with(&self.kept, None);
         let scene = compile_like(&desc, &sources, Like { frame: Some(self.frame), radiance_unit })?;
         self.kept.sweep_trees();
         if (&scene.mattes.objects, &scene.mattes.materials) != (&self.mattes.objects, &self.mattes.materials) {

@@ -2,8 +2,8 @@
 
 use super::render::frames;
 use super::{
-    DenoiseArgs, Frames, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval,
-    layer, size,
+    CacheArgs, DenoiseArgs, Frames, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop,
+    exposure, interval, layer, size,
 };
 use crate::write::Bits;
 use clap::{Args, Subcommand};
@@ -122,6 +122,9 @@ pub struct FarmSlurmArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub cache: CacheArgs,
     /// The picture tells nothing: no program, no scene
     #[arg(long)]
     pub no_metadata: bool,
@@ -143,6 +146,7 @@ impl FarmSlurmArgs {
             exposure: self.exposure,
             layers: self.layers.clone(),
             denoise: self.denoise,
+            cache: self.cache.clone(),
             integrator: self.integrator,
             every: self.every,
             no_metadata: self.no_metadata,

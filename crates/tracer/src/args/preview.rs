@@ -1,6 +1,6 @@
 //! The words of `tracer preview`.
 
-use super::{Size, SyntaxName, count, overrides, size};
+use super::{CacheArgs, Size, SyntaxName, count, overrides, size};
 use clap::{Args, ValueEnum};
 use scene_format::Override;
 use std::net::IpAddr;
@@ -73,6 +73,9 @@ pub struct PreviewArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub cache: CacheArgs,
     /// Threads [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

@@ -1,6 +1,8 @@
 //! The words of `tracer render`.
 
-use super::{DenoiseArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, noise, part, size};
+use super::{
+    CacheArgs, DenoiseArgs, SceneArgs, Size, SplitName, bits, count, crop, exposure, interval, layer, noise, part, size,
+};
 use crate::write::Bits;
 use clap::{Args, ValueEnum};
 use scene_format::desc::Integrator;
@@ -97,6 +99,9 @@ pub struct RenderArgs {
     /// Go on from this checkpoint, and keep it up to date
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub cache: CacheArgs,
     /// Report of times, rays and memory to write as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,

@@ -10,7 +10,7 @@ mod record;
 mod told;
 
 pub use flushing::Flushing;
-pub use hashes::{Hashes, Hashing, files_are_told};
+pub use hashes::{HashOf, Hashes, Hashing, files_are_told};
 pub use identity::{Asked, Extent, differences, note_differences, notes, now, sha256_of};
 pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};

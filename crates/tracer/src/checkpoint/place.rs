@@ -140,10 +140,25 @@ impl Place {
     /// # Errors
     /// When one does.
     pub fn lock(&self) -> Result<Lock, Failure> {
+        match self.try_lock() {
+            Ok(Some(lock)) => Ok(lock),
+            Ok(None) => Err(Failure::could_not(format!(
+                "another process writes the checkpoint {}; wait for it, or name another file",
+                self.name()
+            ))),
+            Err(error) => Err(Failure::could_not(format!(
+                "cannot lock the checkpoint {}: {error}; name another place",
+                self.name()
+            ))),
+        }
+    }
+
+    /// The same; nothing where another process writes here.
+    ///
+    /// # Errors
+    /// When the system does not tell.
+    pub fn try_lock(&self) -> io::Result<Option<Lock>> {
         let path = self.with(LOCK);
-        let could_not = |error: io::Error| {
-            Failure::could_not(format!("cannot lock the checkpoint {}: {error}; name another place", self.name()))
-        };
         loop {
             let opened = OpenOptions::new().create_new(true).write(true).open(&path);
             let is_new = opened.is_ok();
@@ -151,20 +166,15 @@ impl Place {
                 io::ErrorKind::AlreadyExists => OpenOptions::new().create(true).truncate(false).write(true).open(&path),
                 _ => Err(error),
             });
-            let file = file.map_err(could_not)?;
+            let file = file?;
             match file.try_lock() {
                 Ok(()) => {}
-                Err(TryLockError::WouldBlock) => {
-                    return Err(Failure::could_not(format!(
-                        "another process writes the checkpoint {}; wait for it, or name another file",
-                        self.name()
-                    )));
-                }
+                Err(TryLockError::WouldBlock) => return Ok(None),
                 Err(TryLockError::Error(error)) => {
                     if is_new {
                         let _ = fs::remove_file(&path);
                     }
-                    return Err(could_not(error));
+                    return Err(error);
                 }
             }
             // Whatever ends the program by its own will takes it along.
@@ -172,7 +182,7 @@ impl Place {
             let lock = Lock { file, path: path.clone() };
             // Whoever had it before may have deleted it since it was opened.
             if lock.is_the_file() {
-                return Ok(lock);
+                return Ok(Some(lock));
             }
         }
     }

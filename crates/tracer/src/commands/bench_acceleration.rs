@@ -5,7 +5,7 @@ use crate::args::BenchAccelerationArgs;
 use crate::failure::{Failure, exit};
 use crate::interrupt;
 use crate::lanes;
-use crate::loading::{compile, load, use_threads};
+use crate::loading::{Known, compile, load, use_threads};
 use crate::progress::Watch;
 use crate::shell::Shell;
 use crate::write::{Bits, Encoding, Provenance, encode, sha256};
@@ -60,7 +60,7 @@ pub(super) fn run(args: &BenchAccelerationArgs, shell: &Shell) -> Result<ExitCod
     let mut hashes = Vec::new();
     for way in &WAYS {
         desc.render.acceleration = way.acceleration;
-        let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
+        let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let watch = Watch::new(shell, pixels * u64::from(scene.samples));
         let options = RenderOptions {

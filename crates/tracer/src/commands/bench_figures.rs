@@ -5,7 +5,7 @@ use crate::args::{BenchFiguresArgs, SceneArgs};
 use crate::failure::{Failure, exit};
 use crate::interrupt;
 use crate::lanes;
-use crate::loading::{compile, load, use_threads};
+use crate::loading::{Known, compile, load, use_threads};
 use crate::progress::Watch;
 use crate::shell::Shell;
 use scene_format::desc::Integrator;
@@ -69,7 +69,7 @@ fn timed(figure: &Figure, samples: u32, args: &BenchFiguresArgs, shell: &Shell) 
     desc.render.max_bounces = figure.bounces.into();
     desc.render.integrator = Integrator::Path;
     // What the formula of the report's Blinn-Phong brings is known here.
-    let scene = compile(&desc, scene.diagnostics, None, &shell.without_warnings())?;
+    let scene = compile(&desc, scene.diagnostics, Known::Nothing, &shell.without_warnings())?;
     let watch = Watch::new(shell, u64::from(figure.size * figure.size) * u64::from(samples));
     let options = RenderOptions {
         threads: args.threads.map_or(0, usize::from),

@@ -4,7 +4,7 @@ use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
-use crate::loading::{compile, lights, load_to_look};
+use crate::loading::{Known, compile, lights, load_to_look};
 use crate::shell::{Shell, counted};
 use scene_format::Syntax;
 use std::io::Write;
@@ -39,7 +39,7 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
     let mut args_of_scene = args.of(scene);
     let (desc, warnings) = load_to_look(&mut args_of_scene, shell)?;
-    let scene = compile(&desc, args.diagnostics, None, shell)?;
+    let scene = compile(&desc, args.diagnostics, Known::Nothing, shell)?;
     let frames = frames::told(&args_of_scene, &desc, None, shell)?;
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
     let warnings = warnings + scene.warnings.len() + frames.warnings;

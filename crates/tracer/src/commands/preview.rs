@@ -2,6 +2,7 @@
 
 use super::from_picture;
 use crate::args::{PreviewArgs, TerminalName};
+use crate::cache::Cache;
 use crate::checkpoint::{picture_notes, provenance};
 use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
@@ -14,7 +15,8 @@ use scene_format::{SceneDesc, hash_hex};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
-use tracer_core::{Film, Look, Mattes, develop};
+use std::sync::Arc;
+use tracer_core::{Film, Look, Mattes, Store, develop};
 use tracer_preview::{Editor, Host, Kind, Listen, Options, Preview, StartError};
 
 pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
@@ -32,7 +34,10 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
         threads: args.threads.map_or(0, usize::from),
         editor,
     };
-    let program = Box::new(Program { set: args.overrides().into_iter().map(|set| set.argument).collect() });
+    let program = Box::new(Program {
+        set: args.overrides().into_iter().map(|set| set.argument).collect(),
+        cache: Cache::open(&args.cache, None, shell)?,
+    });
     if let Some(how) = args.terminal {
         return in_terminal(args, options, program, how);
     }
@@ -113,6 +118,7 @@ fn elsewhere(args: &PreviewArgs) -> String {
 /// What the preview asks of the program.
 struct Program {
     set: Vec<String>,
+    cache: Option<Cache>,
 }
 
 impl Program {
@@ -146,5 +152,9 @@ impl Host for Program {
 
     fn free_memory(&self) -> Option<u64> {
         memory::available()
+    }
+
+    fn store(&self) -> Option<Arc<dyn Store>> {
+        self.cache.as_ref().map(Cache::store)
     }
 }

@@ -10,7 +10,9 @@ use crate::command_line::printable;
 use crate::compare::Picture;
 use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
-use crate::loading::{compile, expect_all_moments, is_dash, told as told_load, use_threads, with_faults_of_files};
+use crate::loading::{
+    Known, compile, expect_all_moments, is_dash, told as told_load, use_threads, with_faults_of_files,
+};
 use crate::progress::Watch;
 use crate::shell::Shell;
 use crate::write::{Encoding, encode, is_one_file, probe, save, sha256};
@@ -42,7 +44,7 @@ pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     }
     let desc = rendered(&record, layers(&told), &text, &folder)
         .map_err(|error| told_load(with_faults_of_files(error, &folder), DiagnosticsForm::Text, shell))?;
-    let scene = compile(&desc, DiagnosticsForm::Text, None, &shell.without_warnings())?;
+    let scene = compile(&desc, DiagnosticsForm::Text, Known::Nothing, &shell.without_warnings())?;
     spare_files(args, &scene.files)?;
     let Some(mut files) = Hashes::default().begin(&scene.files, &folder, args.threads).end() else {
         return Err(Failure::could_not("a file of the scene cannot be read any more"));

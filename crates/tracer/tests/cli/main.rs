@@ -1,6 +1,7 @@
 //! The program `tracer`, run as a person runs it: exit codes, messages, files.
 
 mod alpha;
+mod cache;
 mod checkpoint;
 mod commands;
 mod compare;

@@ -39,7 +39,10 @@ fn fields_are_the_documented_ones() {
     let many: String = (0..200).map(|k| format!("Sphere(center: ({k}, 0, 0), radius: 0.5), ")).collect();
     sandbox.write("scene.ron", format!("Scene(background: 1, objects: [{many}])"));
     fields(
-        &report(&sandbox, &["--size", "8x8", "--stats", "--denoise", "--set", "render.clamp=0.5", "--set", mark]),
+        &report(
+            &sandbox,
+            &["--size", "8x8", "--stats", "--denoise", "--set", "render.clamp=0.5", "--cache", "kept", "--set", mark],
+        ),
         "",
         &mut found,
     );

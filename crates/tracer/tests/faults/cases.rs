@@ -73,6 +73,7 @@ fn refused(name: &'static str, line: &'static str, code: i32, folder: Folder) ->
 pub fn all() -> Vec<Case> {
     let mut cases = pictures();
     cases.extend(films());
+    cases.extend(caches());
     cases.extend(scenes());
     cases.extend(spared());
     cases
@@ -147,6 +148,35 @@ fn films() -> Vec<Case> {
             parts(),
         ),
         case("what a film tells", "info p1.tracer", &[], parts()),
+    ]
+}
+
+/// A mesh and a tree that are kept, and that were.
+fn caches() -> Vec<Case> {
+    const SIDE: usize = 50;
+    let field = || {
+        let folder = scene();
+        let mut text = format!("OFF\n{} {} 0\n", (SIDE + 1) * (SIDE + 1), 2 * SIDE * SIDE);
+        for k in 0..(SIDE + 1) * (SIDE + 1) {
+            text += &format!("{} {:.6} {}\n", k % (SIDE + 1), 0.01 * (k % 7) as f64, k / (SIDE + 1));
+        }
+        for k in 0..SIDE * SIDE {
+            let a = k / SIDE * (SIDE + 1) + k % SIDE;
+            text += &format!("3 {a} {} {}\n3 {} {} {}\n", a + SIDE + 1, a + 1, a + 1, a + SIDE + 1, a + SIDE + 2);
+        }
+        folder.write("tent.off", text);
+        folder
+    };
+    let line = "render scene.ron -o a.pfm --cache kept";
+    let there = || {
+        let folder = field();
+        folder.ready(line, 0);
+        std::fs::remove_file(folder.path("a.pfm")).expect("it is there");
+        folder
+    };
+    vec![
+        case("a cache", line, &[("a.pfm", Kind::Bytes)], field()),
+        case("a cache that is there", line, &[("a.pfm", Kind::Bytes)], there()),
     ]
 }
 

@@ -98,6 +98,11 @@ impl Quiet {
             }
         }
         self.others(case, &files, ran, &mut wrong);
+        // What is kept goes by what it holds.
+        let kept = files.iter().filter(|(name, _)| name.starts_with("kept/") && name.ends_with(".kept"));
+        for (name, _) in kept.filter(|(name, bytes)| self.after.get(*name) != Some(*bytes)) {
+            wrong.push(format!("{name} is not what is kept without a fault"));
+        }
         self.elsewhere(folder, &mut wrong);
         if is_done && ran.out != self.out && !case.line.contains("--report -") {
             wrong.push("it has put something else out".to_owned());
@@ -130,6 +135,8 @@ impl Quiet {
         // What cannot be deleted stays, and so does a lock of which the system does not tell whose it is.
         let hit = ran.hit.as_deref().unwrap_or_default();
         let stays = |name: &str| {
+            // The log has the last part of a name.
+            let name = name.rsplit('/').next().unwrap_or(name);
             (hit.contains(" unlink ") && (name.ends_with(".tmp") || hit.contains(&format!(" {name} "))))
                 || (name.ends_with(".lock") && hit.contains("stat r ") && hit.contains(name))
         };

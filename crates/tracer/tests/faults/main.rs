@@ -35,10 +35,10 @@ fn ways(call: &Call) -> Vec<Fault> {
     if call.writes {
         ways.extend([fails(ENOSPC), fails(EROFS), Fault { goes_on: true, ..fails(ENOSPC) }]);
     }
-    if ["open", "create", "read", "write", "writev", "fsync", "fdatasync", "ftruncate64"].contains(&name) {
+    if ["open", "create", "read", "pread64", "write", "writev", "fsync", "fdatasync", "ftruncate64"].contains(&name) {
         ways.push(Fault { is_harmless: true, ..fails(EINTR) });
     }
-    if ["read", "write", "writev"].contains(&name) {
+    if ["read", "pread64", "write", "writev"].contains(&name) {
         ways.push(Fault { how: "short".to_owned(), is_harmless: true, ..fails(EIO) });
     }
     ways

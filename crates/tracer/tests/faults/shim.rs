@@ -197,6 +197,7 @@ mod real {
         close(file: c_int) -> c_int;
         fcntl(file: c_int, command: c_int, value: usize) -> c_int;
         read(file: c_int, to: *mut c_void, count: usize) -> isize;
+        pread64(file: c_int, to: *mut c_void, count: usize, from: i64) -> isize;
         write(file: c_int, from: *const c_void, count: usize) -> isize;
         writev(file: c_int, from: *const c_void, count: c_int) -> isize;
         fsync(file: c_int) -> c_int;
@@ -282,6 +283,15 @@ macro_rules! of_bytes {
 of_bytes! {
     read, *mut c_void, false;
     write, *const c_void, true;
+}
+
+#[unsafe(no_mangle)]
+pub extern "C" fn pread64(file: c_int, to: *mut c_void, count: usize, from: i64) -> isize {
+    match of_file(file, |of| fate("pread64", of, false)) {
+        Fate::Done => unsafe { real::pread64(file, to, count, from) },
+        Fate::Short => unsafe { real::pread64(file, to, count.div_ceil(2), from) },
+        Fate::Fails(error) => fails(error) as isize,
+    }
 }
 
 /// Calls about an open file, told as one number.

@@ -242,6 +242,13 @@ pub const PROOFS: &[Proof] = &[
         ],
     ),
     proof(
+        "cache-mutants",
+        Asked,
+        "a hundred thousand broken files of a cache, damaged or sealed anew, taken without a panic; half an hour",
+        &[],
+        &["CACHE_MUTANTS=50000 cargo test --locked --workspace --lib -- stored"],
+    ),
+    proof(
         "faults",
         Asked,
         "every call to the system that concerns a file fails in every usual way, every large block of memory is \

@@ -107,16 +107,7 @@ struct Tree<'a> {
 pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> Result<Accel, BuildError> {
     let start = Instant::now();
     check(geometry)?;
-    let mut direct = vec![NONE; geometry.meshes.len()];
-    let mut placed = vec![false; geometry.meshes.len()];
-    for (index, instance) in geometry.instances.iter().enumerate() {
-        let mesh = instance.mesh as usize;
-        match instance.placement {
-            // A mesh can be in the world's tree once; a second one in the same place is an instance like any other.
-            None if direct[mesh] == NONE => direct[mesh] = index as u32,
-            _ => placed[mesh] = true,
-        }
-    }
+    let (direct, placed) = places(geometry);
 
     let mesh_trees: Vec<Option<Tree>> = (0..geometry.meshes.len())
         .into_par_iter()
@@ -198,6 +189,7 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
         parts: geometry.parts.to_vec(),
         spheres: geometry.spheres.len() as u32,
         instances: instances as u32,
+        bounds: world.contents.bounds,
         size: size_of_scene(&world.contents.bounds),
         level: Level::best(),
         coplanar,
@@ -205,7 +197,23 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
     })
 }
 
-fn check(geometry: &Geometry) -> Result<(), BuildError> {
+/// Of each mesh the instance whose triangles are in the world's tree, or [`NONE`], and whether others are placed.
+pub fn places(geometry: &Geometry) -> (Vec<u32>, Vec<bool>) {
+    let mut direct = vec![NONE; geometry.meshes.len()];
+    let mut placed = vec![false; geometry.meshes.len()];
+    for (index, instance) in geometry.instances.iter().enumerate() {
+        let mesh = instance.mesh as usize;
+        match instance.placement {
+            // A mesh can be in the world's tree once; a second one in the same place is an instance like any other.
+            None if direct[mesh] == NONE => direct[mesh] = index as u32,
+            _ => placed[mesh] = true,
+        }
+    }
+    (direct, placed)
+}
+
+/// Sees that ids and meshes are there.
+pub fn check(geometry: &Geometry) -> Result<(), BuildError> {
     let mut taken = geometry.spheres.len() as u64;
     if !geometry.shapes.is_empty() || !geometry.planes.is_empty() {
         if u64::from(geometry.first_shape) < taken {
@@ -233,7 +241,7 @@ fn check(geometry: &Geometry) -> Result<(), BuildError> {
 }
 
 /// The longest side of a box; 0 if it is empty.
-fn size_of_scene(bounds: &Bounds) -> f32 {
+pub fn size_of_scene(bounds: &Bounds) -> f32 {
     (bounds.upper - bounds.lower).truncate().max_element().max(0.0)
 }
 

@@ -46,7 +46,7 @@ impl Scripts {
             ("@RETRIES@", args.retries.to_string()),
             ("@PAUSE@", args.pause.as_secs_f64().to_string()),
             ("@EVERY@", time(args.every.unwrap_or(crate::checkpoint::EVERY))),
-            ("@RENDER@", line(&repeat::words(&render, desc))),
+            ("@RENDER@", line(&[repeat::words(&render, desc), args.cache.words()].concat())),
             ("@MERGE@", line(&merge_words(args, record))),
         ];
         let [part, merge] =
@@ -185,7 +185,7 @@ mod tests {
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 17] = [
+    const HANDED_ON: [(&str, &[&str], bool); 20] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),
@@ -203,6 +203,9 @@ mod tests {
         ("camera", &["--camera", "a"], true),
         ("frame", &["--frame", "3"], true),
         ("syntax", &["--syntax", "toml"], true),
+        ("cache", &["--cache", "kept"], false),
+        ("cache-size", &["--cache", "kept", "--cache-size", "5GB"], false),
+        ("cache-verify", &["--cache", "kept", "--cache-verify"], false),
     ];
 
     /// What the farm is told with these words.
@@ -243,6 +246,12 @@ mod tests {
                 assert!(told.len() > without.len(), "--{name} is not told to the parts: {told:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_cache_is_told_to_each_part() {
+        let words = ["--cache", "a b", "--cache-size", "5000000000B", "--cache-verify"];
+        assert_eq!(farm(&words).cache.words(), words);
     }
 
     #[test]

@@ -2,9 +2,10 @@
 
 use super::record::{Record, VERSION, whole};
 use crate::args::{FarmSlurmArgs, SplitName};
+use crate::cache::Cache;
 use crate::checkpoint::{mattes_told, note_differences, notes};
 use crate::failure::Failure;
-use crate::loading::compile;
+use crate::loading::{Known, compile};
 use crate::shell::Shell;
 use crate::write::Bits;
 use scene_format::SceneDesc;
@@ -26,7 +27,14 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// The scene is wrong.
 pub fn record(args: &FarmSlurmArgs, desc: &mut SceneDesc, shell: &Shell) -> Result<Record, Failure> {
-    let scene = compile(desc, args.scene.diagnostics, None, shell)?;
+    // What is kept here no part has to build.
+    let cache = Cache::open(&args.cache, None, shell)?;
+    let known = cache.as_ref().map_or(Known::Nothing, Known::Cached);
+    let scene = compile(desc, args.scene.diagnostics, known, shell);
+    if let Some(cache) = &cache {
+        cache.finish();
+    }
+    let scene = scene?;
     let directory = std::env::current_dir()
         .map_err(|error| Failure::could_not(format!("cannot tell the current folder: {error}")))?;
     let pictures = args.output.iter().map(|path| text(path)).collect::<Result<Vec<_>, _>>()?;

@@ -5,7 +5,7 @@ mod picture;
 use crate::args::InfoArgs;
 use crate::checkpoint::{self, is_film};
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile, is_dash, load};
+use crate::loading::{Known, asset_files, compile, is_dash, load};
 use crate::memory::{human, of_film};
 use crate::shell::{Shell, counted};
 use scene_format::desc::Object;
@@ -15,11 +15,14 @@ use std::fs::File;
 use std::io::Write;
 use std::process::ExitCode;
 use tracer_core::scene::Statistics;
-use tracer_core::{Crop, FilmError, SavedFilm, Scene};
+use tracer_core::{Crop, FilmError, KeptError, KeptFile, SavedFilm, Scene, is_kept_file};
 
 pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     if !is_dash(&args.scene.scene) && is_film(&args.scene.scene) {
         return of_checkpoint(args);
+    }
+    if !is_dash(&args.scene.scene) && is_kept_file(&args.scene.scene) {
+        return of_kept(args);
     }
     if let Some(told) = picture::told(&args.scene.scene)? {
         return picture::of_picture(args, &told);
@@ -29,7 +32,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         let syntax = args.scene.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene.scene));
         to_text(&desc, syntax.unwrap_or(Syntax::Ron), Defaults::Shown)
     } else {
-        let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
+        let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
         let facts = Facts {
             name: name(&desc),
             film: of_film(Crop::whole(scene.size), &desc.render, scene.layers, false),
@@ -63,6 +66,30 @@ fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
     let text = match args.json {
         true => format!("{:#}\n", checkpoint::as_json(path, bytes, &head)),
         false => checkpoint::as_text(path, bytes, &head),
+    };
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(ExitCode::from(exit::DONE))
+}
+
+/// Of a file of a cache, which is read to its end, too.
+fn of_kept(args: &InfoArgs) -> Result<ExitCode, Failure> {
+    let path = &args.scene.scene;
+    let shown = path.display();
+    if args.resolved || !args.scene.sets().is_empty() {
+        return Err(Failure::wrong(format!(
+            "{shown} is a file of a cache; --resolved, --set, --camera and --frame are for scenes"
+        )));
+    }
+    let file = File::open(path).map_err(KeptError::Io).and_then(KeptFile::open);
+    let file = file.and_then(|file| file.check().map(|()| file)).map_err(|error| {
+        Failure::could_not(format!("{shown} cannot be used: {error}; whoever needs it makes it anew"))
+    })?;
+    let (kind, bytes, program) = (file.kind.name(), file.bytes, &file.program);
+    let text = match args.json {
+        true => format!("{:#}\n", json!({"file": path, "kind": kind, "bytes": bytes, "program": program})),
+        false => format!("{shown}: a {kind}, kept by --cache; whole, {}\nprogram    {program}\n", human(bytes)),
     };
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())?;

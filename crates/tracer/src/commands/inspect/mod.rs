@@ -6,7 +6,7 @@ mod text;
 
 use crate::args::{InspectArgs, InspectForm};
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile, is_dash, load};
+use crate::loading::{Known, asset_files, compile, is_dash, load};
 use crate::shell::Shell;
 use crate::write::{is_one_file, probe, save};
 use scene_format::SceneDesc;
@@ -51,7 +51,7 @@ pub(super) fn run(args: &InspectArgs, shell: &Shell) -> Result<ExitCode, Failure
     if let Some(svg) = &args.svg {
         probe(svg)?;
     }
-    let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
+    let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
     spare_inputs(args, &scene.files)?;
     let options = RenderOptions { level: Some(level), ..RenderOptions::default() };
     let seed = options.seed.unwrap_or(scene.seed);

@@ -2,6 +2,7 @@
 
 use super::{one, outputs};
 use crate::args::{self, RenderArgs};
+use crate::cache::Cache;
 use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, load};
@@ -17,7 +18,6 @@ use std::time::Instant;
 use tracer_core::Kept;
 
 /// What frames have in common.
-#[derive(Default)]
 pub(super) struct Frames {
     pub kept: Kept,
     pub hashes: Hashes,
@@ -26,6 +26,15 @@ pub(super) struct Frames {
 }
 
 impl Frames {
+    /// With what an earlier run of the program has left.
+    fn new(cache: Option<&Cache>) -> Self {
+        Frames {
+            kept: cache.map_or_else(Kept::default, |cache| Kept::storing(cache.store())),
+            hashes: Hashes::by(cache.map(Cache::hashes)),
+            sources: OnceCell::new(),
+        }
+    }
+
     /// Sees that a frame is of the scene that the first one was of.
     ///
     /// # Errors
@@ -122,6 +131,7 @@ fn with_number(name: &str, frame: u32) -> Option<String> {
 pub(super) fn run(
     args: &RenderArgs,
     frames: args::Frames,
+    cache: Option<&Cache>,
     shell: &Shell,
     started: Instant,
 ) -> Result<ExitCode, Failure> {
@@ -148,7 +158,7 @@ pub(super) fn run(
         let desc = super::described(&at(&args, first), &shell.without_warnings())?;
         outputs::tell_of_layers(&outputs::outputs(&outputs::named(&args)?)?, &args, &desc, shell);
     }
-    let session = Frames::default();
+    let session = Frames::new(cache);
     let all = last - first + 1;
     // Not asked again: what is written meanwhile is rendered.
     let there: Vec<u32> = (first..=last).filter(|&frame| args.skip_existing && is_there(&args, frame)).collect();
@@ -162,7 +172,7 @@ pub(super) fn run(
         let of_frame = numbered(&at(&args, frame))?;
         let shell = &if made == 0 { *shell } else { shell.at_frame(frame) };
         let code = match interrupt::requested() {
-            None => one(&of_frame, shell, if made == 0 { started } else { Instant::now() }, Some(&session))?,
+            None => one(&of_frame, shell, if made == 0 { started } else { Instant::now() }, (Some(&session), cache))?,
             Some(code) => ExitCode::from(code),
         };
         if let Some(signal) = interrupt::requested() {

@@ -2,6 +2,7 @@
 
 use super::frames::Frames;
 use crate::args::RenderArgs;
+use crate::cache::Cache;
 use crate::checkpoint::{self, Checkpoints, EVERY, Extent, Found, Hashes, Hashing, Lock, Place};
 use crate::checkpoint::{is_film, look_for, notes, picture_notes};
 use crate::failure::Failure;
@@ -115,11 +116,11 @@ pub(super) fn hashing(
     notes: &[Note],
     scene: &Scene,
     desc: &SceneDesc,
-    frames: Option<&Frames>,
+    (frames, cache): (Option<&Frames>, Option<&Cache>),
 ) -> Option<Hashing> {
     let is_wanted = args.report.is_some() || !args.no_metadata;
     let are_there = notes.iter().any(|(name, _)| *name == checkpoint::files_are_told().0);
-    let hashes = frames.map_or_else(Hashes::default, |frames| frames.hashes.clone());
+    let hashes = frames.map_or_else(|| Hashes::by(cache.map(Cache::hashes)), |frames| frames.hashes.clone());
     (is_wanted && !are_there).then(|| hashes.begin(&scene.files, &desc.base_dir, args.threads))
 }
 

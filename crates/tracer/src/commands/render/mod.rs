@@ -11,10 +11,11 @@ pub(super) mod repeat;
 pub(super) mod rescue;
 
 use crate::args::{DenoiseName, IntegratorName, RenderArgs};
+use crate::cache::Cache;
 use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile, expect_all_moments, is_dash, load, use_threads};
+use crate::loading::{Known, asset_files, compile, expect_all_moments, is_dash, load, use_threads};
 use crate::progress::{Watch, noise, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
@@ -37,13 +38,20 @@ use tracer_core::{Counters, Crop, Film, Image, Layer, Mattes, RenderOptions, Sce
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
     let args = &with_integrator(args);
-    if args.integrator.is_some() {
-        return reference::run(&frames::numbered(args)?, shell, started);
+    let cache = Cache::open(&args.cache, args.threads, shell)?;
+    let cached = cache.as_ref();
+    let ended = match args.frames {
+        _ if args.integrator.is_some() => {
+            frames::numbered(args).and_then(|args| reference::run(&args, cached, shell, started))
+        }
+        Some(frames) => frames::run(args, frames, cached, shell, started),
+        None => frames::numbered(args).and_then(|args| one(&args, shell, started, (None, cached))),
+    };
+    // What is kept for the next time is on the disk before this one ends.
+    if let Some(cache) = cached {
+        cache.finish();
     }
-    match args.frames {
-        Some(frames) => frames::run(args, frames, shell, started),
-        None => one(&frames::numbered(args)?, shell, started, None),
-    }
+    ended
 }
 
 /// The same, with the integrator as a field of the scene that is set: so checkpoints, reports and pictures tell of it
@@ -60,7 +68,12 @@ fn with_integrator(args: &RenderArgs) -> RenderArgs {
 }
 
 /// Renders one picture, or one of several frames.
-fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frames>) -> Result<ExitCode, Failure> {
+fn one(
+    args: &RenderArgs,
+    shell: &Shell,
+    started: Instant,
+    (frames, cache): (Option<&Frames>, Option<&Cache>),
+) -> Result<ExitCode, Failure> {
     let mut clock = Clock { last: started };
     let args = &outputs::named(args)?;
     let part_file = args.part.map(|_| parts::place(args)).transpose()?;
@@ -87,8 +100,12 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     }
     let read = clock.lap();
 
-    let kept = frames.map(|frames| &frames.kept);
-    let mut scene = AtEnd::new(compile(&desc, args.scene.diagnostics, kept, shell)?, frames);
+    let known = match (frames, cache) {
+        (Some(frames), _) => Known::Kept(&frames.kept),
+        (None, Some(cache)) => Known::Cached(cache),
+        (None, None) => Known::Nothing,
+    };
+    let mut scene = AtEnd::new(compile(&desc, args.scene.diagnostics, known, shell)?, frames);
     // Not the one that a backdrop needs, unless it is asked for.
     let written_layers = tracer_core::layer_set(&desc.output.layers);
     denoising::prepare(&mut scene, args.denoise.is_on())?;
@@ -98,7 +115,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
     let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
     let extent = Extent::Film(crop, part);
     let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
-    let hashing = kept::hashing(args, notes, &scene, &desc, frames);
+    let hashing = kept::hashing(args, notes, &scene, &desc, (frames, cache));
     let compiled = clock.lap();
 
     if frames.is_none() {
@@ -184,6 +201,7 @@ fn one(args: &RenderArgs, shell: &Shell, started: Instant, frames: Option<&Frame
         args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
     if let Some(report) = &mut report {
         report.scene.assets = assets_hash(notes);
+        report.cache = cache.map(Cache::report);
         report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
         let layers = written_layers.names().map(str::to_owned);
         (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised.clone());
@@ -467,6 +485,7 @@ fn report(
             textures: statistics.texture_bytes,
             film: film.bytes() as u64,
         },
+        cache: None,
         stats: film.statistics.as_ref().map(Stats::new),
         machine: Machine {
             threads: film.threads,

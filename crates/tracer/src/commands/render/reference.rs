@@ -5,8 +5,9 @@
 use super::outputs::{outputs, probe, spare_inputs};
 use super::rescue::{Pictures, pictures};
 use crate::args::RenderArgs;
+use crate::cache::Cache;
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, compile};
+use crate::loading::{Known, asset_files, compile};
 use crate::progress::{Watch, noise, rate};
 use crate::shell::Shell;
 use crate::write::{Provenance, Setting};
@@ -21,7 +22,12 @@ use std::time::Instant;
 use tracer_core::{Backdrop, Observer, Progress, Scene, develop_radiance};
 use tracer_reference::{Reference, Smoothing, Sums, moments};
 
-pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
+pub(super) fn run(
+    args: &RenderArgs,
+    cache: Option<&Cache>,
+    shell: &Shell,
+    started: Instant,
+) -> Result<ExitCode, Failure> {
     if let Some(option) = of_no_use(args) {
         return Err(Failure::wrong(format!(
             "--integrator reference does not go with {option}: it renders a whole picture, and nothing beside it"
@@ -44,7 +50,7 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     }
     let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
     spare_inputs(&outputs, args, &named)?;
-    let scene = compile(&desc, args.scene.diagnostics, None, shell)?;
+    let scene = compile(&desc, args.scene.diagnostics, cache.map_or(Known::Nothing, Known::Cached), shell)?;
     spare_inputs(&outputs, args, &scene.files)?;
     if scene.look.backdrop != Backdrop::Background {
         return Err(Failure::wrong("--integrator reference knows no output.alpha and no output.backdrop"));
