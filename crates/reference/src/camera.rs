@@ -12,9 +12,10 @@ pub fn ray(camera: &Camera, size: [u32; 2], pixel: [u32; 2], random: &mut Random
     // From -1 to 1 over the picture, y upwards.
     let x = 2.0 * (f64::from(pixel[0]) + 0.5 + dx) / f64::from(size[0]) - 1.0;
     let y = 1.0 - 2.0 * (f64::from(pixel[1]) + 0.5 + dy) / f64::from(size[1]);
+    let (camera, [x, y]) = &of_eye(camera, pixel_place(size, pixel), [x, y]);
     // Drawn with or without a lens: pictures of the one are then those of the other but for it.
     let polar = [random.number(), random.number()];
-    let Ray { mut origin, mut direction } = through(camera, x, y)?;
+    let Ray { mut origin, mut direction } = through(camera, *x, *y)?;
     if let Projection::Perspective { lens: Some(lens), .. } = camera.projection {
         // The ray through the lens' middle is not bent; all rays of a point meet where it crosses the plane of focus.
         let on_lens = point_of(&lens, polar, random);
@@ -29,6 +30,38 @@ pub fn ray(camera: &Camera, size: [u32; 2], pixel: [u32; 2], random: &mut Random
     let direction = direction.normalize();
     let start = camera.near / direction.dot(camera.forward);
     Some(Ray { origin: origin + if camera.near > 0.0 { start * direction } else { DVec3::ZERO }, direction })
+}
+
+/// The middle of a pixel, from -1 to 1.
+fn pixel_place(size: [u32; 2], pixel: [u32; 2]) -> [f64; 2] {
+    let [x, y] = [0, 1].map(|axis| (2.0 * f64::from(pixel[axis]) + 1.0) / f64::from(size[axis]) - 1.0);
+    [x, -y]
+}
+
+/// Of two eyes that share a picture that which has a pixel, as a camera by itself, and a place as it has it: cameras
+/// that stand beside each other with their films moved inwards, and in a panorama for each column two of their own.
+pub fn of_eye(camera: &Camera, pixel: [f64; 2], [x, y]: [f64; 2]) -> (Camera, [f64; 2]) {
+    let Some(stereo) = camera.stereo else { return (*camera, [x, y]) };
+    let is_right = if stereo.above { pixel[1] <= 0.0 } else { pixel[0] >= 0.0 };
+    let place = match (stereo.above, is_right) {
+        (false, false) => [2.0 * x + 1.0, y],
+        (false, true) => [2.0 * x - 1.0, y],
+        (true, false) => [x, 2.0 * y - 1.0],
+        (true, true) => [x, 2.0 * y + 1.0],
+    };
+    let aside = if is_right { stereo.aside } else { -stereo.aside };
+    let mut one = Camera { stereo: None, ..*camera };
+    match &mut one.projection {
+        Projection::Perspective { shift, .. } => {
+            one.eye += aside * camera.right.normalize();
+            shift[0] += if is_right { -stereo.inwards } else { stereo.inwards };
+        }
+        _ => {
+            let ahead = through(&one, place[0], 0.0).expect("a panorama shows all").direction;
+            one.eye += aside * ahead.cross(camera.up);
+        }
+    }
+    (one, place)
 }
 
 /// The ray from the eye to a place in the picture, `near` and lens aside.

@@ -38,8 +38,9 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<FirstHit>> {
 fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit> {
     let camera = &scene.camera;
     let [x, y] = [(x, scene.size[0]), (y, scene.size[1])].map(|(x, n)| 2.0 * (f64::from(x) + 0.5) / f64::from(n) - 1.0);
-    let ray = camera::through(camera, x, -y)?;
-    let hit = world.closest(&ray)?;
+    let (camera, [x, y]) = &camera::of_eye(camera, [x, -y], [x, -y]);
+    let ray = camera::through(camera, *x, *y)?;
+    let hit = world.closest(&ray, true)?;
     let s = world.surface(&ray, &hit, Smoothing::Naive);
     let light = world.light_of(&hit).map(|light| &scene.lights[light]);
     let albedo = match (light, scene.materials.get(s.material as usize)) {

@@ -159,7 +159,7 @@ struct Tracer<'a> {
 impl Tracer<'_> {
     /// Radiance that arrives along the ray, which has been scattered `scatterings` times.
     fn radiance(&self, ray: Ray, scatterings: u32, random: &mut Random) -> DVec3 {
-        let Some(hit) = self.world.closest(&ray) else {
+        let Some(hit) = self.world.closest(&ray, scatterings == 0) else {
             return self.background(ray.direction, scatterings) * self.scene.radiance_unit;
         };
         if let Some(light) = self.world.light_of(&hit) {

@@ -47,6 +47,8 @@ pub struct World {
     /// The number of the first operand of solids as a body.
     first_operand: u32,
     triangles: Vec<Triangle>,
+    /// Which objects the camera does not see.
+    hidden: Vec<bool>,
 }
 
 impl World {
@@ -63,18 +65,20 @@ impl World {
             solids: scene.solids.clone(),
             first_operand: loose + scene.instances.len() as u32,
             triangles: triangles.collect(),
+            hidden: scene.camera_sees.as_ref().map_or_else(Vec::new, |seen| seen.hidden.clone()),
         }
     }
 
-    /// The nearest hit.
-    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+    /// The nearest hit; `camera`: of a ray from there.
+    pub fn closest(&self, ray: &Ray, camera: bool) -> Option<Hit> {
+        let is_there = |object: u32| !(camera && self.hidden.get(object as usize).copied().unwrap_or(false));
         let mut closest = Hit { t: f64::INFINITY, shape: Shape::Sphere(0) };
-        for (k, sphere) in self.spheres.iter().enumerate() {
+        for (k, sphere) in self.spheres.iter().enumerate().filter(|(_, sphere)| is_there(sphere.object)) {
             if let Some(t) = meet_sphere(ray, sphere).filter(|&t| t < closest.t) {
                 closest = Hit { t, shape: Shape::Sphere(k) };
             }
         }
-        for (k, shape) in self.curved.iter().enumerate() {
+        for (k, shape) in self.curved.iter().enumerate().filter(|(_, shape)| is_there(shape.object)) {
             let met = match &shape.unit {
                 UnitShape::Solid(solid) => solids::meet(ray, &self.solids, solid),
                 _ => shapes::meet(ray, shape),
@@ -83,7 +87,7 @@ impl World {
                 closest = Hit { t, shape: Shape::Curved(k) };
             }
         }
-        for (k, triangle) in self.triangles.iter().enumerate() {
+        for (k, triangle) in self.triangles.iter().enumerate().filter(|(_, triangle)| is_there(triangle.object)) {
             if let Some(t) = meet_triangle(ray, &triangle.corners).filter(|&t| t < closest.t) {
                 closest = Hit { t, shape: Shape::Triangle(k) };
             }

@@ -8,7 +8,7 @@ use crate::desc::{
 };
 use crate::desc::{
     BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
-    Projection, TransformWords,
+    Projection, StereoLayout, Stereoscopy, TransformWords,
 };
 use crate::schema::EnumDef;
 
@@ -51,10 +51,12 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 35] = [
+pub(crate) const CHOICES: [&EnumDef; 37] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
+    &Stereoscopy::DEF,
+    &StereoLayout::DEF,
     &PixelFilter::DEF,
     &DepthOfField::DEF,
     &ToneMap::DEF,
@@ -91,7 +93,7 @@ pub(crate) const CHOICES: [&EnumDef; 35] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 137] = [
+const SNIPPETS: [(&str, &str, &str); 141] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -105,6 +107,10 @@ const SNIPPETS: [(&str, &str, &str); 137] = [
     ("FisheyeMapping", "Equisolid", "projection: Fisheye(mapping: Equisolid)"),
     ("FisheyeMapping", "Stereographic", "projection: Fisheye(mapping: Stereographic)"),
     ("FisheyeMapping", "Orthographic", "projection: Fisheye(mapping: Orthographic)"),
+    ("Stereoscopy", "None", "stereo: None"),
+    ("Stereoscopy", "Stereo", "stereo: Stereo(separation: 0.3, convergence: 5)"),
+    ("StereoLayout", "SideBySide", "stereo: Stereo(separation: 0.3, layout: SideBySide)"),
+    ("StereoLayout", "TopBottom", "projection: Panorama, stereo: Stereo(separation: 0.3, layout: TopBottom)"),
     ("PixelFilter", "None", "antialiasing: None"),
     ("PixelFilter", "Box", "antialiasing: Box"),
     ("PixelFilter", "Gaussian", "antialiasing: Gaussian(sigma: 0.5)"),
@@ -348,7 +354,9 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     let mesh = |words: &str| format!("Mesh(file: \"{}\", {words})", TETRAHEDRON.name);
     let mut camera = "position: (0, 1, 5)".to_owned();
     match choice {
-        "Projection" | "FovAxis" | "FisheyeMapping" => camera = format!("{camera}, {words}"),
+        "Projection" | "FovAxis" | "FisheyeMapping" | "Stereoscopy" | "StereoLayout" => {
+            camera = format!("{camera}, {words}")
+        }
         "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
         "Layer" | "Matte" => more = format!("    output: Output({words}),\n"),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),

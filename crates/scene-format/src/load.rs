@@ -272,8 +272,9 @@ impl SceneDesc {
     /// let ball = |radius: f64| {
     ///     let (center, radius) = ([0.0; 3].into(), radius.into());
     ///     let (material, placements) = (Default::default(), Default::default());
-    ///     let (transform, name) = (Vec::new(), Default::default());
-    ///     Object::Sphere(Box::new(Sphere { center, radius, material, transform, placements, name }))
+    ///     let (transform, name, camera_visible) = (Vec::new(), Default::default(), true);
+    ///     let sphere = Sphere { center, radius, material, transform, placements, camera_visible, name };
+    ///     Object::Sphere(Box::new(sphere))
     /// };
     /// scene.objects = vec![ball(1.0).into(), ball(-1.0).into(), ball(f64::NAN).into()];
     /// scene.render.samples = 0.into();

@@ -63,6 +63,25 @@ fn a_light_of_a_group_is_the_sphere_that_shines_as_it_does() {
     assert_eq!(sphere.name.as_str(), Some("lamp"));
 }
 
+/// What stands in a group that the camera does not see is not seen, lamps among it; what is hidden in one that is seen
+/// stays so.
+#[test]
+fn a_group_that_is_hidden_hides_what_is_in_it() {
+    let text = r#"Scene(objects: [
+        Group(camera_visible: false, objects: [Box(), Group(objects: [Box()])], lights: [
+            SphereLight(center: (0, 2, 0), radius: 0.1, power: 3),
+        ]),
+        Group(objects: [Box(camera_visible: false), Box()], lights: [
+            SphereLight(center: (0, 2, 0), radius: 0.1, power: 3, camera_visible: false),
+        ]),
+    ])"#;
+    let scene = read(text, Syntax::Ron);
+    let seen = |scene: &SceneDesc| scene.objects.iter().map(|o| o.value.camera_visible()).collect::<Vec<_>>();
+    assert_eq!(seen(&scene), [false, false, false, false, true, false]);
+    let again = read(&to_text(&scene, Syntax::Ron, Defaults::Hidden), Syntax::Ron);
+    assert_eq!(seen(&again), seen(&scene));
+}
+
 #[test]
 fn a_mesh_in_a_thousand_copies_of_a_group_is_one_object() {
     let text = r#"Scene(background: 1, objects: [

@@ -74,6 +74,7 @@ fn fields_of_shapes() {
                 "Arrow(tail: (0, 0, 0), head: (0, 1, 0), radius: 0.1)",
                 "Arrow(from: (0, 0, 0), to: (0, 1, 0), radius: 0.1)",
             ),
+            ("Box(size: 1, visible_camera: false)", "Box(size: 1, camera_visible: false)"),
             ("Torus(R: 1, r: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),
             ("Torus(major: 1, minor: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),
             ("Torus(major_radius: 1, minor_radius: 0.2)", "Torus(radius: 1, tube_radius: 0.2)"),

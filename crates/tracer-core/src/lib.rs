@@ -59,7 +59,7 @@ pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, 
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};
-pub use marks::{MarkSeen, marks};
+pub use marks::{Eye, MarkSeen, marks};
 pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};
 pub use scene::{CompileTimes, Moments, Scene, film_layers, layer_set, layer_word};
 pub use tracer_kernels::layers::{Layer, LayerSet};

@@ -7,11 +7,32 @@ use scene_format::SceneDesc;
 use std::f64::consts::PI;
 use tracer_kernels::layers::{Layer, LayerSet};
 
+/// One of two eyes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Eye {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+}
+
+impl Eye {
+    /// As [`Stereo`] counts them.
+    fn side(self) -> f64 {
+        match self {
+            Eye::Left => -1.0,
+            Eye::Right => 1.0,
+        }
+    }
+}
+
 /// A mark of a scene in its picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarkSeen {
     /// Its name.
     pub name: String,
+    /// Whose picture is told of, where two eyes share one.
+    pub eye: Option<Eye>,
     /// Where it is, in pixels from the upper left corner of the whole picture, whose first pixel's centre is (0.5,
     /// 0.5); it may lie outside. `None` where no place of the picture shows it, however wide: behind the camera.
     pub pixel: Option<[f64; 2]>,
@@ -22,7 +43,8 @@ pub struct MarkSeen {
     pub seen: bool,
 }
 
-/// The marks of a scene, in order of writing. The scene is as it was afterwards.
+/// The marks of a scene, in order of writing; each twice where there are two eyes, for the left one first. The scene
+/// is as it was afterwards.
 ///
 /// # Examples
 ///
@@ -50,19 +72,61 @@ pub struct MarkSeen {
 pub fn marks(scene: &mut Scene, desc: &SceneDesc) -> Vec<MarkSeen> {
     // They are told of as the shutter opens.
     let moments = scene.moments.take();
-    let of = |mark: &scene_format::desc::Mark| {
+    let eyes: &[Option<Eye>] =
+        if scene.camera.stereo.is_some() { &[Some(Eye::Left), Some(Eye::Right)] } else { &[None] };
+    let of = |(mark, eye): (&scene_format::desc::Mark, Option<Eye>)| {
         let point = scene.frame.point(DVec3::from(mark.point.value));
         let size = scene.size.map(f64::from);
-        let place = place(&scene.camera, point);
-        let pixel = place.map(|[x, y]| [(x + 1.0) / 2.0 * size[0], (1.0 - y) / 2.0 * size[1]]);
-        let within = pixel.is_some_and(|pixel| (0..2).all(|axis| (0.0..=size[axis]).contains(&pixel[axis])));
-        let depth = depth(&scene.camera, point);
-        let seen = within && depth >= scene.camera.near && is_free(scene, point);
-        MarkSeen { name: mark.name.value.clone(), pixel, depth: depth / scene.frame.scale, seen }
+        let Seen { of_eye, whole, beside } = Seen::by(&scene.camera, eye, point);
+        let place = place(&of_eye, point).filter(|_| beside);
+        let within = place.is_some_and(|place| place.iter().all(|x| x.abs() <= 1.0));
+        let pixel = place.map(whole).map(|[x, y]| [(x + 1.0) / 2.0 * size[0], (1.0 - y) / 2.0 * size[1]]);
+        let depth = depth(&of_eye, point);
+        let seen = within && depth >= scene.camera.near && is_free(scene, &of_eye, point);
+        MarkSeen { name: mark.name.value.clone(), eye, pixel, depth: depth / scene.frame.scale, seen }
     };
-    let seen = desc.output.marks.iter().map(of).collect();
+    let marks = desc.output.marks.iter().flat_map(|mark| eyes.iter().map(move |eye| (mark, *eye)));
+    let seen = marks.map(of).collect();
     scene.moments = moments;
     seen
+}
+
+/// How an eye sees a point.
+struct Seen<F> {
+    /// The camera, as if it were the only eye.
+    of_eye: Camera,
+    /// From a place in its picture to that in the whole.
+    whole: F,
+    /// The point does not lie between the eyes of a panorama, where none of them sees it.
+    beside: bool,
+}
+
+impl Seen<()> {
+    fn by(camera: &Camera, eye: Option<Eye>, point: DVec3) -> Seen<impl Fn([f64; 2]) -> [f64; 2] + use<>> {
+        let stereo = camera.stereo.zip(eye).map(|(stereo, eye)| (stereo, eye.side()));
+        let (mut of_eye, mut beside) = (Camera { stereo: None, ..*camera }, true);
+        if let Some((stereo, side)) = stereo {
+            let Camera { eye, forward, right, .. } = *camera;
+            let across = right.normalize();
+            let aside = side * stereo.aside;
+            let [x, z] = [across, forward].map(|axis| (point - eye).dot(axis));
+            of_eye.eye += match camera.projection {
+                // The ray touches the circle of the eyes: `across` turned by its longitude.
+                Projection::Panorama => {
+                    let level = libm::hypot(x, z);
+                    beside = level > stereo.aside;
+                    let longitude = libm::atan2(x, z) - libm::asin((aside / level.max(1e-300)).clamp(-1.0, 1.0));
+                    aside * (libm::cos(longitude) * across - libm::sin(longitude) * forward)
+                }
+                _ => aside * across,
+            };
+            if let Projection::Perspective { shift, .. } = &mut of_eye.projection {
+                shift[0] -= side * stereo.inwards;
+            }
+        }
+        let whole = move |place| stereo.map_or(place, |(stereo, side)| stereo.in_whole(side, place));
+        Seen { of_eye, whole, beside }
+    }
 }
 
 /// In render units.
@@ -104,9 +168,9 @@ fn place(camera: &Camera, point: DVec3) -> Option<[f64; 2]> {
     }
 }
 
-/// Whether nothing lies before a point: by a camera of one pixel that looks along the ray that shows it.
-fn is_free(scene: &mut Scene, point: DVec3) -> bool {
-    let camera = scene.camera;
+/// Whether nothing lies before a point that a camera sees: by one of one pixel that looks along the ray that shows it.
+fn is_free(scene: &mut Scene, camera: &Camera, point: DVec3) -> bool {
+    let camera = *camera;
     let (origin, forward) = match camera.projection {
         Projection::Orthographic => (point - (point - camera.eye).dot(camera.forward) * camera.forward, camera.forward),
         _ => match (point - camera.eye).try_normalize() {
@@ -118,7 +182,7 @@ fn is_free(scene: &mut Scene, point: DVec3) -> bool {
     let eye = origin + start * forward;
     let (right, up) = forward.any_orthonormal_pair();
     let projection = Projection::Perspective { shift: [0.0; 2], lens: None };
-    let one = Camera { eye, forward, right, up, projection, near: 0.0, filter: Filter::Centre };
+    let one = Camera { eye, forward, right, up, projection, stereo: None, near: 0.0, filter: Filter::Centre };
     let before = (std::mem::replace(&mut scene.camera, one), scene.size, scene.max_bounces);
     (scene.size, scene.max_bounces) = ([1, 1], 0);
     let options = RenderOptions {

@@ -7,7 +7,7 @@ mod bvh_support;
 
 use bvh_support::{Batch, COHERENCES, HERE, Hit, MODES, Mesh, Random, build, levels};
 use glam::{Affine3A, DVec3, Quat, Vec3};
-use tracer_core::bvh::{Accel, Geometry, InstanceGeometry, NONE};
+use tracer_core::bvh::{Accel, Geometry, InstanceGeometry, LeftOut, NONE};
 
 /// A quadrilateral of four triangles about a point within it, in the plane z = 0.
 fn tile(random: &mut Random) -> Mesh {
@@ -111,6 +111,7 @@ fn the_first_wins_wherever_it_is() {
             planes: &[],
             meshes: &meshes,
             instances: &instances,
+            left_out: LeftOut::default(),
         };
         for (height, aside) in [(1.0, 0.5), (0.05, 3.0), (0.01, 3.0), (100.0, 50.0)] {
             let (batch, points) = rays(&map, height, aside, &mut random);
@@ -157,6 +158,7 @@ fn what_is_apart_stays_apart() {
                 planes: &[],
                 meshes: &meshes,
                 instances: &instances,
+                left_out: LeftOut::default(),
             };
             let mut batch = Batch::default();
             for _ in 0..500 {
@@ -194,6 +196,7 @@ fn rays_to_what_loses_are_blocked_and_those_to_what_wins_are_not() {
                 planes: &[],
                 meshes: &meshes,
                 instances: &instances,
+                left_out: LeftOut::default(),
             },
             MODES[2],
         );
@@ -209,6 +212,7 @@ fn rays_to_what_loses_are_blocked_and_those_to_what_wins_are_not() {
                 planes: &[],
                 meshes: &meshes,
                 instances: &instances,
+                left_out: LeftOut::default(),
             },
             MODES[2],
         );

@@ -8,7 +8,7 @@ mod bvh_support;
 
 use bvh_support::{Batch, COHERENCES, HERE, Hit, MISS, MODES, Mesh, build, levels};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use tracer_core::bvh::{Geometry, NONE, ShapeGeometry, SphereGeometry, sphere_hit, triangle_hit};
+use tracer_core::bvh::{Geometry, LeftOut, NONE, ShapeGeometry, SphereGeometry, sphere_hit, triangle_hit};
 use tracer_core::scene::Shape;
 use tracer_core::shapes::{Row, UnitShape};
 
@@ -246,6 +246,7 @@ fn the_tree_finds_what_brute_force_finds() {
         planes: &[],
         meshes: &meshes,
         instances: &[HERE],
+        left_out: LeftOut::default(),
     };
     let mut batch = Batch::random(800, 1.5, &mut numbers);
     batch.append(&Batch::beams(30, 1.5, &mut numbers));

@@ -4,7 +4,7 @@ use crate::cache::CacheReport;
 use crate::denoising::DenoiseReport;
 use scene_format::desc::Render;
 use serde::Serialize;
-use tracer_core::{Clamped, Film, MarkSeen, Stage, Statistics, TreeWork};
+use tracer_core::{Clamped, Eye, Film, MarkSeen, Stage, Statistics, TreeWork};
 
 /// Changes whenever a field changes its meaning or goes; new fields may come at any time.
 pub const VERSION: u32 = 1;
@@ -101,6 +101,9 @@ pub struct PictureReport {
 pub struct MarkReport {
     /// Its name.
     pub name: String,
+    /// `left` or `right`, where two eyes share the picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<&'static str>,
     /// From the upper left corner; none where no place shows it.
     pub pixel: Option<[f64; 2]>,
     /// As `focus_distance` is measured.
@@ -110,8 +113,12 @@ pub struct MarkReport {
 }
 
 impl From<MarkSeen> for MarkReport {
-    fn from(MarkSeen { name, pixel, depth, seen }: MarkSeen) -> Self {
-        MarkReport { name, pixel, depth, seen }
+    fn from(MarkSeen { name, eye, pixel, depth, seen }: MarkSeen) -> Self {
+        let eye = eye.map(|eye| match eye {
+            Eye::Left => "left",
+            Eye::Right => "right",
+        });
+        MarkReport { name, eye, pixel, depth, seen }
     }
 }
 

@@ -27,6 +27,26 @@ pub struct Geometry<'a> {
     pub meshes: &'a [MeshGeometry<'a>],
     /// Where the meshes stand. A mesh without an instance is not in the scene.
     pub instances: &'a [InstanceGeometry],
+    /// What is not to be met.
+    pub left_out: LeftOut<'a>,
+}
+
+/// What keeps its numbers and is not in the tree, a flag each; nothing where a list ends before.
+#[derive(Clone, Copy, Default)]
+pub struct LeftOut<'a> {
+    /// Of the spheres.
+    pub spheres: &'a [bool],
+    /// Of the curved shapes, and behind them of the planes.
+    pub shapes: &'a [bool],
+    /// Of the instances.
+    pub instances: &'a [bool],
+}
+
+impl LeftOut<'_> {
+    /// Whether such a list leaves out its `k`th.
+    pub fn holds(list: &[bool], k: usize) -> bool {
+        list.get(k).copied().unwrap_or(false)
+    }
 }
 
 /// A triangle mesh. Triangle `k` is primitive `first_primitive + k` in every instance of the mesh.

@@ -30,7 +30,7 @@ mod triangle;
 mod validate;
 
 pub use build::BuildError;
-pub use geometry::{Geometry, InstanceGeometry, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
+pub use geometry::{Geometry, InstanceGeometry, LeftOut, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
 pub use kernels::Counters;
 pub use sphere::sphere_hit;
 pub use stored::{RestoreError, TreeHead};

@@ -14,18 +14,18 @@ use crate::lanes::ArrayF;
 use crate::lanes::{F8, F16, Pair};
 use crate::layers::LayerSet;
 use crate::level::{Level, Set};
-use crate::scene::Scene;
+use crate::scene::{Scene, SphereTable};
 
 /// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
 #[derive(Clone, Copy)]
 pub struct Kernels {
     level: Level,
     camera: unsafe fn(&Scene, u32, u32, &mut Batch),
-    closest: unsafe fn(&Scene, &mut Batch),
+    closest: unsafe fn(&SphereTable, &mut Batch),
     first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     ambient: unsafe fn(&Scene, u32, f32, &mut Batch),
-    occluded: unsafe fn(&Scene, &mut Batch),
+    occluded: unsafe fn(&SphereTable, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
     aim: unsafe fn(&Guide, u32, u32, &mut Batch),
@@ -46,8 +46,8 @@ macro_rules! kernels {
                 camera::camera::<$lanes>(scene, seed, items, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn closest_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_closest::<$of_spheres>(&scene.tables.spheres, batch)
+            fn closest_entry(of: &SphereTable, batch: &mut Batch) {
+                spheres::spheres_closest::<$of_spheres>(of, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn first_hits_entry(scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
@@ -62,8 +62,8 @@ macro_rules! kernels {
                 ambient::ambient::<$lanes>(scene, seed, distance, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn occluded_entry(scene: &Scene, batch: &mut Batch) {
-                spheres::spheres_occluded::<$of_spheres>(&scene.tables.spheres, batch)
+            fn occluded_entry(of: &SphereTable, batch: &mut Batch) {
+                spheres::spheres_occluded::<$of_spheres>(of, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn reach_closest_entry(boxes: &TopBoxes, batch: &mut Batch) {
@@ -164,9 +164,9 @@ impl Kernels {
         unsafe { (self.camera)(scene, seed, items, batch) }
     }
     /// The nearest of the spheres that every ray tests.
-    pub fn closest(&self, scene: &Scene, batch: &mut Batch) {
+    pub fn closest(&self, of: &SphereTable, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.closest)(scene, batch) }
+        unsafe { (self.closest)(of, batch) }
     }
     /// What the camera rays of the batch hit first, for these layers.
     pub fn first_hits(&self, scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
@@ -184,9 +184,9 @@ impl Kernels {
         unsafe { (self.ambient)(scene, seed, distance, batch) }
     }
     /// Which shadow rays the spheres block.
-    pub fn occluded(&self, scene: &Scene, batch: &mut Batch) {
+    pub fn occluded(&self, of: &SphereTable, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.occluded)(scene, batch) }
+        unsafe { (self.occluded)(of, batch) }
     }
     /// Aimed rays from the rough surfaces of vertex `vertex`.
     pub fn aim(&self, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {

@@ -17,6 +17,8 @@ pub struct Camera {
     pub up: DVec3,
     /// From places in the picture to rays.
     pub projection: Projection,
+    /// Two eyes share the picture; all else tells of the middle between them, and of the picture of one of them.
+    pub stereo: Option<Stereo>,
     /// Depth, along `forward`, in render units, at which rays start; zero: at the eye.
     pub near: f64,
     /// The pixel's reconstruction filter.
@@ -48,6 +50,42 @@ pub enum Projection {
         /// What r is multiplied by to be what the mapping says.
         scale: f64,
     },
+}
+
+/// Two eyes that look the same way, each with half of the picture: the left eye has the left half, or the upper one.
+/// Those of a panorama stand aside of every direction that they look in: on a circle, whose tangents its rays are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stereo {
+    /// Half the distance between them, in render units.
+    pub aside: f64,
+    /// What is added to the left eye's x, and taken from the right one's, in a perspective: in halves of the width of
+    /// an eye's picture.
+    pub inwards: f64,
+    /// The halves lie above each other, and else side by side.
+    pub above: bool,
+}
+
+impl Stereo {
+    /// Whose half of the picture a place lies in: -1 the left eye's, 1 the right one's.
+    pub fn eye(&self, [x, y]: [f64; 2]) -> f64 {
+        let is_left = if self.above { y > 0.0 } else { x < 0.0 };
+        if is_left { -1.0 } else { 1.0 }
+    }
+
+    /// A place of the picture as a place in the picture of an eye.
+    pub fn in_half(&self, eye: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        if self.above { [x, 2.0 * y + eye] } else { [2.0 * x - eye, y] }
+    }
+
+    /// The other way round.
+    pub fn in_whole(&self, eye: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        if self.above { [x, 0.5 * (y - eye)] } else { [0.5 * (x + eye), y] }
+    }
+
+    /// The sides of the picture of one eye, of those of the whole.
+    pub fn half(&self, [width, height]: [f64; 2]) -> [f64; 2] {
+        if self.above { [width, height / 2.0] } else { [width / 2.0, height] }
+    }
 }
 
 /// A thin lens: the rays of one place in the picture meet in the plane of focus.

@@ -12,6 +12,7 @@ mod frame;
 mod light;
 pub mod materials;
 mod mesh;
+mod met;
 mod pattern;
 mod plane;
 mod program;
@@ -21,7 +22,7 @@ mod statistics;
 mod table;
 mod texture;
 
-pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection};
+pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection, Stereo};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;
@@ -30,6 +31,7 @@ pub use materials::{Albedo, Material};
 pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
+pub use met::{CameraSees, Met};
 pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
@@ -135,6 +137,8 @@ pub struct Scene {
     pub tables: Tables,
     /// The tree over meshes and many spheres; `None` when there are neither.
     pub accel: Option<std::sync::Arc<crate::bvh::Accel>>,
+    /// What camera rays meet, where not all of it.
+    pub camera_sees: Option<Box<CameraSees>>,
     /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
     pub top_boxes: Option<crate::bvh::TopBoxes>,
     /// The boxes under those.

@@ -58,6 +58,12 @@ impl PlaneTable {
         PlaneTable { rows: planes.filter_map(row).collect() }
     }
 
+    /// Those that a camera sees; `hidden`: of shapes, the first of which has the id `first`.
+    pub fn seen(&self, hidden: &[bool], first: u32) -> PlaneTable {
+        let is_seen = |plane: &&Plane| !hidden.get((plane.id - first) as usize).copied().unwrap_or(false);
+        PlaneTable { rows: self.rows.iter().filter(is_seen).copied().collect() }
+    }
+
     /// Whether there are none.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {

@@ -117,6 +117,19 @@ impl SphereTable {
             in_tree,
         }
     }
+
+    /// Those of the spheres that every ray tests which a camera sees, by what is hidden from it. They are not looked up
+    /// here: of rows there are none.
+    pub fn seen(&self, hidden: &[bool]) -> SphereTable {
+        let is_seen = |id: u32| !hidden.get(id as usize).copied().unwrap_or(false);
+        SphereTable {
+            rows: Table::new([]),
+            len: self.len,
+            large: self.large.iter().filter(|sphere| is_seen(sphere.id)).copied().collect(),
+            small: self.small.iter().filter(|sphere| is_seen(sphere.id)).copied().collect(),
+            in_tree: self.in_tree,
+        }
+    }
 }
 
 /// P and N of a sphere: the point that is nearest to the origin.

@@ -78,6 +78,7 @@ fn lathe(profile: &[[f64; 2]], curve: Curve, segments: u32) -> Lathe {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }
@@ -262,6 +263,7 @@ fn extrude(rings: &[&[[f64; 2]]], depth: f64, curve: Curve) -> Extrude {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }
@@ -377,6 +379,7 @@ fn polygon(points: &[[f64; 3]]) -> Polygon {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }

@@ -1,7 +1,7 @@
 //! The camera: where it stands, and how it maps what it sees to the picture.
 
-use super::Vec3;
 use super::matrix::Rows;
+use super::{Stereo, StereoLayout, Vec3};
 use crate::diagnostic::{Span, Spanned};
 use crate::form::Form;
 use crate::plane::cross;
@@ -45,6 +45,8 @@ scene_struct! {
         shutter: Spanned<f64> = 0.0 => Rule::within("a number", 0.0, 1.0).unit("of a frame");
         /// How directions become places in the picture.
         projection: Projection = Projection::Perspective;
+        /// Two pictures in one, for two eyes; with `Perspective` and `Panorama`.
+        stereo: Option<Stereo> = None;
     }
 }
 
@@ -132,6 +134,8 @@ pub struct Camera {
     pub shutter: Spanned<f64>,
     /// How directions become places in the picture.
     pub projection: Projection,
+    /// Two pictures in one.
+    pub stereo: Option<Stereo>,
 }
 
 impl Words for Camera {
@@ -152,6 +156,7 @@ impl Words for Camera {
             near: words.near,
             shutter: words.shutter,
             projection: words.projection,
+            stereo: words.stereo,
         };
         if let Some(matrix) = words.matrix {
             reader.camera_matrix(&camera, &matrix, item.syntax())?;
@@ -184,6 +189,7 @@ impl Words for Camera {
             near: camera.near,
             shutter: camera.shutter,
             projection: camera.projection,
+            stereo: camera.stereo,
         }
         .form(all);
         if let (Form::Struct { fields, .. }, Some(_)) = (&mut form, &self.matrix) {
@@ -209,6 +215,7 @@ impl Default for Camera {
             near: None,
             shutter: 0.0.into(),
             projection: Projection::Perspective,
+            stereo: None,
         }
     }
 }
@@ -240,10 +247,18 @@ impl Camera {
         [right, cross(right, forward), forward]
     }
 
-    /// Half the height and half the width of what a perspective camera sees at distance one, for a picture of this
-    /// many pixels across and down.
-    pub fn half_extents(&self, [width, height]: [u32; 2]) -> [f64; 2] {
-        let (width, height) = (f64::from(width), f64::from(height));
+    /// The sides of the picture of one eye, of those of the whole.
+    pub fn size_for_one_eye(&self, [width, height]: [f64; 2]) -> [f64; 2] {
+        match self.stereo.as_ref().map(|stereo| stereo.layout) {
+            None => [width, height],
+            Some(StereoLayout::SideBySide) => [width / 2.0, height],
+            Some(StereoLayout::TopBottom) => [width, height / 2.0],
+        }
+    }
+
+    /// Half the height and half the width of what a perspective camera sees at distance one, for a picture with these
+    /// sides; of two eyes for that of one.
+    pub fn half_extents(&self, [width, height]: [f64; 2]) -> [f64; 2] {
         let aspect = width / height;
         if let Some(focal_length) = &self.focal_length {
             let half_width = self.sensor_width.value / 2.0 / focal_length.value;
@@ -273,6 +288,7 @@ impl Camera {
         let focal_length = self.focal_length.as_ref().map(|length| length.span);
         let shift = (self.shift.value != default.shift.value).then_some(self.shift.span);
         let near = self.near.as_ref().map(|near| near.span);
+        let stereo = self.stereo.as_ref().map(|stereo| stereo.separation.span);
         let mut fields = Vec::new();
         let mut none_of = |why: &'static str, list: &[(&'static str, Option<Span>)]| {
             let there = list.iter().filter(|(_, span)| span.is_some());
@@ -289,6 +305,7 @@ impl Camera {
             Projection::Orthographic { .. } => {
                 let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
                 none_of("the `height` of the projection says what is seen", &angles);
+                none_of("parallel rays show both eyes the same", &[("stereo", stereo)]);
             }
             Projection::Panorama => {
                 let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
@@ -299,6 +316,7 @@ impl Camera {
                 let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
                 none_of("the projection has a `fov` of its own", &angles);
                 none_of("a fisheye has no plane", &[("shift", shift), ("near", near)]);
+                none_of("a fisheye has one eye, `Perspective` and `Panorama` two", &[("stereo", stereo)]);
             }
         }
         fields

@@ -37,6 +37,9 @@ scene_struct! {
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// Lights that move with it. Each copy has one, as bright as it is written.
         lights: Vec<Spanned<Light>> = Vec::new();
+        /// Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws
+        /// shadows, shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
         name: Name = Name::default();
     }
@@ -150,7 +153,15 @@ fn group(reader: &mut Reader<'_>, chosen: &Chosen<'_, '_>, at: Span) -> Option<V
             }
         }
     }
+    hide(words.camera_visible, &mut objects);
     if moved(reader, words.transform, words.placements, &mut objects) { Some(objects) } else { None }
+}
+
+/// Hides objects from the camera that stand in what it does not see.
+pub(crate) fn hide(camera_visible: bool, objects: &mut [Spanned<Object>]) {
+    if !camera_visible {
+        objects.iter_mut().for_each(|object| *object.value.camera_visible_mut() = false);
+    }
 }
 
 /// The diagnostic of a step of a group that needs to know how far the group reaches.
@@ -236,6 +247,7 @@ pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
         material: MaterialRef::Inline(Box::new(material)),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: light.camera_visible,
         name: light.name,
     };
     Spanned { value: Object::Sphere(Box::new(sphere)), span }

@@ -27,6 +27,9 @@ scene_struct! {
         /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a
         /// rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws
+        /// shadows, shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
         name: Name = Name::default();
     }

@@ -24,6 +24,13 @@ impl Light {
         }
     }
 
+    /// Whether the camera sees it.
+    pub fn camera_visible(&self) -> bool {
+        match self {
+            Light::SphereLight(light) => light.camera_visible,
+        }
+    }
+
     /// Its kind, as it is written.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -41,6 +48,8 @@ pub struct SphereLight {
     pub radius: Spanned<f64>,
     /// How much light.
     pub emission: Spanned<Emission>,
+    /// Whether the camera sees it.
+    pub camera_visible: bool,
     /// What it is called.
     pub name: Name,
 }
@@ -70,6 +79,9 @@ scene_struct! {
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
         /// Power: L = P / (4 pi^2 r^2).
         power: Option<Spanned<Color>> = None => Rule::light("in W");
+        /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen
+        /// in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
@@ -87,7 +99,8 @@ impl Words for SphereLight {
             // None was written, or what was written could not be read: reported.
             _ => return None,
         };
-        Some(SphereLight { center: words.center, radius: words.radius, emission, name: words.name })
+        let SphereLightWords { center, radius, camera_visible, name, .. } = words;
+        Some(SphereLight { center, radius, emission, camera_visible, name })
     }
 
     fn form(&self, _all: bool) -> Form {
@@ -97,6 +110,7 @@ impl Words for SphereLight {
             intensity: None,
             radiance: None,
             power: None,
+            camera_visible: self.camera_visible,
             name: self.name.clone(),
         };
         match self.emission.value {

@@ -25,6 +25,7 @@ mod object;
 mod output;
 mod per_axis;
 mod shapes;
+mod stereo;
 mod textures;
 mod transform;
 mod view;
@@ -60,6 +61,8 @@ pub use shapes::{
     PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube,
     Turning, Union, Within, no_extent,
 };
+pub(crate) use stereo::Stereoscopy;
+pub use stereo::{Stereo, StereoLayout};
 pub use textures::{
     Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
     Noise, NoiseKind, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,

@@ -98,6 +98,16 @@ macro_rules! shapes {
                 match self { $( Object::$Kind(shape) => &shape.name, )+ }
             }
 
+            /// Whether the camera sees it.
+            pub fn camera_visible(&self) -> bool {
+                match self { $( Object::$Kind(shape) => shape.camera_visible, )+ }
+            }
+
+            /// Whether the camera sees it, to be changed.
+            pub fn camera_visible_mut(&mut self) -> &mut bool {
+                match self { $( Object::$Kind(shape) => &mut shape.camera_visible, )+ }
+            }
+
             /// Its material.
             pub fn material(&self) -> &MaterialRef {
                 match self { $( Object::$Kind(shape) => &shape.material, )+ }

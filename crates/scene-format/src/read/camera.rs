@@ -314,6 +314,12 @@ impl Reader<'_> {
             let message = format!("`{field}` has no use here: {why}");
             self.report(Diagnostic::error(codes::NO_USE, span, message).hint(format!("leave `{field}` out")));
         }
+        let eyes = camera.stereo.as_ref().filter(|_| camera.projection == Projection::Panorama);
+        if let Some(convergence) = eyes.and_then(|stereo| stereo.convergence.as_ref()) {
+            self.path = at(&["stereo", "convergence"]);
+            let message = "`convergence` has no use here: the eyes of a panorama look straight ahead, whichever way";
+            self.report(Diagnostic::error(codes::NO_USE, convergence.span, message).hint("leave `convergence` out"));
+        }
         let other_fov = camera.fov.value != Camera::default().fov.value;
         if let (Some(length), Projection::Perspective, true) = (&camera.focal_length, &camera.projection, other_fov) {
             self.path = at(&["focal_length"]);

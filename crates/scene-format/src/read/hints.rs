@@ -86,6 +86,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
     const SYNONYMS: &[(&str, &[&str])] = &[
         ("Linear", &["linear_spline", "linearspline", "polyline", "straight", "lines", "polygon"]),
         ("CatmullRom", &["cubic_spline", "cubicspline", "quadratic_spline", "spline", "smooth", "cubic", "natural"]),
+        ("SideBySide", &["sidebyside", "side_by_side", "sbs", "left_right", "leftright", "horizontal", "lr"]),
+        ("TopBottom", &["topbottom", "top_bottom", "over_under", "overunder", "tab", "vertical", "above", "tb"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
         ("Matrix", &["matrix", "matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"]),
         ("Matrix", &["transform", "concattransform", "concat_transform"]),
@@ -488,6 +490,24 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         }
         "id" | "label" | "tag" if def.field("name").is_some() => "what is called something has a `name`",
         "name" | "id" | "label" | "tag" => "objects, lights and materials have names; write others as a comment",
+        "no_image" | "hide_from_camera" | "hidden_from_camera" | "invisible_to_camera" if has("camera_visible") => {
+            "what the camera is not to see is `camera_visible: false`"
+        }
+        "visible" | "hidden" | "hide" | "visibility" | "hide_render" | "invisible" if has("camera_visible") => {
+            "leave the object out, or make it a comment; for the camera alone it is hidden by `camera_visible: false`"
+        }
+        "no_shadow"
+        | "no_reflection"
+        | "cast_shadow"
+        | "cast_shadows"
+        | "visible_shadow"
+        | "visible_diffuse"
+        | "visible_glossy"
+        | "visible_transmission"
+            if has("camera_visible") =>
+        {
+            "only the camera may not see a thing, `camera_visible: false`: all throws shadows and shows in mirrors"
+        }
         "visible" | "hidden" | "enabled" | "hide" | "visibility" | "cast_shadow" | "cast_shadows" | "double_sided" => {
             "all that is written is seen: leave the object out, or make it a comment"
         }

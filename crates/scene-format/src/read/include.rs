@@ -245,6 +245,7 @@ impl Reader<'_> {
             self.unknown_name(codes::UNKNOWN_VAR, "var", &file.name, name, &table.names());
         }
         self.take_materials(&mut objects, inner, words.materials, &file.name);
+        group::hide(words.camera_visible, &mut objects);
         group::moved(self, words.transform, words.placements, &mut objects).then_some(objects)
     }
 

@@ -195,7 +195,15 @@ fn view(random: &mut Random) -> (Camera, Option<ThinLens>) {
         camera.shift = [number(random, -3.0, 3.0), number(random, -3.0, 3.0)].into();
         camera.near = (random.below(2) == 0).then(|| length(random).into());
     }
-    if camera.projection != Projection::Perspective {
+    let is_perspective = camera.projection == Projection::Perspective;
+    if (is_perspective || camera.projection == Projection::Panorama) && random.below(4) == 0 {
+        camera.stereo = Some(Stereo {
+            separation: length(random).into(),
+            convergence: (is_perspective && random.below(2) == 0).then(|| length(random).into()),
+            layout: *random.pick(&[StereoLayout::SideBySide, StereoLayout::TopBottom]),
+        });
+    }
+    if !is_perspective {
         return (camera, None);
     }
     if random.below(3) == 0 {
@@ -249,6 +257,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             13 => Object::Torus(Box::new(Torus {
@@ -260,6 +269,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             14 => Object::Arrow(Box::new(Arrow {
@@ -272,6 +282,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             12 => Object::Tube(Box::new(Tube {
@@ -287,6 +298,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             10 => Object::Extrude(Box::new(Extrude {
@@ -301,6 +313,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             11 => Object::Polygon(Box::new(Polygon {
@@ -308,6 +321,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             9 => Object::Lathe(Box::new(Lathe {
@@ -323,6 +337,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             0 | 1 => Object::Sphere(Box::new(Sphere {
@@ -331,6 +346,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             5 if random.below(3) == 0 => Object::Plane(Box::new(Plane {
@@ -339,6 +355,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             5 => Object::Disk(Box::new(Disk {
@@ -349,6 +366,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             6 => Object::Cylinder(Box::new(Cylinder {
@@ -359,6 +377,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             7 => Object::Cone(Box::new(Cone {
@@ -370,6 +389,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             8 => Object::Capsule(Box::new(Capsule {
@@ -379,6 +399,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             2 => Object::Rectangle(Box::new(Rectangle {
@@ -388,6 +409,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             3 => Object::Box(Box::new(RectBox {
@@ -398,6 +420,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 material,
                 transform: transforms(random),
                 placements,
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
             _ => Object::Mesh(Mesh {
@@ -411,6 +434,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 placements,
                 instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
                 shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
+                camera_visible: random.below(4) != 0,
                 name: name(random),
             }),
         };
@@ -446,6 +470,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             material: MaterialRef::Default,
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         };
         objects.push(Object::Sphere(Box::new(sphere)).into());
@@ -462,6 +487,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             center: vector(random).into(),
             radius: length(random).into(),
             emission: emission.into(),
+            camera_visible: random.below(4) != 0,
             name: name(random),
         })
     };

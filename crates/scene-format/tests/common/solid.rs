@@ -20,6 +20,7 @@ pub fn solid(random: &mut Random, placements: Placements, depth: usize) -> Objec
                 material,
                 transform: transforms(random),
                 placements: Placements::One,
+                camera_visible: true,
                 name: name(random),
             })),
             _ => Object::Sphere(Box::new(Sphere {
@@ -28,15 +29,27 @@ pub fn solid(random: &mut Random, placements: Placements, depth: usize) -> Objec
                 material,
                 transform: transforms(random),
                 placements: Placements::One,
+                camera_visible: true,
                 name: name(random),
             })),
         }
     };
     let objects = Operands((0..count).map(|_| part(random).into()).collect());
     let (transform, name) = (transforms(random), name(random));
+    // One in another is seen with it.
+    let camera_visible = depth < 2 || random.below(4) != 0;
     match random.below(3) {
-        0 => Object::Union(Box::new(Union { objects, material, transform, placements, name })),
-        1 => Object::Intersection(Box::new(Intersection { objects, material, transform, placements, name })),
-        _ => Object::Difference(Box::new(Difference { objects, material, transform, placements, name })),
+        0 => Object::Union(Box::new(Union { objects, material, transform, placements, camera_visible, name })),
+        1 => Object::Intersection(Box::new(Intersection {
+            objects,
+            material,
+            transform,
+            placements,
+            camera_visible,
+            name,
+        })),
+        _ => {
+            Object::Difference(Box::new(Difference { objects, material, transform, placements, camera_visible, name }))
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use scene_format::desc::{self, PixelFilter, SceneDesc, ThinLens};
-use tracer_kernels::scene::{Camera, Filter, FisheyeMapping, Frame, Lens, Projection};
+use tracer_kernels::scene::{Camera, Filter, FisheyeMapping, Frame, Lens, Projection, Stereo};
 
 /// In render space.
 pub(super) fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
@@ -11,8 +11,9 @@ pub(super) fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
     let forward = (DVec3::from(written.look_at.value) - eye).normalize();
     let right = forward.cross(DVec3::from(written.up.value).normalize()).normalize();
     let up = right.cross(forward);
-    let size = [desc.image.width.value, desc.image.height.value];
-    let [width, height] = size.map(f64::from);
+    // Of two eyes the picture of one.
+    let size = written.size_for_one_eye([desc.image.width.value, desc.image.height.value].map(f64::from));
+    let [width, height] = size;
     let (projection, [half_height, half_width]) = match &written.projection {
         desc::Projection::Perspective => {
             let half = written.half_extents(size);
@@ -51,9 +52,21 @@ pub(super) fn camera(desc: &SceneDesc, frame: &Frame) -> Camera {
         right,
         up,
         projection,
+        stereo: written.stereo.as_ref().map(|stereo| eyes(stereo, half_width, projection, frame)),
         near: written.near.as_ref().map_or(0.0, |near| frame.length(near.value)),
         filter: filter(&desc.effects.antialiasing),
     }
+}
+
+/// Two eyes, each of which sees so much to either side at distance one.
+fn eyes(stereo: &desc::Stereo, half_width: f64, projection: Projection, frame: &Frame) -> Stereo {
+    let aside = stereo.separation.value / 2.0;
+    let inwards = match (&stereo.convergence, projection) {
+        // What lies ahead of the middle at this distance is so far beside each eye's own axis.
+        (Some(distance), Projection::Perspective { .. }) => aside / distance.value / half_width,
+        _ => 0.0,
+    };
+    Stereo { aside: frame.length(aside), inwards, above: stereo.layout == desc::StereoLayout::TopBottom }
 }
 
 /// Of a camera with these axes; none where it has no width.

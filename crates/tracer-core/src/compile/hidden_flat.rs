@@ -57,6 +57,10 @@ pub fn warn(desc: &SceneDesc, placed: &Placed, diagnostics: &mut Diagnostics) {
     for (k, object) in polygonal(desc).enumerate() {
         objects.push((object.number, object.span));
         let Geometry::Unit(shape) = object.geometry else { continue };
+        // What the camera does not see is in nobody's way there, and is not meant to be seen.
+        if !desc.objects.get(object.number as usize).is_none_or(|written| written.value.camera_visible()) {
+            continue;
+        }
         let material = match object.material {
             MaterialRef::Default => None,
             MaterialRef::Named { name, .. } => materials.get(&**name).copied(),

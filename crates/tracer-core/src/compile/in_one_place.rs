@@ -50,21 +50,23 @@ impl Planes {
     }
 }
 
-/// Who is seen: what shines, then what lets no light through, then what comes first.
-fn rank(object: &Curved, materials: &[Material]) -> u32 {
+/// Who is seen: what the camera sees, of this what shines, then what lets no light through, then what comes first.
+fn rank(desc: &SceneDesc, object: &Curved, materials: &[Material]) -> (bool, u32) {
+    let hidden = desc.objects.get(object.number as usize).is_some_and(|written| !written.value.camera_visible());
     let transmits =
         |index: u32| materials.get(index as usize).is_some_and(|m| m.traits().flags.has(BxdfFlags::TRANSMISSION));
-    match object.emissive {
+    let of_material = match object.emissive {
         Some(_) => 0,
         None => 1 + u32::from(transmits(object.material)),
-    }
+    };
+    (hidden, of_material)
 }
 
 /// Leaves out the copies that are in the place of others, and warns of them.
 pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material], diagnostics: &mut Diagnostics) {
     let mut order: Vec<usize> =
         (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
-    order.sort_by_key(|&k| rank(&curved[k], materials));
+    order.sort_by_key(|&k| rank(desc, &curved[k], materials));
     let mut taken: BTreeMap<[u32; 12], Vec<UnitShape>> = BTreeMap::new();
     let [eye, look_at] = [&desc.camera.position, &desc.camera.look_at].map(|point| DVec3::from(point.value));
     let mut planes = Planes { eye, look_at, taken: Vec::new() };

@@ -221,6 +221,9 @@ fn key(geometry: &Geometry<'_>, acceleration: Acceleration, ranks: &Ranks) -> u1
         add(&instance.mesh.to_le_bytes());
         add(instance.placement.as_ref().map_or(&[], |rows| bytemuck::cast_slice(rows)));
     }
+    for flags in [geometry.left_out.spheres, geometry.left_out.shapes, geometry.left_out.instances] {
+        add(bytemuck::cast_slice(flags));
+    }
     add(&ranks.triangles);
     add(&ranks.shapes);
     let whole: Vec<u8> = ranks.instances.iter().map(|rank| rank.unwrap_or(u8::MAX)).collect();

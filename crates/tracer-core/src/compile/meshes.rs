@@ -316,7 +316,8 @@ fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
 
 impl Built {
     /// The tree over these meshes, the first `spheres`, and the shapes, whose first has the id `first_shape`; planes
-    /// are the last of them.
+    /// are the last of them. What is left out keeps its numbers.
+    #[allow(clippy::too_many_arguments)]
     pub fn tree(
         &self,
         acceleration: bvh::Acceleration,
@@ -325,6 +326,7 @@ impl Built {
         first_shape: u32,
         materials: &[Material],
         sources: &Sources<'_>,
+        left_out: bvh::LeftOut<'_>,
     ) -> Result<Arc<bvh::Accel>, bvh::BuildError> {
         let first_primitive = first_shape + shapes.len() as u32;
         let t = &self.triangles;
@@ -344,7 +346,9 @@ impl Built {
         let planes: Vec<Row> = endless.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect();
         let (meshes, instances) = (&meshes[..], &instances[..]);
         let (parts, planes) = (&solids.parts[..], &planes[..]);
-        let geometry = bvh::Geometry { spheres, shapes: &placed, first_shape, parts, planes, meshes, instances };
+        let shapes_placed = &placed[..];
+        let geometry =
+            bvh::Geometry { spheres, shapes: shapes_placed, first_shape, parts, planes, meshes, instances, left_out };
         build_tree((sources.kept, sources.store), &geometry, acceleration, &self.ranks(shapes, materials))
     }
 

@@ -25,6 +25,7 @@ mod programs;
 mod radiances;
 mod stored;
 mod textures;
+mod trees;
 mod unmeant;
 
 use crate::develop::{Backdrop, Look};
@@ -44,14 +45,14 @@ use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
 pub use stored::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told, is_kept_file};
 use tracer_kernels::scene::{
-    CurvedLight, Frame, InstanceTable, Light, LightTable, Material, MaterialTable, NONE, PatternTable, Picture,
-    PlaneTable, Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    CurvedLight, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, PatternTable, Picture, PlaneTable,
+    Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 use tracer_kernels::{bvh, scene};
+use trees::Hung;
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
 #[derive(Debug, thiserror::Error)]
@@ -243,32 +244,26 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let tables_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let accel = build_tree(
-        desc.render.acceleration,
-        &spheres,
-        sphere_table.in_tree,
-        (&shapes, &solids),
-        &built,
-        &materials,
+    let hung = Hung {
+        spheres: &spheres,
+        in_tree: sphere_table.in_tree,
+        shapes: &shapes,
+        solids: &solids,
+        built: &built,
+        materials: &materials,
         sources,
-    )
-    .map_err(|message| CompileError { diagnostics: vec![*message] })?;
+    };
+    let way = acceleration(desc.render.acceleration);
+    let accel = hung.tree(way, &[])?;
+    let camera_sees = hung.camera_sees(way, trees::hidden(desc), &sphere_table, &plane_table)?;
     let full = desc.render.integrator == Integrator::Full;
     let integrator = integrator(&desc.render.integrator, &frame);
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
     let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
     let (top_boxes, second_boxes) = match &accel {
-        Some(_) if desc.render.acceleration != Acceleration::Bvh && full => build_tree(
-            Acceleration::Bvh,
-            &spheres,
-            sphere_table.in_tree,
-            (&shapes, &solids),
-            &built,
-            &materials,
-            sources,
-        )
-        .map_err(|message| CompileError { diagnostics: vec![*message] })?
-        .map(|accel| boxes_of(&accel)),
+        Some(_) if way != bvh::Acceleration::Bvh && full => {
+            hung.tree(bvh::Acceleration::Bvh, &[])?.map(|accel| boxes_of(&accel))
+        }
         accel => accel.as_deref().map(boxes_of),
     }
     .unzip();
@@ -315,9 +310,10 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         triangles: built.triangles,
         instances: built.instances,
         accel,
+        camera_sees,
         top_boxes,
         second_boxes,
-        acceleration: acceleration(desc.render.acceleration),
+        acceleration: way,
     };
     Ok(Scene {
         rendered,
@@ -406,31 +402,4 @@ fn curved_and_lights(
     let in_unit = |lamp: CurvedLight| CurvedLight { radiance: lamp.radiance.map(|x| x / radiance_unit), ..lamp };
     lights.extend(lamps.into_iter().map(|lamp| Light::Curved(in_unit(lamp))));
     (spheres, shapes, lights)
-}
-
-/// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray; none when there
-/// is nothing to hang in it.
-fn build_tree(
-    acceleration: Acceleration,
-    spheres: &[Sphere],
-    in_tree: usize,
-    (shapes, solids): (&[Shape], &Solids),
-    built: &meshes::Built,
-    materials: &[Material],
-    sources: &Sources<'_>,
-) -> Result<Option<Arc<bvh::Accel>>, Box<Diagnostic>> {
-    if built.instances.is_empty() && in_tree == 0 && shapes.iter().all(|shape| shape.unit.is_endless()) {
-        return Ok(None);
-    }
-    let acceleration = self::acceleration(acceleration);
-    let hung: Vec<bvh::SphereGeometry> =
-        spheres[..in_tree].iter().map(|s| bvh::SphereGeometry::new(s.center, s.radius)).collect();
-    built.tree(acceleration, &hung, (shapes, solids), spheres.len() as u32, materials, sources).map(Some).map_err(
-        |error| {
-            Box::new(
-                Diagnostic::error(codes::UNTRACEABLE, Span::NONE, format!("the scene cannot be traced: {error}"))
-                    .hint("bring the sizes and distances of the objects closer together"),
-            )
-        },
-    )
 }

@@ -306,7 +306,7 @@ fn shut_in(
     let eye = DVec3::from(desc.camera.position.value);
     let few = solids.len().saturating_mul(lamps.len()) <= MOST_PAIRS;
     for (solid, index) in &solids {
-        let camera = solid.holds(eye, 0.0);
+        let camera = solid.holds(eye, 0.0) && desc.objects[*index].value.camera_visible();
         let of_object = desc.objects[*index].span;
         if camera && !lamps.iter().any(|(center, ..)| solid.holds(*center, 0.0)) {
             diagnostics.push(

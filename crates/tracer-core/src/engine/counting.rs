@@ -9,19 +9,18 @@ use tracer_kernels::bvh::{Accel, Coherence, Counters, Hits, Occlusion};
 use tracer_kernels::engine::batch::{Batch, path, rays};
 use tracer_kernels::layers::{Count, LayerSet};
 use tracer_kernels::level::Level;
-use tracer_kernels::scene::Scene;
 
 /// What is counted, and in which column.
 fn counted(layers: LayerSet) -> Vec<(usize, Count)> {
     layers.counted().collect()
 }
 
-fn of_tree(what: &[(usize, Count)], scene: &Scene) -> bool {
-    scene.accel.is_some() && what.iter().any(|&(_, count)| count != Count::Rays)
+fn asks_tree(what: &[(usize, Count)]) -> bool {
+    what.iter().any(|&(_, count)| count != Count::Rays)
 }
 
-/// Counts the rays of the paths, before it is known what they hit.
-pub fn paths(engine: Engine<'_>, layers: LayerSet, batch: &mut Batch) {
+/// Counts the rays of the paths, before it is known what they hit; `camera`: they come from there.
+pub fn paths(engine: Engine<'_>, layers: LayerSet, camera: bool, batch: &mut Batch) {
     let what = counted(layers);
     if what.is_empty() {
         return;
@@ -31,12 +30,10 @@ pub fn paths(engine: Engine<'_>, layers: LayerSet, batch: &mut Batch) {
             batch.layers.sums[column][(slot & path::SLOT) as usize] += 1.0;
         }
     }
-    let Some(accel) = &engine.scene.accel else { return };
-    if !of_tree(&what, engine.scene) {
-        return;
-    }
+    let met = engine.scene.met(camera);
+    let Some(accel) = met.accel.filter(|_| asks_tree(&what)) else { return };
     // What they would hit elsewhere ends them sooner.
-    engine.kernels.closest(engine.scene, batch);
+    engine.kernels.closest(met.spheres, batch);
     engine.kernels.reach_closest(accel.top_boxes(), batch);
     for k in 0..batch.active_len {
         let i = batch.active[k] as usize;
@@ -57,11 +54,9 @@ fn closest_alone(accel: &Accel, batch: &Batch, i: usize) -> Counters {
 /// Counts the shadow rays, before it is known which of them arrive.
 pub fn shadows(engine: Engine<'_>, layers: LayerSet, batch: &mut Batch) {
     let what = counted(layers);
-    let Some(accel) = &engine.scene.accel else { return };
-    if !of_tree(&what, engine.scene) {
-        return;
-    }
-    engine.kernels.occluded(engine.scene, batch);
+    let met = engine.scene.met(false);
+    let Some(accel) = met.accel.filter(|_| asks_tree(&what)) else { return };
+    engine.kernels.occluded(met.spheres, batch);
     engine.kernels.reach_occluded(accel.top_boxes(), batch);
     for k in 0..batch.active_len {
         let i = batch.active[k] as usize;

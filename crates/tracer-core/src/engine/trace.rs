@@ -68,7 +68,7 @@ fn ambient(engine: Engine<'_>, pass: Pass<'_>, distance: f32, batch: &mut Batch)
 /// What the rays of a vertex hit, and what layers want of it.
 fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     let for_layers = vertex == 0 && pass.layers.are_of_hits();
-    counting::paths(engine, pass.layers, batch);
+    counting::paths(engine, pass.layers, vertex == 0, batch);
     closest(engine, vertex == 0, batch);
     if for_layers {
         engine.kernels.first_hits(engine.scene, pass.seed, pass.layers, batch);
@@ -79,7 +79,7 @@ fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
 /// Which shadow rays arrive, and what they bring.
 fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
     counting::shadows(engine, pass.layers, batch);
-    occluded(engine, Coherence::Incoherent, batch);
+    occluded(engine, false, batch);
     deposit(batch);
     batch.watch.lap(Stage::Deposit);
 }
@@ -87,12 +87,16 @@ fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
 /// What the rays of `batch.paths` hit; `camera`: they come from there.
 pub fn closest(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
-    kernels.closest(scene, batch);
-    if !scene.tables.planes.is_empty() {
-        planes_closest(&scene.tables.planes, batch);
+    let met = scene.met(camera);
+    kernels.closest(met.spheres, batch);
+    if !met.planes.is_empty() {
+        planes_closest(met.planes, batch);
     }
     batch.watch.lap(Stage::Spheres);
-    let Some(accel) = &scene.accel else { return };
+    if scene.has_touching() {
+        batch.hits.behind[..batch.paths.len].fill(0);
+    }
+    let Some(accel) = met.accel else { return };
     kernels.reach_closest(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
     closest_in_tree(accel, kernels.level(), camera, batch);
@@ -112,7 +116,6 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
     let active = &batch.active[..batch.active_len];
     let counters = accel.closest_at(level, &rays, active, &mut hits, coherence);
     if accel.has_touching() {
-        batch.hits.behind[..len].fill(0);
         accel.touching(&rays, active, &hits, &mut batch.hits.behind[..len]);
     }
     if batch.watch.is_on() {
@@ -120,18 +123,19 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
     }
 }
 
-/// Which of the shadow rays something blocks.
-pub fn occluded(engine: Engine<'_>, coherence: Coherence, batch: &mut Batch) {
+/// Which of the shadow rays something blocks; `camera`: they go there.
+pub fn occluded(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
     let Engine { scene, kernels } = engine;
-    kernels.occluded(scene, batch);
-    if !scene.tables.planes.is_empty() {
-        planes_occluded(scene, batch);
+    let met = scene.met(camera);
+    kernels.occluded(met.spheres, batch);
+    if !met.planes.is_empty() {
+        planes_occluded(met, batch);
     }
     batch.watch.lap(Stage::Spheres);
-    let Some(accel) = &scene.accel else { return };
+    let Some(accel) = met.accel else { return };
     kernels.reach_occluded(accel.top_boxes(), batch);
     batch.watch.lap(Stage::Reach);
-    occluded_in_tree(accel, kernels, coherence, batch);
+    occluded_in_tree(accel, kernels, Coherence::Incoherent, batch);
 }
 
 /// Which of the shadow rays in `batch.active` something in the tree blocks.

@@ -5,10 +5,11 @@ use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_p
 use crate::support::describe::*;
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
-use scene_format::desc::{FisheyeMapping, Focus, FovAxis, PixelFilter, Projection, ThinLens};
+use scene_format::desc::{FisheyeMapping, Focus, FovAxis, PixelFilter, Projection, Stereo, StereoLayout, ThinLens};
+use tracer_core::{Layer, LayerSet, RenderOptions, Unobserved, render};
 
 /// All that are compared with paths alone here, for the strictness of the tests.
-const SCENES: usize = 9;
+const SCENES: usize = 12;
 
 /// Where small lamps at these points are seen in a picture of `size` pixels, in pixels from the upper left corner: the
 /// middle of what each shows by itself.
@@ -166,6 +167,91 @@ fn tilted_lenses_are_sharp_in_their_plane() {
     assert!(spread(&desc, [0.5, 1.0 + 1.5 / tan, -5.5]) < 0.6 && spread(&desc, on_plane(-7.0)) > 1.5);
 }
 
+fn eyes(separation: f64, convergence: Option<f64>, layout: StereoLayout) -> Option<Stereo> {
+    Some(Stereo { separation: separation.into(), convergence: convergence.map(Into::into), layout })
+}
+
+/// What the pixels of a picture show through their middles: object and position, row by row.
+fn shown(desc: &SceneDesc) -> Vec<[f32; 4]> {
+    let layers = LayerSet::from_iter([Layer::ObjectId, Layer::Position]);
+    let options = RenderOptions { samples: Some(1), threads: 1, layers: Some(layers), ..RenderOptions::default() };
+    let film = render(&compiled(desc), &options, &Unobserved);
+    let of = |layer: Layer| film.layer(layer).expect("it was asked for").values.clone();
+    let (objects, points) = (of(Layer::ObjectId), of(Layer::Position));
+    objects.iter().zip(points.as_chunks::<3>().0).map(|(&object, p)| [object, p[0], p[1], p[2]]).collect()
+}
+
+/// Two cameras beside each other that are placed by hand, with their films moved, see what the two halves show.
+#[test]
+fn stereo_pictures_are_those_of_two_cameras() {
+    let balls = (0..40).map(|k| {
+        let k = f64::from(k);
+        sphere([4.0 * (1.3 * k).sin(), 2.5 * (2.1 * k).cos(), -2.0 - 0.4 * k], 0.6, diffuse([0.5; 3]))
+    });
+    let mut desc = scene(8, Vec::new(), balls.collect()).camera([0.3, 0.2, 2.0], [0.3, 0.2, -6.0], 60.0);
+    desc.effects.antialiasing = PixelFilter::None;
+    let half_height = 30f64.to_radians().tan();
+    for (layout, size) in [(StereoLayout::SideBySide, [40, 30]), (StereoLayout::TopBottom, [44, 26])] {
+        for convergence in [None, Some(5.0)] {
+            let mut whole = desc.clone();
+            let beside = layout == StereoLayout::SideBySide;
+            let all = if beside { [2 * size[0], size[1]] } else { [size[0], 2 * size[1]] };
+            (whole.image.width, whole.image.height) = (all[0].into(), all[1].into());
+            whole.camera.stereo = eyes(0.5, convergence, layout);
+            let whole = shown(&whole);
+            for (k, side) in [(0, -0.25), (1, 0.25)] {
+                let mut one = desc.clone();
+                (one.image.width, one.image.height) = (size[0].into(), size[1].into());
+                one.camera.position.value[0] += side;
+                one.camera.look_at.value[0] += side;
+                // In picture heights: what is ahead of the middle at that distance comes to the middle.
+                let moved = convergence.map_or(0.0, |distance| side / distance / (2.0 * half_height));
+                one.camera.shift = [-moved, 0.0].into();
+                let mut objects = 0;
+                for (at, found) in shown(&one).into_iter().enumerate() {
+                    let (x, y) = (at as u32 % size[0], at as u32 / size[0]);
+                    let [x, y] = if beside { [x + k * size[0], y] } else { [x, y + k * size[1]] };
+                    let there = whole[(y * all[0] + x) as usize];
+                    assert_eq!(found[0], there[0], "{layout:?} {convergence:?} {x} {y}");
+                    let off = (1..4).map(|c| (found[c] - there[c]).abs()).fold(0.0, f32::max);
+                    assert!(off < 2e-3, "{layout:?} {convergence:?} {x} {y}: {found:?} {there:?}");
+                    objects += u32::from(found[0] > 0.0);
+                }
+                assert!(objects > 300, "{objects}");
+            }
+        }
+    }
+}
+
+/// In a panorama the eyes see a lamp at a distance r to the side by asin(a / r), whichever way it lies.
+#[test]
+fn stereo_panoramas_have_eyes_across_every_direction() {
+    let (separation, width, height) = (0.8, 192, 96);
+    let mut desc = empty(Projection::Panorama, [width, 2 * height]);
+    desc.camera.stereo = eyes(separation, None, StereoLayout::TopBottom);
+    for (turn, r, up) in [(0.0, 3.0, 0.0), (50.0, 2.0, 1.0), (-120.0, 2.5, -1.5), (80.0, 40.0, 9.0)] {
+        let angle = f64::to_radians(turn);
+        let point = [r * angle.sin(), up, -r * angle.cos()];
+        desc.lights = scene(8, vec![light(point, 0.05 * r, [1.0; 3])], Vec::new()).lights;
+        let film = film(&compiled(&desc), 16, 1);
+        for (first, side) in [(0, -0.5), (height, 0.5)] {
+            let mut sums = [0.0; 3];
+            for (x, y) in (first..first + height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                let bright = film.radiance(x, y)[0];
+                let (x, y) = (f64::from(x) + 0.5, f64::from(y - first) + 0.5);
+                sums = [sums[0] + bright, sums[1] + bright * x, sums[2] + bright * y];
+            }
+            let found = [sums[1] / sums[0], sums[2] / sums[0]];
+            let a = side * separation;
+            let longitude = turn - (a / r).asin().to_degrees();
+            let latitude = up.atan2((r * r - a * a).sqrt()).to_degrees();
+            let expected = [f64::from(width) * (0.5 + longitude / 360.0), f64::from(height) * (0.5 - latitude / 180.0)];
+            let near = (0..2).all(|axis| (found[axis] - expected[axis]).abs() < 0.15);
+            assert!(near, "{turn} {side}: {found:?}, not {expected:?}");
+        }
+    }
+}
+
 fn all() -> Vec<(&'static str, SceneDesc)> {
     let ball = sphere([0.0, 2.5, 0.0], 2.5, glass(1.5));
     let mirrored = sphere([-4.0, 2.0, 3.0], 2.0, mirror([0.9; 3]));
@@ -217,6 +303,33 @@ fn all() -> Vec<(&'static str, SceneDesc)> {
             }),
         ),
         ("tilted", with(&|desc| desc.effects.depth_of_field = Some(tilted.clone()))),
+        (
+            "stereo",
+            with(&|desc| {
+                desc.image.width = 56.into();
+                desc.camera.stereo = eyes(2.0, Some(18.0), StereoLayout::SideBySide);
+                desc.camera.shift = [0.1, 0.0].into();
+                desc.effects.antialiasing = PixelFilter::Gaussian { sigma: 0.6.into() };
+            }),
+        ),
+        (
+            "stereo through a lens",
+            with(&|desc| {
+                desc.image.height = 48.into();
+                desc.camera.stereo = eyes(1.5, None, StereoLayout::TopBottom);
+                desc.camera.near = Some(5.0.into());
+                desc.effects.depth_of_field = Some(tilted.clone());
+            }),
+        ),
+        (
+            "stereo panorama",
+            with(&|desc| {
+                desc.camera.position = [-1.0, 3.0, 7.0].into();
+                desc.camera.projection = Projection::Panorama;
+                desc.camera.stereo = eyes(1.0, None, StereoLayout::TopBottom);
+                (desc.image.width, desc.image.height) = (64.into(), 64.into());
+            }),
+        ),
     ]
 }
 

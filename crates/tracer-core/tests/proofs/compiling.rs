@@ -58,6 +58,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 center: [0.0, distance, 0.0].into(),
                 radius: radius.into(),
                 emission: emission.clone().into(),
+                camera_visible: true,
                 name: Name::default(),
             };
             let floor = mesh(&square(1.0).obj("square-1"), diffuse([albedo; 3]), Shading::Flat, vec![]);

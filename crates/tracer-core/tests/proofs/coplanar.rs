@@ -54,6 +54,7 @@ pub(crate) fn rectangle(size: f64, material: Material, transform: Vec<Transform>
         center: [0.0; 3].into(),
         normal: [0.0, 1.0, 0.0].into(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -193,6 +194,7 @@ fn glass_on_a_table_shows_the_table() {
             material: of(glass(1.0)),
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         }));
         let objects = if first { vec![cube, table] } else { vec![table, cube] };
@@ -220,6 +222,7 @@ pub(crate) fn flat_sided(kind: &str, material: Material, transform: Vec<Transfor
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         _ => Object::Cylinder(Box::new(Cylinder {
@@ -230,6 +233,7 @@ pub(crate) fn flat_sided(kind: &str, material: Material, transform: Vec<Transfor
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
     }
@@ -296,6 +300,7 @@ fn block(center: [f64; 3], size: [f64; 3], material: Material, transform: Vec<Tr
         material: of(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }

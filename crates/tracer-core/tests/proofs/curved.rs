@@ -29,6 +29,7 @@ pub fn disk(center: Vec3, normal: Vec3, [radius, inner]: [f64; 2], material: Mat
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -42,6 +43,7 @@ pub fn cylinder(from: Vec3, to: Vec3, radius: f64, caps: bool, material: Materia
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -56,6 +58,7 @@ pub fn cone(from: Vec3, to: Vec3, [radius, tip]: [f64; 2], caps: bool, material:
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -68,6 +71,7 @@ pub fn capsule(from: Vec3, to: Vec3, radius: f64, material: Material) -> Object 
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -80,6 +84,7 @@ fn floor() -> Object {
         material: inline(diffuse([0.7, 0.6, 0.5])),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }

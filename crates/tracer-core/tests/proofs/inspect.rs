@@ -40,6 +40,7 @@ fn scenes() -> Vec<(&'static str, SceneDesc)> {
         ("a clamped room", clamped),
         ("direct light", direct),
         ("one bounce", room().bounces(0)),
+        ("hidden", crate::hidden::hidden()),
     ]
 }
 

@@ -166,6 +166,7 @@ fn a_wall_seen_straight_has_one_depth() {
             material: MaterialRef::Default,
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         };
         let desc = scene(17, vec![], vec![Object::Rectangle(Box::new(wall))])

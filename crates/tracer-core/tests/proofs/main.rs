@@ -18,6 +18,7 @@ mod curved;
 mod environment;
 mod figures;
 mod glints;
+mod hidden;
 mod inspect;
 mod integrators;
 mod layers;

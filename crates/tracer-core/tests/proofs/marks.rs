@@ -3,8 +3,8 @@
 use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
-use scene_format::desc::{FisheyeMapping, Mark, PixelFilter, Projection};
-use tracer_core::{Layer, LayerSet, MarkSeen, RenderOptions, Scene, Unobserved, marks, render};
+use scene_format::desc::{FisheyeMapping, Mark, PixelFilter, Projection, Stereo, StereoLayout};
+use tracer_core::{Eye, Layer, LayerSet, MarkSeen, RenderOptions, Scene, Unobserved, marks, render};
 
 fn view(projection: Projection) -> SceneDesc {
     let balls = [[0.0, 0.0, 0.0], [1.4, 0.3, -1.0], [-1.0, -0.8, 0.5], [0.4, 1.2, 2.0]];
@@ -81,6 +81,34 @@ fn marks_are_where_they_are_seen() {
             mark.pixel.is_some_and(|at| (0..2).all(|axis| (at[axis] - pixel[axis]).abs() < 0.01))
         }));
         assert_eq!((scene.camera, scene.size, scene.max_bounces), before);
+    }
+}
+
+/// Each eye has a place of its own for a mark, in its own half, and knows whether it sees it.
+#[test]
+fn two_eyes_have_two_places() {
+    for projection in [Projection::Perspective, Projection::Panorama] {
+        for layout in [StereoLayout::SideBySide, StereoLayout::TopBottom] {
+            let mut desc = view(projection.clone());
+            let near = projection == Projection::Perspective;
+            let convergence = near.then(|| 4.0.into());
+            desc.camera.stereo = Some(Stereo { separation: 0.8.into(), convergence, layout });
+            let mut scene = compiled(&desc);
+            let shown = shown(&scene);
+            let points: Vec<[f64; 3]> = shown.iter().map(|(_, point, _)| *point).collect();
+            let found = seen(&mut desc, &mut scene, &points);
+            assert!(shown.len() > 4 && found.len() == 2 * shown.len());
+            let axis = usize::from(layout == StereoLayout::TopBottom);
+            let border = f64::from(scene.size[axis]) / 2.0;
+            for ((pixel, point, depth), marks) in shown.iter().zip(found.chunks(2)) {
+                assert_eq!([marks[0].eye, marks[1].eye], [Some(Eye::Left), Some(Eye::Right)]);
+                let mark = &marks[usize::from(pixel[axis] > border)];
+                let at = mark.pixel.expect("it is seen");
+                let off = (0..2).map(|axis| (at[axis] - pixel[axis]).abs()).fold(0.0, f64::max);
+                assert!(off < 0.01, "{projection:?} {layout:?}: {point:?} at {at:?}, not {pixel:?}");
+                assert!((mark.depth - depth).abs() < 1e-4 * depth && mark.seen, "{mark:?} {depth}");
+            }
+        }
     }
 }
 

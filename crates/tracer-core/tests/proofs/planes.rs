@@ -23,6 +23,7 @@ pub(crate) fn plane(point: Vec3, normal: Vec3, material: Material, transform: Ve
         material: of(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -192,6 +193,7 @@ fn it_is_a_rectangle_that_is_large_enough() {
             material: of(material),
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         })),
     };
@@ -296,6 +298,7 @@ fn what_lies_in_it_does_not_speckle() {
             material: of(material),
             transform: steps.into_iter().map(Spanned::from).collect(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         }))
     };

@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Caustics, Instances, Integrator, Object, PixelFilter, Placements, Reuse, Shading, TextureFilter,
-    TextureWrap, Transform,
+    Acceleration, Caustics, Instances, Integrator, Object, PixelFilter, Placements, Reuse, Shading, Stereo,
+    StereoLayout, TextureFilter, TextureWrap, Transform,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -144,8 +144,17 @@ fn planes() -> SceneDesc {
     }
 }
 
-fn scenes() -> [(&'static str, SceneDesc); 3] {
-    [("everything", everything()), ("many balls", many_balls()), ("planes", planes())]
+/// Two eyes, of which a column of pixels has no one's middle.
+fn stereo() -> SceneDesc {
+    let mut desc = many_balls();
+    let layout = StereoLayout::SideBySide;
+    desc.camera.stereo = Some(Stereo { separation: 0.3.into(), convergence: Some(8.0.into()), layout });
+    desc
+}
+
+fn scenes() -> [(&'static str, SceneDesc); 5] {
+    let [hidden, stereo] = [("hidden", crate::hidden::hidden()), ("stereo", stereo())];
+    [("everything", everything()), ("many balls", many_balls()), ("planes", planes()), hidden, stereo]
 }
 
 const SAMPLES: u32 = 21;

@@ -34,6 +34,7 @@ pub fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material)
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -46,6 +47,7 @@ fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform
         material: inline(material),
         transform: transform.into_iter().map(Into::into).collect(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }

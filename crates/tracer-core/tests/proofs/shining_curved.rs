@@ -186,6 +186,7 @@ fn ngon(center: Vec3, normal: Vec3, radius: f64, count: u32, material: Material)
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }

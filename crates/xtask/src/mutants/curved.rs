@@ -96,8 +96,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "planes-hide-lamps-in-them",
         file: PLANES,
-        find: "primitive != NONE && scene.accel",
-        replace: "primitive == NONE && scene.accel",
+        find: "primitive != NONE && met.accel",
+        replace: "primitive == NONE && met.accel",
         caught_by: proofs(&["planes::a_lamp"]),
     },
     Mutant {

@@ -465,4 +465,18 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "F::splat(1.0 / 16_777_215.0)",
         caught_by: proofs(&["sequence::numbers_stay_below_one"]),
     },
+    Mutant {
+        name: "cameras-see-what-is-hidden-from-them",
+        file: "crates/kernels/src/scene/met.rs",
+        find: "Some(seen) if camera =>",
+        replace: "Some(seen) if camera && seen.hidden.is_empty() =>",
+        caught_by: proofs(&["hidden::first_hits"]),
+    },
+    Mutant {
+        name: "light-paths-show-what-is-hidden",
+        file: "crates/tracer-core/src/engine/techniques/light_paths.rs",
+        find: "arrives(k) && !is_hidden(k)",
+        replace: "arrives(k)",
+        caught_by: proofs(&["hidden::light_paths"]),
+    },
 ];

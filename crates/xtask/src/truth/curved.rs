@@ -62,6 +62,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name: Name::default(),
         })),
         0 | 1 => Object::Cylinder(Box::new(Cylinder {
@@ -72,6 +73,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name: Name::default(),
         })),
         2 => Object::Cone(Box::new(Cone {
@@ -83,6 +85,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name: Name::default(),
         })),
         _ => Object::Capsule(Box::new(Capsule {
@@ -92,6 +95,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name: Name::default(),
         })),
     };
@@ -119,7 +123,7 @@ pub fn plane(world: &mut World, point: Point, normal: Point, material: Material,
     }
     let (point, normal) = (written.into(), facing.into());
     let (material, name) = (inline(material), Name::default());
-    let plane = Plane { point, normal, material, transform, placements, name };
+    let plane = Plane { point, normal, material, transform, placements, camera_visible: true, name };
     world.desc.objects.push(Object::Plane(Box::new(plane)).into());
 }
 
@@ -135,6 +139,7 @@ pub fn standing(world: &mut World, foot: Point, height: f64, radius: f64, materi
             material: inline(material),
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         }))
         .into(),
@@ -152,6 +157,7 @@ pub fn lying(world: &mut World, center: Point, radius: f64, inner_radius: f64, m
             material: inline(material),
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         }))
         .into(),

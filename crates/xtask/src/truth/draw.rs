@@ -23,6 +23,17 @@ pub fn once_in(random: &mut Random, n: usize) -> bool {
     random.below(n) == 0
 }
 
+/// Hides some of the objects and lamps from the camera.
+pub fn hide(world: &mut World, random: &mut Random) {
+    for object in &mut world.desc.objects {
+        *object.value.camera_visible_mut() = once_in(random, 2);
+    }
+    for light in &mut world.desc.lights {
+        let Light::SphereLight(lamp) = &mut light.value;
+        lamp.camera_visible = once_in(random, 2);
+    }
+}
+
 /// Spread evenly over the decades between.
 pub fn magnitude(random: &mut Random, low: f64, high: f64) -> f64 {
     low * (high / low).powf(random.number())

@@ -5,7 +5,7 @@ use super::meshes::{Point, Shape};
 use super::receivers;
 use super::relation::{PLANE_MIRROR, Relation};
 use super::world::{World, glass, matt, mirror};
-use scene_format::desc::{Albedo, Material, Mirror, Object, SolidMapping, Transform};
+use scene_format::desc::{Albedo, Material, Mirror, Object, SolidMapping, StereoLayout, Transform};
 use tracer_reference::Random;
 
 /// A scene and what it is held against.
@@ -522,6 +522,10 @@ pub fn case(seed: u64, size: u32) -> Case {
     if matches!(relation, Relation::Flipped) {
         // A camera that is turned about its axis would have to be turned the other way.
         world.desc.camera.up = [0.0, 1.0, 0.0].into();
+        // The eyes of a mirror image have changed places.
+        if let Some(stereo) = &mut world.desc.camera.stereo {
+            stereo.layout = StereoLayout::SideBySide;
+        }
     }
     if matches!(relation, Relation::Flipped | Relation::Unfolded) {
         without_what_has_no_image(&mut world);
@@ -531,6 +535,9 @@ pub fn case(seed: u64, size: u32) -> Case {
         && mesh.transform.len() == 1
     {
         mesh.transform.push(Transform::DropTo { y: 0.0 }.into());
+    }
+    if relation == Relation::Path && once_in(random, 4) {
+        draw::hide(&mut world, random);
     }
     Case { seed, kind, world, relation, hard }
 }

@@ -28,7 +28,8 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             let (size, smooth) = ([1.2, random.between(0.2, 0.8), 1.0].map(|side| side * radius), once_in(random, 2));
             let (file, center) = (landscape(world, random).into(), [0.0, -0.2 * radius, 0.05 * radius].into());
             let size = size.into();
-            let field = HeightField { file, size, center, smooth, material, transform, placements, name };
+            let field =
+                HeightField { file, size, center, smooth, material, transform, placements, camera_visible: true, name };
             Object::HeightField(Box::new(field))
         }
         0 if !glass => Object::Polygon(Box::new(Polygon {
@@ -36,6 +37,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         0..=2 => Object::Extrude(Box::new(Extrude {
@@ -45,6 +47,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         3 | 8 => Object::Tube(Box::new(Tube {
@@ -57,6 +60,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         4 | 9 => Object::Torus(Box::new(Torus {
@@ -68,6 +72,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         5 => Object::Arrow(Box::new(Arrow {
@@ -80,6 +85,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         _ => Object::Lathe(Box::new(Lathe {
@@ -89,6 +95,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             material,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
     };

@@ -31,6 +31,7 @@ pub fn rectangle(world: &mut World, center: Point, radius: f64, material: Materi
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
         placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        camera_visible: true,
         name: Name::default(),
     };
     world.desc.objects.push(Object::Rectangle(Box::new(rectangle)).into());
@@ -52,6 +53,7 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
         placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        camera_visible: true,
         name: Name::default(),
     };
     world.desc.objects.push(Object::Box(Box::new(cuboid)).into());

@@ -58,15 +58,32 @@ fn solid(middle: Point, radius: f64, material: &Material, depth: usize, random: 
             material: if once_in(random, 2) { inline(material.clone()) } else { MaterialRef::Default },
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         })));
     }
     let objects = Operands(objects.into_iter().map(Into::into).collect());
     let (transform, placements, name, own) = (Vec::new(), Placements::One, Name::default(), MaterialRef::Default);
     match kind {
-        0 => Object::Union(Box::new(Union { objects, material: own, transform, placements, name })),
-        1 => Object::Intersection(Box::new(Intersection { objects, material: own, transform, placements, name })),
-        _ => Object::Difference(Box::new(Difference { objects, material: own, transform, placements, name })),
+        0 => {
+            Object::Union(Box::new(Union { objects, material: own, transform, placements, camera_visible: true, name }))
+        }
+        1 => Object::Intersection(Box::new(Intersection {
+            objects,
+            material: own,
+            transform,
+            placements,
+            camera_visible: true,
+            name,
+        })),
+        _ => Object::Difference(Box::new(Difference {
+            objects,
+            material: own,
+            transform,
+            placements,
+            camera_visible: true,
+            name,
+        })),
     }
 }
 
@@ -84,6 +101,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             material: material_ref,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         1 => Object::Box(Box::new(RectBox {
@@ -93,6 +111,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             material: material_ref,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         2 => Object::Cylinder(Box::new(Cylinder {
@@ -103,6 +122,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             material: material_ref,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         3 => Object::Cone(Box::new(Cone {
@@ -114,6 +134,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             material: material_ref,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         4 => Object::Capsule(Box::new(Capsule {
@@ -123,6 +144,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             material: material_ref,
             transform,
             placements,
+            camera_visible: true,
             name,
         })),
         _ => solid(middle, radius, material, depth - 1, random),

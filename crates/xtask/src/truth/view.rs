@@ -3,7 +3,7 @@
 use super::draw::{once_in, one_of};
 use super::world::World;
 use glam::DVec3;
-use scene_format::desc::{FisheyeMapping, Focus, FovAxis, Projection, ThinLens};
+use scene_format::desc::{FisheyeMapping, Focus, FovAxis, Projection, Stereo, StereoLayout, ThinLens};
 use tracer_reference::Random;
 
 /// Lets all rays leave from the eye: those of an orthographic camera, of a lens and behind `near` may begin beyond the
@@ -14,6 +14,7 @@ pub fn from_the_eye(world: &mut World) {
         camera.projection = Projection::Perspective;
     }
     camera.near = None;
+    camera.stereo = None;
     world.desc.effects.depth_of_field = None;
 }
 
@@ -47,6 +48,14 @@ pub fn view(world: &mut World, random: &mut Random) {
     }
     if planar && once_in(random, 8) {
         camera.near = Some(random.between(0.05 * distance, 0.7 * distance).into());
+    }
+    if matches!(camera.projection, Projection::Perspective | Projection::Panorama) && once_in(random, 8) {
+        let near = camera.projection == Projection::Perspective && once_in(random, 2);
+        camera.stereo = Some(Stereo {
+            separation: random.between(0.02, 0.2).into(),
+            convergence: near.then(|| random.between(1.0, 6.0).into()),
+            layout: one_of(random, &[StereoLayout::SideBySide, StereoLayout::TopBottom]),
+        });
     }
     if camera.projection != Projection::Perspective {
         camera.fov = 40.0.into();

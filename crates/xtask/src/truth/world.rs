@@ -47,6 +47,7 @@ impl World {
             material,
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         };
         self.desc.objects.push(Object::Sphere(Box::new(sphere)).into());
@@ -79,6 +80,7 @@ impl World {
             placements: Placements::One,
             instances: Instances::Auto,
             shading: Shading::Auto,
+            camera_visible: true,
             name: Name::default(),
         };
         self.desc.objects.push(Object::Mesh(mesh).into());
@@ -87,7 +89,13 @@ impl World {
     /// Adds a lamp of this radiance.
     pub fn lamp(&mut self, center: Point, radius: f64, radiance: Color) {
         let emission = Emission::Radiance(radiance).into();
-        let light = SphereLight { center: center.into(), radius: radius.into(), emission, name: Name::default() };
+        let light = SphereLight {
+            center: center.into(),
+            radius: radius.into(),
+            emission,
+            camera_visible: true,
+            name: Name::default(),
+        };
         self.desc.lights.push(Light::SphereLight(light).into());
     }
 

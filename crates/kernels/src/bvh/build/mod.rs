@@ -12,7 +12,7 @@ mod wide;
 use super::arena::Arena;
 use super::bounds::Bounds;
 use super::coplanar::{Coplanar, Ranks};
-use super::geometry::{Geometry, NONE, ShapeGeometry};
+use super::geometry::{Geometry, LeftOut, NONE, ShapeGeometry};
 use super::kernels::{DEEPEST, MeshRecord};
 use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
 use super::ray_space::RANGE;
@@ -203,6 +203,9 @@ pub fn places(geometry: &Geometry) -> (Vec<u32>, Vec<bool>) {
     let mut placed = vec![false; geometry.meshes.len()];
     for (index, instance) in geometry.instances.iter().enumerate() {
         let mesh = instance.mesh as usize;
+        if LeftOut::holds(geometry.left_out.instances, index) {
+            continue;
+        }
         match instance.placement {
             // A mesh can be in the world's tree once; a second one in the same place is an instance like any other.
             None if direct[mesh] == NONE => direct[mesh] = index as u32,
@@ -276,6 +279,9 @@ fn instance_boxes(
     trees: &[Option<Tree>],
 ) -> Result<Vec<Option<Bounds>>, BuildError> {
     let one = |index: usize| {
+        if LeftOut::holds(geometry.left_out.instances, index) {
+            return Ok(None);
+        }
         let Some(rows) = rows_of(geometry, direct, index) else { return Ok(None) };
         let tree = trees[geometry.instances[index].mesh as usize].as_ref();
         let Some(tree) = tree.filter(|tree| !tree.nodes.is_empty()) else { return Ok(None) };
@@ -320,12 +326,14 @@ fn world_tree<'a>(
     let sphere_items: Vec<Item> = (0u32..)
         .zip(geometry.spheres)
         .filter(|(_, sphere)| sphere.lower.iter().chain(&sphere.upper).all(|x| x.is_finite()))
+        .filter(|(index, _)| !LeftOut::holds(geometry.left_out.spheres, *index as usize))
         .map(|(index, sphere)| Item::new(&Bounds::new(sphere.lower, sphere.upper), index))
         .collect();
     let instance_items: Vec<Item> =
         (0u32..).zip(boxes).filter_map(|(index, bounds)| Some(Item::new(bounds.as_ref()?, index))).collect();
     let shape_items: Vec<Item> = (0u32..)
         .zip(geometry.shapes)
+        .filter(|(index, _)| !LeftOut::holds(geometry.left_out.shapes, *index as usize))
         .map(|(index, shape)| Item::new(&Bounds::new(shape.lower, shape.upper), index))
         .collect();
     for item in sphere_items.iter().chain(&shape_items).chain(&instance_items) {

@@ -12,7 +12,7 @@
 //! Triangles too narrow to have a plane, as curved walls of many pieces far from the middle of a scene have, count
 //! where all their corners are the same: a wall that two bodies share.
 
-use super::super::geometry::{Geometry, NONE};
+use super::super::geometry::{Geometry, LeftOut, NONE};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, SAME_SIDE, TRANSMITS};
 use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
@@ -156,6 +156,9 @@ fn looked_at(geometry: &Geometry, ranks: &Ranks) -> Vec<bool> {
     let first = first_primitive(geometry);
     for (k, instance) in geometry.instances.iter().enumerate() {
         let mesh = &geometry.meshes[instance.mesh as usize];
+        if LeftOut::holds(geometry.left_out.instances, k) {
+            continue;
+        }
         copies[instance.mesh as usize] += 1;
         let from = mesh.first_primitive - first;
         let to = from + mesh.triangles.len() as u32;
@@ -184,7 +187,8 @@ fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
     let of_instance = |index: usize| {
         let instance = &geometry.instances[index];
         let mesh = &geometry.meshes[instance.mesh as usize];
-        let triangles = if looked_at[instance.mesh as usize] { mesh.triangles } else { &[] };
+        let left_out = LeftOut::holds(geometry.left_out.instances, index);
+        let triangles = if looked_at[instance.mesh as usize] && !left_out { mesh.triangles } else { &[] };
         (0u32..).zip(triangles).filter_map(move |(k, triangle)| {
             let corners = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
             let id = (mesh.first_primitive + k, index as u32);
@@ -194,7 +198,9 @@ fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
     };
     let mut faces: Vec<Face> = (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect();
     if geometry.shapes.len() <= MOST_SHAPES {
-        faces.extend((0..).zip(geometry.shapes).flat_map(|(k, shape)| of_shape(geometry, ranks, k, &shape.row)));
+        let shapes = (0..).zip(geometry.shapes);
+        let shapes = shapes.filter(|(k, _)| !LeftOut::holds(geometry.left_out.shapes, *k as usize));
+        faces.extend(shapes.flat_map(|(k, shape)| of_shape(geometry, ranks, k, &shape.row)));
     }
     faces
 }
@@ -223,6 +229,9 @@ fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>) -> Vec<(
     let (count, mut pairs) = (faces.len(), Vec::new());
     for (k, row) in (geometry.shapes.len()..).zip(geometry.planes) {
         let Some(curved) = row.flat_faces().next() else { continue };
+        if LeftOut::holds(geometry.left_out.shapes, k) {
+            continue;
+        }
         let (normal, offset) = curved.equation();
         let plane = Face {
             primitive: geometry.first_shape + k as u32,

@@ -38,9 +38,10 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
             let pixel = PixelOf::<F>::new(slot, &batch.pixels);
             let (u, v) = pixel_points.points(&pixel);
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
+            let eye = view.eye(x * scale_x, y * scale_y);
             let (x, y) = ((x + dx) * scale_x, (y + dy) * scale_y);
             let lens = if has_lens { lens_points.points(&pixel) } else { (c(0.0), c(0.0)) };
-            let ray = view.ray(x, y, lens);
+            let ray = view.ray(eye, x, y, lens);
             let inside = inside & ray.seen;
             ray.origin.store(&mut paths.origin, i);
             ray.direction.normalise().store(&mut paths.direction, i);

@@ -3,7 +3,7 @@
 
 use super::share::light;
 use crate::engine::batch::{Batch, Columns, Group, Members};
-use crate::scene::{NONE, Plane, PlaneTable, Scene};
+use crate::scene::{Met, NONE, Plane, PlaneTable};
 use std::ops::Range;
 
 /// Rays at a time.
@@ -40,14 +40,14 @@ pub fn planes_closest(planes: &PlaneTable, batch: &mut Batch) {
 }
 
 /// Sets `batch.shadows.occluded` for the shadow rays that a plane blocks. What lies in a plane is not hidden by it.
-pub fn planes_occluded(scene: &Scene, batch: &mut Batch) {
+pub fn planes_occluded(met: Met<'_>, batch: &mut Batch) {
     let shadows = &mut batch.shadows;
-    for plane in &scene.tables.planes.rows {
+    for plane in &met.planes.rows {
         for i in 0..shadows.len {
             let t = plane.meets(at(&shadows.origin, i), at(&shadows.direction, i));
             let other = shadows.from_primitive[i] != plane.id && shadows.target_primitive[i] != plane.id;
             let between = t > 0.0 && t < f64::from(shadows.t_max[i]) && other;
-            if between && !holds(scene, plane, shadows.target_primitive[i], shadows.target_instance[i]) {
+            if between && !holds(met, plane, shadows.target_primitive[i], shadows.target_instance[i]) {
                 shadows.occluded[i] = 1;
             }
         }
@@ -55,8 +55,8 @@ pub fn planes_occluded(scene: &Scene, batch: &mut Batch) {
 }
 
 /// Whether a triangle lies in a plane.
-fn holds(scene: &Scene, plane: &Plane, primitive: u32, instance: u32) -> bool {
-    primitive != NONE && scene.accel.as_deref().is_some_and(|accel| accel.lies_in(plane.id, primitive, instance))
+fn holds(met: Met<'_>, plane: &Plane, primitive: u32, instance: u32) -> bool {
+    primitive != NONE && met.accel.is_some_and(|accel| accel.lies_in(plane.id, primitive, instance))
 }
 
 /// Hides the suffixes with these numbers from the members beyond planes: a segment is blocked where its ends are on two

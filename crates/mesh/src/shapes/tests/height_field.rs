@@ -13,6 +13,7 @@ fn field(size: Vector, center: Vector, smooth: bool) -> HeightField {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }

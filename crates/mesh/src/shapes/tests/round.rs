@@ -18,6 +18,7 @@ pub(super) fn tube(points: &[[f64; 3]], radius: Radii, curve: Curve, closed: boo
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }
@@ -158,6 +159,7 @@ fn torus(tube_radius: f64, segments: u32) -> Torus {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }
 }
@@ -220,6 +222,7 @@ fn arrows() {
         material: MaterialRef::Default,
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     };
     let cases = [
@@ -271,6 +274,7 @@ fn boxes_with_round_edges() {
             material: MaterialRef::Default,
             transform: Vec::new(),
             placements: Placements::One,
+            camera_visible: true,
             name: Name::default(),
         };
         let mesh = made(&cuboid);

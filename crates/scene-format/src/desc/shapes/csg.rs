@@ -74,6 +74,9 @@ scene_struct! {
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
+        /// shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
         /// whole, by this name.
         name: Name = Name::default();
@@ -94,6 +97,9 @@ scene_struct! {
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
+        /// shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
         /// whole, by this name.
         name: Name = Name::default();
@@ -116,6 +122,9 @@ scene_struct! {
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
+        /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
+        /// shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the
         /// whole, by this name.
         name: Name = Name::default();
@@ -230,6 +239,11 @@ fn collect(objects: &Operands, noun: &str, span: Span, found: &mut Vec<Diagnosti
             let message = format!("a shape in a {noun} has no copies: its `placements` are not empty");
             let fault = no_operand(at, message, "one shape, moved by `transform`");
             found.push(fault.hint("copies in a solid are items of a `Repeat`"));
+        }
+        if !object.value.camera_visible() {
+            let message = format!("a shape in a {noun} cannot be hidden from the camera by itself");
+            let fault = no_operand(at, message, "`camera_visible` of the whole solid");
+            found.push(fault.hint(format!("write it on the {noun}, or leave it out")));
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct Mesh {
     pub instances: Instances,
     /// Whether normals are interpolated.
     pub shading: Shading,
+    /// Whether the camera sees it.
+    pub camera_visible: bool,
     /// What it is called.
     pub name: Name,
 }
@@ -76,6 +78,9 @@ scene_struct! {
         instances: Instances = Instances::Auto;
         /// Whether normals are interpolated.
         shading: Shading = Shading::Auto;
+        /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
+        /// shines, and is seen in mirrors and through glass.
+        camera_visible: bool = true;
         /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
     }
@@ -119,8 +124,9 @@ impl Words for Mesh {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         reader.points = None;
-        let MeshWords { file, points, faces, material, transform, placements, instances, shading, name } =
-            MeshWords::read(reader, item, at)?;
+        let words = MeshWords::read(reader, item, at)?;
+        let MeshWords { file, points, faces, material, transform, placements, .. } = words;
+        let MeshWords { instances, shading, camera_visible, name, .. } = words;
         let source = match (file.0, points.0, faces.0) {
             (Some(file), Written::Not, Written::Not) => MeshSource::File(file),
             (Some(_), Written::Not, Written::As(faces)) => {
@@ -146,7 +152,7 @@ impl Words for Mesh {
             // None was written, two were, or one is wrong: reported.
             _ => return None,
         };
-        Some(Mesh { source, material, transform, placements, instances, shading, name })
+        Some(Mesh { source, material, transform, placements, instances, shading, camera_visible, name })
     }
 
     fn form(&self, all: bool) -> Form {
@@ -167,6 +173,7 @@ impl Words for Mesh {
             placements: self.placements.clone(),
             instances: self.instances,
             shading: self.shading,
+            camera_visible: self.camera_visible,
             name: self.name.clone(),
         };
         words.form(all)

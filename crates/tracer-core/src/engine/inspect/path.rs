@@ -8,7 +8,6 @@ use super::super::{RenderOptions, new_film, painter};
 use super::told::{Ended, LightOf, MetTold, PathTold, Roulette, SampledTold, Scattering, Told, VertexTold};
 use super::{fill, radiance};
 use glam::DVec3;
-use tracer_kernels::bvh::Coherence;
 use tracer_kernels::engine::ROULETTE_FROM;
 use tracer_kernels::engine::batch::{Batch, Columns, Paths, path};
 use tracer_kernels::engine::pass::{Pass, Task};
@@ -189,7 +188,7 @@ impl Follower<'_> {
         let next = (own > 0).then(|| Row::read(&batch.paths, 0));
         let branch = (branches > 0).then(|| Row::read(&batch.paths, own));
         let cast = (batch.shadows.len > 0).then(|| column(&batch.shadows.contribution, 0));
-        occluded(self.engine, Coherence::Incoherent, batch);
+        occluded(self.engine, false, batch);
         let is_free = cast.is_some() && batch.shadows.occluded[0] == 0;
 
         let draw = Draw { seed: self.pass.seed, pixel: self.pixel, sample: self.sample, vertex: depth };

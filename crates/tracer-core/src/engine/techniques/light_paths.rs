@@ -8,7 +8,6 @@ use crate::engine::trace::{closest, occluded};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
-use tracer_kernels::bvh::Coherence;
 use tracer_kernels::engine::LightPass;
 use tracer_kernels::engine::batch::{Batch, PATHS};
 use tracer_kernels::engine::density;
@@ -80,7 +79,7 @@ fn follow(engine: Engine<'_>, pass: LightPass<'_>, shares: &[Share], film: OnFil
         batch.splats.len = 0;
         kernels.light_paths(scene, pass, event, batch);
         batch.watch.lap(Stage::Photons);
-        occluded(engine, Coherence::Incoherent, batch);
+        occluded(engine, true, batch);
         splat(scene, film, batch);
         batch.watch.lap(Stage::Film);
         event += 1;
@@ -92,14 +91,24 @@ fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
     let splats = &batch.splats;
     let filter = scene.camera.filter;
     let reach = filter.reach();
-    for k in (0..splats.len).filter(|&k| batch.shadows.occluded[k] == 0) {
+    let arrives = |k: usize| batch.shadows.occluded[k] == 0;
+    // The shadow ray leaves what the camera is to see.
+    let is_hidden =
+        |k: usize| scene.is_hidden_primitive(batch.shadows.from_primitive[k], batch.shadows.from_instance[k]);
+    // What falls into one eye's half stays there.
+    let half = scene.camera.stereo.map(|stereo| usize::from(stereo.above));
+    let half = half.map(|axis| (axis, 0.5 * scene.size[axis] as f32));
+    for k in (0..splats.len).filter(|&k| arrives(k) && !is_hidden(k)) {
         let (x, y) = (splats.x[k], splats.y[k]);
+        let is_of_eye = |pixel: [i32; 2]| {
+            half.is_none_or(|(axis, border)| (pixel[axis] as f32 + 0.5 < border) == ([x, y][axis] < border))
+        };
         let pixels = |at: f32| (at - 0.5 - reach).ceil() as i32..=(at - 0.5 + reach).floor() as i32;
         for row in pixels(y) {
             for column in pixels(x) {
                 let h = density(filter, x - 0.5 - column as f32, y - 0.5 - row as f32);
                 let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
-                if scale > 0.0 && scale.is_finite() {
+                if scale > 0.0 && scale.is_finite() && is_of_eye([column, row]) {
                     let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
                     film.cells.splat([column, row], brings, film.limit, film.half);
                 }

@@ -58,6 +58,7 @@ pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
         center: center.into(),
         radius: radius.into(),
         emission: Emission::Radiance(radiance).into(),
+        camera_visible: true,
         name: Name::default(),
     }
 }
@@ -70,6 +71,7 @@ pub fn sphere(center: Vec3, radius: f64, material: Material) -> Object {
         material: inline(material),
         transform: Vec::new(),
         placements: Placements::One,
+        camera_visible: true,
         name: Name::default(),
     }))
 }
@@ -94,6 +96,7 @@ pub fn placed(
         placements,
         instances: Instances::Always,
         shading,
+        camera_visible: true,
         name: Name::default(),
     })
 }

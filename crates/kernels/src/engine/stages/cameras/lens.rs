@@ -8,12 +8,12 @@ use crate::sampling::warp;
 use crate::scene::Lens;
 
 impl<F: Lanes> View<F> {
-    /// A uniform point of the lens; of a pinhole the eye.
+    /// A uniform point of the lens about an eye; of a pinhole the eye.
     #[inline(always)]
-    pub(super) fn lens(&self, lens: Option<Lens>, at: (F, F)) -> V3<F> {
+    pub(super) fn lens(&self, eye: V3<F>, lens: Option<Lens>, at: (F, F)) -> V3<F> {
         match lens {
-            Some(lens) => self.eye.add(self.on_lens(lens, at)),
-            None => self.eye,
+            Some(lens) => eye.add(self.on_lens(lens, at)),
+            None => eye,
         }
     }
 

@@ -17,11 +17,13 @@ mod lens;
 mod orthographic;
 mod panorama;
 mod perspective;
+mod stereo;
 
 use super::surface::Surface;
 use crate::lanes::Lanes;
 use crate::math::V3;
 use crate::scene::{Camera, Projection};
+use stereo::Eyes;
 
 /// The camera, splatted.
 pub struct View<F: Lanes> {
@@ -30,11 +32,14 @@ pub struct View<F: Lanes> {
     right: V3<F>,
     up: V3<F>,
     projection: Projection,
+    eyes: Option<Eyes<F>>,
     /// Depth at which rays start.
     near: f32,
     /// Half the picture's columns and rows.
     pub middle: [f32; 2],
-    /// |right| |up| over the pixels of a quarter of the picture: a pixel's area at distance one, or in the plane.
+    /// As many of the picture of one eye, where there are two.
+    middle_of_eye: [f32; 2],
+    /// |right| |up| over the pixels of a quarter of that: a pixel's area at distance one, or in the plane.
     pixel_area: F,
 }
 
@@ -90,28 +95,54 @@ impl<F: Lanes> View<F> {
     pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
         let splat = |v: glam::DVec3| V3::<F>::splat(v.as_vec3().to_array());
         let middle = size.map(|side| side as f32 / 2.0);
-        let area = camera.right.length() * camera.up.length() / (f64::from(middle[0]) * f64::from(middle[1]));
+        let middle_of_eye = match &camera.stereo {
+            Some(stereo) => stereo.half(middle.map(f64::from)).map(|side| side as f32),
+            None => middle,
+        };
+        let quarter = f64::from(middle_of_eye[0]) * f64::from(middle_of_eye[1]);
+        let area = camera.right.length() * camera.up.length() / quarter;
         View {
             eye: splat(camera.eye),
             forward: splat(camera.forward),
             right: splat(camera.right),
             up: splat(camera.up),
             projection: camera.projection,
+            eyes: Eyes::of(camera),
             near: camera.near as f32,
             middle,
+            middle_of_eye,
             pixel_area: F::splat(area as f32),
         }
     }
 
-    /// The ray of a place; `lens` is a uniform point of the unit square.
+    /// Which eye sees a place ([`crate::scene::Stereo::eye`]); zero where there is one.
     #[inline(always)]
-    pub fn ray(&self, x: F, y: F, lens: (F, F)) -> CameraRay<F> {
+    pub fn eye(&self, x: F, y: F) -> F {
+        match &self.eyes {
+            Some(eyes) => eyes.eye(x, y),
+            None => F::splat(0.0),
+        }
+    }
+
+    /// The ray of a place for one of the eyes, which the pixel says: its filter may reach into the other's half; `lens`
+    /// is a uniform point of the unit square.
+    #[inline(always)]
+    pub fn ray(&self, eye: F, mut x: F, mut y: F, lens: (F, F)) -> CameraRay<F> {
+        let mut place = (x, y);
+        if let Some(eyes) = &self.eyes {
+            place = eyes.in_half(eye, x, y);
+            (x, y) = (eyes.outwards(eye, place.0), place.1);
+        }
         let mut ray = match self.projection {
             Projection::Perspective { shift, lens: through } => self.perspective_ray(x, y, shift, through, lens),
             Projection::Orthographic => self.orthographic_ray(x, y),
             Projection::Panorama => self.panorama_ray(x, y),
             Projection::Fisheye { mapping, scale } => self.fisheye_ray(x, y, mapping, scale as f32),
         };
+        if let Some(eyes) = &self.eyes {
+            ray.origin = ray.origin.add(self.aside(eyes, eye, x));
+            ray.measure = eyes.measure(place, ray.measure);
+        }
         if self.near > 0.0 {
             let along = F::splat(self.near) / ray.direction.dot(self.forward);
             ray.origin = ray.direction.mad(along, ray.origin);
@@ -119,14 +150,19 @@ impl<F: Lanes> View<F> {
         ray
     }
 
-    /// Where a point is seen; `lens` is a uniform point of the unit square.
+    /// Where a point is seen, by one of two eyes at random; `lens` is a uniform point of the unit square.
     #[inline(always)]
-    pub fn place(&self, point: V3<F>, lens: (F, F)) -> Place<F> {
+    pub fn place(&self, point: V3<F>, mut lens: (F, F)) -> Place<F> {
         let c = F::splat;
+        let (mut which, mut middle) = (c(0.0), self.eye);
+        if let Some(eyes) = &self.eyes {
+            (which, lens.0) = eyes.choose(lens.0);
+            middle = self.eye.add(self.aside_for(eyes, which, point));
+        }
         let eye = match self.projection {
             Projection::Orthographic => self.under(point),
-            Projection::Perspective { lens: through, .. } => self.lens(through, lens),
-            Projection::Panorama | Projection::Fisheye { .. } => self.eye,
+            Projection::Perspective { lens: through, .. } => self.lens(middle, through, lens),
+            Projection::Panorama | Projection::Fisheye { .. } => middle,
         };
         let to = eye.sub(point);
         let distance = to.dot(to).sqrt();
@@ -136,14 +172,17 @@ impl<F: Lanes> View<F> {
         };
         let direction = wo.neg();
         let cos = direction.dot(self.forward);
-        let at = match self.projection {
+        let mut at = match self.projection {
             Projection::Perspective { shift, lens: through } => {
-                self.perspective_place(eye, direction, cos, shift, through)
+                self.perspective_place(eye.sub(middle), direction, cos, shift, through)
             }
             Projection::Orthographic => self.orthographic_place(point),
             Projection::Panorama => self.panorama_place(direction, cos),
             Projection::Fisheye { mapping, scale } => self.fisheye_place(direction, cos, mapping, scale as f32),
         };
+        if let Some(eyes) = &self.eyes {
+            at = eyes.in_whole(which, at);
+        }
         let (mut free, mut seen) = (distance, at.seen);
         if self.near > 0.0 {
             free = distance - c(self.near) / cos;

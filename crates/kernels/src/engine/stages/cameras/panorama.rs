@@ -35,6 +35,6 @@ impl<F: Lanes> View<F> {
     /// Of a pixel on the horizon: a turn over the columns, half a turn over the rows.
     #[inline(always)]
     fn solid_angle(&self) -> F {
-        F::splat(PI / self.middle[0]) * F::splat(0.5 * PI / self.middle[1])
+        F::splat(PI / self.middle_of_eye[0]) * F::splat(0.5 * PI / self.middle_of_eye[1])
     }
 }

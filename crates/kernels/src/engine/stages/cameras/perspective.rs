@@ -39,11 +39,12 @@ impl<F: Lanes> View<F> {
         CameraRay { origin, direction, measure, seen: F::first(F::N) }
     }
 
-    /// What is seen from a point of the lens along a direction, whose cosine to the view direction this is.
+    /// What is seen along a direction, whose cosine to the view direction this is, from a point of the lens so far
+    /// from its middle.
     #[inline(always)]
     pub(super) fn perspective_place(
         &self,
-        eye: V3<F>,
+        offset: V3<F>,
         direction: V3<F>,
         cos: F,
         shift: [f64; 2],
@@ -55,12 +56,11 @@ impl<F: Lanes> View<F> {
             None => c(1.0),
         };
         let reach = focus / F::select(c(0.0).lt(cos), cos, c(1.0));
-        let (mut measure, mut at) = (c(1.0), direction.mad(reach, eye.sub(self.eye)));
+        let (mut measure, mut at) = (c(1.0), direction.mad(reach, offset));
         if let Some(Lens { tilted: Some(normal), .. }) = lens {
             // The other way round: with forward components of one, q = d - o (d . n) / f, so d = q + o (q . n) / (f -
             // o . n).
             let normal = V3::<F>::splat(normal.as_vec3().to_array());
-            let offset = eye.sub(self.eye);
             let along = direction.scale(reach);
             measure = tilted(offset, normal, focus);
             at = offset.mad(along.dot(normal) / (focus * measure), along);

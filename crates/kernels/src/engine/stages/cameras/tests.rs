@@ -3,7 +3,7 @@
 use super::*;
 use crate::lanes::{ArrayF, Mask};
 use crate::sampling::sampler::hash3;
-use crate::scene::{Filter, FisheyeMapping, Lens};
+use crate::scene::{Filter, FisheyeMapping, Lens, Stereo};
 use glam::DVec3;
 
 type One = ArrayF<1>;
@@ -32,9 +32,14 @@ fn camera(projection: Projection, right: f64, up: f64, near: f64) -> Camera {
         right: DVec3::new(right, 0.0, 0.0),
         up: DVec3::new(0.0, 0.8, 0.6) * up,
         projection,
+        stereo: None,
         near,
         filter: Filter::Box,
     }
+}
+
+fn stereo(camera: Camera, inwards: f64, above: bool) -> Camera {
+    Camera { stereo: Some(Stereo { aside: 0.06, inwards, above }), ..camera }
 }
 
 fn cameras() -> Vec<Camera> {
@@ -55,6 +60,11 @@ fn cameras() -> Vec<Camera> {
         fisheye(FisheyeMapping::Equisolid, libm::sin(1.2)),
         fisheye(FisheyeMapping::Stereographic, libm::tan(1.3)),
         fisheye(FisheyeMapping::Orthographic, libm::sin(1.4)),
+        stereo(camera(through([0.0; 2], None), 0.35, 0.5, 0.0), 0.07, false),
+        stereo(camera(through([0.2, 0.4], Some(Lens { blades: 5, ..lens })), 0.7, 0.25, 0.4), 0.0, true),
+        stereo(camera(through([0.0, 0.5], Some(Lens { tilted, ..lens })), 0.35, 0.5, 0.0), -0.03, false),
+        stereo(camera(Projection::Panorama, 1.0, 1.0, 0.0), 0.0, true),
+        stereo(camera(Projection::Panorama, 1.0, 1.0, 0.0), 0.0, false),
     ]
 }
 
@@ -68,9 +78,15 @@ fn points_fall_where_they_are_seen() {
             let lens = (One::splat(of(2)), One::splat(of(3)));
             // Column and row, in pixels from the picture's corner, and the ray there as origin and unit direction.
             let (x, y) = (64.0 * f64::from(of(0)), 48.0 * f64::from(of(1)));
+            // Of the two eyes of stereo that which the pixel is of, by the number that chooses it.
+            let eye = view.eye(One::splat((x / 32.0 - 1.0) as f32), One::splat((1.0 - y / 24.0) as f32));
+            let mut to_lens = lens;
+            if number(eye) != 0.0 {
+                to_lens.0 = One::splat((of(2) + f32::from(number(eye) > 0.0)) / 2.0);
+            }
             let ray = |x: f64, y: f64| {
                 let at = ((x / 32.0 - 1.0) as f32, (1.0 - y / 24.0) as f32);
-                let ray = view.ray(One::splat(at.0), One::splat(at.1), lens);
+                let ray = view.ray(eye, One::splat(at.0), One::splat(at.1), lens);
                 ray.seen.any().then(|| (vector(ray.origin), vector(ray.direction).normalize(), number(ray.measure)))
             };
             let beside = [(0.0, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.0, 0.25), (0.0, -0.25)];
@@ -80,7 +96,7 @@ fn points_fall_where_they_are_seen() {
             let t = 0.5 + f64::from(of(4));
             let point = origin + direction * t;
             let normal = (DVec3::new(0.3, -0.2, 0.1) - direction).normalize();
-            let place = view.place(splat(point), lens);
+            let place = view.place(splat(point), to_lens);
             assert!(place.seen.any(), "{c}: {x} {y}");
             let (px, py) = (number(place.x), number(place.y));
             assert!((px - x).abs() < 4e-3 && (py - y).abs() < 4e-3, "{c}: {x} {y} is {px} {py}");
@@ -99,14 +115,18 @@ fn points_fall_where_they_are_seen() {
                 o + d * ((point - o).dot(normal) / d.dot(normal))
             };
             // Of half a pixel by half a pixel.
-            let sides = 4.0 * (on_plane(1) - on_plane(2)).cross(on_plane(3) - on_plane(4));
+            let mut sides = 4.0 * (on_plane(1) - on_plane(2)).cross(on_plane(3) - on_plane(4));
+            if camera.stereo.is_some() {
+                // A light path goes to either eye half of the time.
+                sides /= 2.0;
+            }
             let cos_to_view = direction.dot(camera.forward);
             let cos = -direction.dot(normal);
             let area = view.area(place.distance, One::splat(cos_to_view as f32), One::splat(cos as f32));
             let area = number(area) * measure;
             // A quarter of a pixel to all sides; next to the poles of a panorama, and to the circle of a fisheye, that
             // is no small part of what is left.
-            let bound = if (x - 32.0).hypot(y - 24.0) > 19.0 { 2e-2 } else { 6e-3 };
+            let bound = if camera.stereo.is_some() || (x - 32.0).hypot(y - 24.0) > 19.0 { 2e-2 } else { 6e-3 };
             assert!((area / sides.length() - 1.0).abs() < bound, "{c}: {x} {y}: {area} and {}", sides.length());
         }
         assert!(seen > 200, "{c}: {seen}");
@@ -117,10 +137,11 @@ fn points_fall_where_they_are_seen() {
 #[test]
 fn what_is_not_seen() {
     let cameras = cameras();
-    for camera in &cameras[8..] {
+    for camera in &cameras[8..12] {
         let view = View::<One>::new(camera, SIZE);
-        let seen =
-            |x: f32, y: f32| view.ray(One::splat(x), One::splat(y), (One::splat(0.5), One::splat(0.5))).seen.any();
+        let seen = |x: f32, y: f32| {
+            view.ray(One::splat(0.0), One::splat(x), One::splat(y), (One::splat(0.5), One::splat(0.5))).seen.any()
+        };
         assert!(seen(0.0, 0.99) && seen(0.74, 0.0) && !seen(0.76, 0.0) && !seen(0.6, 0.9) && !seen(0.0, -1.01));
     }
     let falls = |camera: &Camera, depth: f64| {
@@ -146,7 +167,7 @@ fn lenses_with_blades_are_polygons() {
     let (n, mut moments, mut highest) = (256, [0.0; 3], 0.0f64);
     for k in 0..n * n {
         let (u, v) = (((k % n) as f32 + 0.5) / n as f32, ((k / n) as f32 + 0.5) / n as f32);
-        let at = vector(view.lens(Some(lens), (One::splat(u), One::splat(v)))) - camera.eye;
+        let at = vector(view.lens(view.eye, Some(lens), (One::splat(u), One::splat(v)))) - camera.eye;
         let (x, y) = (at.dot(right), at.dot(up));
         for k in 0..5 {
             // Each side's normal; the inner radius is r cos(pi / 5).
