@@ -76,6 +76,7 @@ ScatterItem = TypedDict("ScatterItem", {"Scatter": "Scatter"})
 SphereItem = TypedDict("SphereItem", {"Sphere": "Sphere"})
 SphereLightItem = TypedDict("SphereLightItem", {"SphereLight": "SphereLight"})
 SphericalItem = TypedDict("SphericalItem", {"Spherical": "Spherical"})
+StereoItem = TypedDict("StereoItem", {"Stereo": "Stereo"})
 TextureItem = TypedDict("TextureItem", {"Texture": "Texture"})
 ThinLensItem = TypedDict("ThinLensItem", {"ThinLens": "ThinLens"})
 TorusItem = TypedDict("TorusItem", {"Torus": "Torus"})
@@ -154,6 +155,7 @@ class Camera(TypedDict, total=False):
     near: What is nearer than this along the view is not seen by the camera: a wall between it and the room, say. It still shades and shows in mirrors. Unit: the scene's unit.
     shutter: Motion blur: the shutter is open from the frame's `time` on, for this share of a frame. What is an expression of `time` moves meanwhile; each sample sees the scene at a moment of its own. 0.5 is what films have. 0: nothing moves while a picture is taken.
     projection: How directions become places in the picture.
+    stereo: Two pictures in one, for two eyes; with `Perspective` and `Panorama`.
     """
 
     position: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -168,6 +170,7 @@ class Camera(TypedDict, total=False):
     near: Any
     shutter: Either[float, str, PickItem]
     projection: Either[Projection, PickItem]
+    stereo: Either[Stereoscopy, PickItem]
 
 
 FovAxis = Literal["Vertical", "Horizontal", "Diagonal", "Smaller", "Larger"]
@@ -197,6 +200,26 @@ class Fisheye(TypedDict, total=False):
 
 
 FisheyeMapping = Literal["Equidistant", "Equisolid", "Stereographic", "Orthographic"]
+
+Stereoscopy = Any
+
+class _StereoRequired(TypedDict):
+    separation: Either[float, str, PickItem]
+
+
+class Stereo(_StereoRequired, total=False):
+    """Two pictures in one, for two eyes that stand to the left and right of `position` and look the same way. Each has half of `image`: for two pictures of 1280x720 side by side it is 2560x720. With `Panorama` they are omnidirectional: whichever way one looks, the eyes stand beside each other across it.
+
+    separation: From eye to eye: 0.064 for people, where the scene's unit is the metre. Unit: the scene's unit.
+    convergence: How far away, along the view axis, things are that both eyes see at the same place of their pictures: they seem to lie in the screen, nearer ones before it. `None`: infinitely far, both look straight ahead. Unit: the scene's unit.
+    layout: How the two pictures lie in the one.
+    """
+
+    convergence: Any
+    layout: Either[StereoLayout, PickItem]
+
+
+StereoLayout = Literal["SideBySide", "TopBottom"]
 
 class Image(TypedDict, total=False):
     """Size of the picture in pixels.
@@ -378,12 +401,14 @@ class SphereLight(_SphereLightRequired, total=False):
     intensity: Radiant intensity: L = I / (pi r^2). Unit: W/sr.
     radiance: Radiance L of every point of the sphere. Unit: W/(sr m^2).
     power: Power: L = P / (4 pi^2 r^2). Unit: W.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen in mirrors and through glass.
     name: What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
     """
 
     intensity: Any
     radiance: Any
     power: Any
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -789,12 +814,14 @@ class Sphere(_SphereRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last; textures turn along.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -958,6 +985,7 @@ class Plane(TypedDict, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -966,6 +994,7 @@ class Plane(TypedDict, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -978,6 +1007,7 @@ class Rectangle(TypedDict, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -987,6 +1017,7 @@ class Rectangle(TypedDict, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -999,6 +1030,7 @@ class Box(TypedDict, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1008,6 +1040,7 @@ class Box(TypedDict, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1021,6 +1054,7 @@ class Disk(TypedDict, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1031,6 +1065,7 @@ class Disk(TypedDict, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1047,6 +1082,7 @@ _CylinderFields = TypedDict("_CylinderFields", {
     "material": "Either[str, Material, PickItem]",
     "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
     "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "camera_visible": "Either[bool, str, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1061,6 +1097,7 @@ class Cylinder(_CylinderRequired, _CylinderFields, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1079,6 +1116,7 @@ _ConeFields = TypedDict("_ConeFields", {
     "material": "Either[str, Material, PickItem]",
     "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
     "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "camera_visible": "Either[bool, str, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1094,6 +1132,7 @@ class Cone(_ConeRequired, _ConeFields, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1110,6 +1149,7 @@ _CapsuleFields = TypedDict("_CapsuleFields", {
     "material": "Either[str, Material, PickItem]",
     "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
     "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "camera_visible": "Either[bool, str, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1123,6 +1163,7 @@ class Capsule(_CapsuleRequired, _CapsuleFields, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1140,6 +1181,7 @@ class Lathe(_LatheRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
     """
 
@@ -1148,6 +1190,7 @@ class Lathe(_LatheRequired, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1167,6 +1210,7 @@ class Extrude(_ExtrudeRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.depth=2` finds it where no other has this name.
     """
 
@@ -1174,6 +1218,7 @@ class Extrude(_ExtrudeRequired, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1193,6 +1238,7 @@ class Tube(_TubeRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
     """
 
@@ -1202,6 +1248,7 @@ class Tube(_TubeRequired, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1221,6 +1268,7 @@ class Torus(_TorusRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about its middle.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1230,6 +1278,7 @@ class Torus(_TorusRequired, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1248,6 +1297,7 @@ _ArrowFields = TypedDict("_ArrowFields", {
     "material": "Either[str, Material, PickItem]",
     "transform": "Sequence[Either[Transform, RepeatItem, PickItem]]",
     "placements": "Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]",
+    "camera_visible": "Either[bool, str, PickItem]",
     "name": "Any",
 }, total=False)
 
@@ -1264,6 +1314,7 @@ class Arrow(_ArrowRequired, _ArrowFields, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle between its ends.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1283,6 +1334,7 @@ class HeightField(_HeightFieldRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about its `center`.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.smooth=false` finds it where no other has this name.
     """
 
@@ -1291,6 +1343,7 @@ class HeightField(_HeightFieldRequired, total=False):
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1305,12 +1358,14 @@ class Polygon(_PolygonRequired, total=False):
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name.
     """
 
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1325,6 +1380,7 @@ class Mesh(TypedDict, total=False):
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     instances: Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
     shading: Whether normals are interpolated.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
     """
 
@@ -1336,6 +1392,7 @@ class Mesh(TypedDict, total=False):
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     instances: Either[Instances, PickItem]
     shading: Either[Shading, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1354,12 +1411,14 @@ class Union(_UnionRequired, total=False):
     material: The material of those shapes in it that have none of their own.
     transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
     """
 
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1374,12 +1433,14 @@ class Intersection(_IntersectionRequired, total=False):
     material: The material of those shapes in it that have none of their own.
     transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by what the boxes of the shapes have in common.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
     """
 
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1394,12 +1455,14 @@ class Difference(_DifferenceRequired, total=False):
     material: The material of those shapes in it that have none of their own.
     transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the box of the first shape.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
     """
 
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1411,6 +1474,7 @@ class Group(TypedDict, total=False):
     transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin. A group has no `DropTo` and no `FitTo`.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     lights: Lights that move with it. Each copy has one, as bright as it is written.
+    camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
     """
 
@@ -1419,6 +1483,7 @@ class Group(TypedDict, total=False):
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
     lights: Sequence[Either[Light, RepeatItem, PickItem]]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 
@@ -1434,6 +1499,7 @@ class Include(_IncludeRequired, total=False):
     materials: Other materials for names of its `materials`: names of this scene, or written here.
     transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin. It has no `DropTo` and no `FitTo`.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
+    camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.
     """
 
@@ -1441,6 +1507,7 @@ class Include(_IncludeRequired, total=False):
     materials: Dict[str, Either[str, Material]]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
+    camera_visible: Either[bool, str, PickItem]
     name: Any
 
 

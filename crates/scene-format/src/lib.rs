@@ -22,6 +22,7 @@
 //!     material: MaterialRef::Inline(Box::new(mirror.into())),
 //!     transform: Vec::new(),
 //!     placements: Placements::One,
+//!     camera_visible: true,
 //!     name: Name::from(Some("ball")),
 //! };
 //! let scene = SceneDesc {

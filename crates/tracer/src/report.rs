@@ -101,8 +101,7 @@ pub struct PictureReport {
 pub struct MarkReport {
     /// Its name.
     pub name: String,
-    /// `left` or `right`, where two eyes share the picture.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// `left` or `right`, where two eyes share the picture; else none.
     pub eye: Option<&'static str>,
     /// From the upper left corner; none where no place shows it.
     pub pixel: Option<[f64; 2]>,

@@ -378,12 +378,13 @@ impl<'p> Parser<'p> {
             && fate == Fate::ClosesOuter
             && self.open.last().is_some_and(|open| open.line < self.line)
             && self.at > self.line + self.indent;
-        // So is one that closes what its line has opened, if the next line goes on with its fields.
+        // So is one that closes the first that its line has opened, if the next line goes on with its fields.
         let too_early = self.trust == Trust::Indentation
             && fate == Fate::Closes
             && self.open.last().is_some_and(|open| {
                 open.bracket == b'(' && open.line == self.line && brackets::goes_on(self.text, self.at, open.indent)
-            });
+            })
+            && self.open.iter().rev().nth(1).is_none_or(|outer| outer.line < self.line);
         if stray || too_early { Fate::Stray } else { fate }
     }
 

@@ -31,8 +31,8 @@ pub enum Gaps {
     Refused,
     /// The film is of the samples that there are. It can be developed, but neither saved nor gone on with.
     Allowed,
-    /// They are an error between the parts, and not around them: the film is a part itself, the smallest that holds them
-    /// all. So many parts are merged by many machines.
+    /// They are an error between the parts, and not around them: the film is a part itself, the smallest that holds
+    /// them all. So many parts are merged by many machines.
     Around,
 }
 
@@ -197,7 +197,8 @@ pub(super) fn gaps(of: &Part, parts: impl Iterator<Item = Part>) -> Vec<Gap> {
     cuts.sort_unstable();
     cuts.dedup();
     let mut gaps: Vec<Gap> = Vec::new();
-    for band in cuts.windows(2).map(|cuts| cuts[0]..cuts[1]) {
+    let bands = cuts.windows(2).map(|cuts| cuts[0]..cuts[1]);
+    for band in bands.filter(|band| rows(of.crop).contains(&band.start)) {
         let here = parts.iter().filter(|part| rows(part.crop).contains(&band.start));
         let mut samples: Vec<Range<u32>> = here.map(|part| part.first..part.end).collect();
         samples.sort_unstable_by_key(|samples| samples.start);

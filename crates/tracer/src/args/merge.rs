@@ -21,7 +21,7 @@ pub struct MergeArgs {
     /// Parts that `tracer render --part` made
     #[arg(required = true, value_name = "PART")]
     pub parts: Vec<PathBuf>,
-    /// Picture: .png .exr .hdr .pfm or - (repeatable), or a larger part: .tracer
+    /// Picture: .png .exr .hdr .pfm or -; larger part: .tracer
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     pub output: Vec<PathBuf>,
     /// Kind of picture for `-o -`: png, exr, hdr or pfm

@@ -73,7 +73,8 @@ fn parts_become_a_larger_part() {
     let made = sandbox.run(&["merge", &four, &three, &five, "-o", "late.tracer", "--report", "late.json"]).ends(0);
     made.says(&["late.tracer of 3 parts in ", "samples 2 to 6 of 7, rows 0 to"]);
     assert_eq!(json(&sandbox, "late.json")["picture"]["samples_min"], 5);
-    sandbox.run(&["info", "late.tracer"]).ends(0).says(&["samples 2 to 6 of 7"]);
+    let info = sandbox.run(&["info", "late.tracer"]).ends(0).out_text();
+    assert!(info.contains("samples 2 to 6 of 7"), "{info}");
     sandbox.run(&["merge", &one, &two, "-o", "early.tracer", "-q"]).ends(0);
     sandbox.run(&["merge", "late.tracer", "early.tracer", "-o", "all.exr", "--denoise", "-q"]).ends(0);
     assert_eq!(sandbox.read("all.exr"), sandbox.read("one.exr"));

@@ -346,8 +346,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "light-tree-asks-backs",
         file: LIGHT_SELECTION,
-        find: "let cos = from.dot(self.normal).max(F::splat(0.0))",
-        replace: "let cos = from.dot(self.normal).abs()",
+        find: "(cos + self.around).max(F::splat(0.0))",
+        replace: "(cos.abs() + self.around)",
         caught_by: kernel_units(&["engine::stages::lights::flat"]),
     },
     // Camera and filters.

@@ -147,8 +147,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "light-paths-through-walls",
         file: "crates/tracer-core/src/engine/techniques/light_paths.rs",
-        find: ".filter(|&k| batch.shadows.occluded[k] == 0)",
-        replace: "",
+        find: "let arrives = |k: usize| batch.shadows.occluded[k] == 0;",
+        replace: "let arrives = |_: usize| true;",
         caught_by: proofs(&["caustics::on_any_film"]),
     },
 ];

@@ -536,7 +536,7 @@ pub fn case(seed: u64, size: u32) -> Case {
     {
         mesh.transform.push(Transform::DropTo { y: 0.0 }.into());
     }
-    if relation == Relation::Path && once_in(random, 4) {
+    if relation == Relation::Path && once_in(random, 2) {
         draw::hide(&mut world, random);
     }
     Case { seed, kind, world, relation, hard }

@@ -15,6 +15,7 @@ use std::path::PathBuf;
 use tracer_reference::Random;
 
 /// Adds such a shape within a sphere. Glass is closed.
+// Long: one arm for each shape, with its fields.
 pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
     let glass = material.transmits();
     let curve = if once_in(random, 2) { Curve::CatmullRom } else { Curve::Linear };
