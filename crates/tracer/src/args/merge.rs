@@ -9,7 +9,6 @@ use std::path::PathBuf;
 const MERGE_EXAMPLES: &str = "\
 Examples:
   tracer merge scene.*of16.tracer -o scene.exr -o scene.png
-  tracer merge a/*.tracer b/*.tracer -o half.png --allow-missing
   tracer merge scene.0*.tracer -o first.tracer
 
 The bytes are those of one machine, for any parts in any order (docs/scale.md).";
