@@ -144,6 +144,7 @@ fn faults(desc: &SceneDesc) -> Vec<scene_format::Diagnostic> {
         material: Default::default(),
         transform: Vec::new(),
         placements: Default::default(),
+        camera_visible: true,
         name: Default::default(),
     };
     let small = SceneDesc {
