@@ -7,6 +7,8 @@
 mod records;
 mod room;
 
+pub use records::subject;
+
 use crate::args::CacheArgs;
 use crate::checkpoint::{HashOf, Place, sha256_of};
 use crate::failure::Failure;

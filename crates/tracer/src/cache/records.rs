@@ -6,6 +6,8 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use tracer_core::{ContentHash, Stamp};
 
+/// How a record begins.
+const FIRST: &str = "tracer hash 1";
 /// A record is no longer: a path and a few numbers.
 const MOST_BYTES: u64 = 1 << 16;
 
@@ -18,7 +20,17 @@ fn place(folder: &Path, path: &Path) -> Option<(PathBuf, PathBuf)> {
 
 /// What a record says before the hash.
 fn head(whole: &Path, stamp: &Stamp) -> String {
-    format!("tracer hash 1\n{}\n{stamp}\n", whole.display())
+    format!("{FIRST}\n{}\n{stamp}\n", whole.display())
+}
+
+/// The file whose hash a record tells; `None` where this is no record.
+pub fn subject(record: &Path) -> Option<String> {
+    let mut start = [0; FIRST.len()];
+    let mut file = File::open(record).ok().filter(|_| record.is_file())?;
+    file.read_exact(&mut start).ok().filter(|()| start == *FIRST.as_bytes())?;
+    let mut rest = String::new();
+    file.take(MOST_BYTES).read_to_string(&mut rest).ok()?;
+    rest.lines().nth(1).map(str::to_owned)
 }
 
 /// The hash that a file had when it was recorded, if it is as it was then.

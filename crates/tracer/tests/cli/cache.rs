@@ -92,6 +92,8 @@ fn what_a_file_holds_counts() {
     std::thread::sleep(Duration::from_millis(2200));
     assert_eq!(render(&sandbox, &[], &[]), [2, 0, 0]);
     let record = named(&sandbox, "hash-");
+    let told = sandbox.run(&["info", &record.display().to_string()]).ends(0).out_text();
+    assert!(told.contains("the hash of ") && told.contains("field.off, kept by --cache"), "{told}");
     assert_eq!(render(&sandbox, &[], &[]), [2, 0, 0]);
     // Another file of the same size and time.
     let time = fs::metadata(sandbox.path("field.off")).and_then(|file| file.modified()).expect("a time");

@@ -8,6 +8,7 @@ const CONDUCTOR: &str = "crates/kernels/src/engine/stages/materials/conductor.rs
 const DIELECTRIC: &str = "crates/kernels/src/engine/stages/materials/dielectric.rs";
 const SURFACE: &str = "crates/kernels/src/engine/stages/surface.rs";
 const LIGHTS: &str = "crates/kernels/src/engine/stages/lights/mod.rs";
+const LIGHT: &str = "crates/kernels/src/scene/light.rs";
 const LIGHT_SELECTION: &str = "crates/kernels/src/engine/stages/lights/selection.rs";
 const SPHERE_LIGHT: &str = "crates/kernels/src/engine/stages/lights/sphere.rs";
 const FLAT_LIGHT: &str = "crates/kernels/src/engine/stages/lights/flat.rs";
@@ -349,6 +350,27 @@ pub const MUTANTS: &[Mutant] = &[
         find: "(cos + self.around).max(F::splat(0.0))",
         replace: "(cos.abs() + self.around)",
         caught_by: kernel_units(&["engine::stages::lights::flat"]),
+    },
+    Mutant {
+        name: "light-clusters-without-size",
+        file: LIGHT,
+        find: "slack: radius * scale",
+        replace: "slack: 0.0",
+        caught_by: kernel_units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "light-clusters-of-one-normal",
+        file: LIGHT,
+        find: "around: sin * scale + Self::LEAST",
+        replace: "around: Self::LEAST",
+        caught_by: kernel_units(&["engine::stages::lights"]),
+    },
+    Mutant {
+        name: "light-clusters-face-everywhere",
+        file: LIGHT,
+        find: "if cos <= 0.0 {",
+        replace: "if cos <= 1.0 {",
+        caught_by: kernel_units(&["engine::stages::lights"]),
     },
     // Camera and filters.
     Mutant {

@@ -3,6 +3,7 @@
 mod picture;
 
 use crate::args::InfoArgs;
+use crate::cache;
 use crate::checkpoint::{self, is_film};
 use crate::failure::{Failure, exit};
 use crate::loading::{Known, asset_files, compile, is_dash, load};
@@ -24,6 +25,9 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     if !is_dash(&args.scene.scene) && is_kept_file(&args.scene.scene) {
         return of_kept(args);
     }
+    if let Some(of) = Some(&args.scene.scene).filter(|path| !is_dash(path)).and_then(|path| cache::subject(path)) {
+        return of_record(args, &of);
+    }
     if let Some(told) = picture::told(&args.scene.scene)? {
         return picture::of_picture(args, &told);
     }
@@ -42,10 +46,7 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         };
         if args.json { format!("{:#}\n", facts.as_json()) } else { facts.as_text() }
     };
-    let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()?;
-    Ok(ExitCode::from(exit::DONE))
+    print(&text)
 }
 
 /// Of a checkpoint, which is read to its end: whoever asks wants to know whether it is whole.
@@ -67,21 +68,14 @@ fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
         true => format!("{:#}\n", checkpoint::as_json(path, bytes, &head)),
         false => checkpoint::as_text(path, bytes, &head),
     };
-    let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()?;
-    Ok(ExitCode::from(exit::DONE))
+    print(&text)
 }
 
 /// Of a file of a cache, which is read to its end, too.
 fn of_kept(args: &InfoArgs) -> Result<ExitCode, Failure> {
     let path = &args.scene.scene;
     let shown = path.display();
-    if args.resolved || !args.scene.sets().is_empty() {
-        return Err(Failure::wrong(format!(
-            "{shown} is a file of a cache; --resolved, --set, --camera and --frame are for scenes"
-        )));
-    }
+    alone(args)?;
     let file = File::open(path).map_err(KeptError::Io).and_then(KeptFile::open);
     let file = file.and_then(|file| file.check().map(|()| file)).map_err(|error| {
         Failure::could_not(format!("{shown} cannot be used: {error}; whoever needs it makes it anew"))
@@ -91,6 +85,31 @@ fn of_kept(args: &InfoArgs) -> Result<ExitCode, Failure> {
         true => format!("{:#}\n", json!({"file": path, "kind": kind, "bytes": bytes, "program": program})),
         false => format!("{shown}: a {kind}, kept by --cache; whole, {}\nprogram    {program}\n", human(bytes)),
     };
+    print(&text)
+}
+
+/// Of a record of a cache: what a file's contents hash to.
+fn of_record(args: &InfoArgs, of: &str) -> Result<ExitCode, Failure> {
+    alone(args)?;
+    let path = &args.scene.scene;
+    print(&match args.json {
+        true => format!("{:#}\n", json!({"file": path, "kind": "hash", "of": of})),
+        false => format!("{}: the hash of {of}, kept by --cache\n", path.display()),
+    })
+}
+
+/// Refuses what is for scenes, of a file of a cache.
+fn alone(args: &InfoArgs) -> Result<(), Failure> {
+    if args.resolved || !args.scene.sets().is_empty() {
+        return Err(Failure::wrong(format!(
+            "{} is a file of a cache; --resolved, --set, --camera and --frame are for scenes",
+            args.scene.scene.display()
+        )));
+    }
+    Ok(())
+}
+
+fn print(text: &str) -> Result<ExitCode, Failure> {
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())?;
     out.flush()?;

@@ -125,7 +125,7 @@ fn points_fall_where_they_are_seen() {
             let area = view.area(place.distance, One::splat(cos_to_view as f32), One::splat(cos as f32));
             let area = number(area) * measure;
             // A quarter of a pixel to all sides; next to the poles of a panorama, and to the circle of a fisheye, that
-            // is no small part of what is left.
+            // is no small part of what is left. An eye's half has half as many pixels, which errors go with squared.
             let bound = if camera.stereo.is_some() || (x - 32.0).hypot(y - 24.0) > 19.0 { 2e-2 } else { 6e-3 };
             assert!((area / sides.length() - 1.0).abs() < bound, "{c}: {x} {y}: {area} and {}", sides.length());
         }

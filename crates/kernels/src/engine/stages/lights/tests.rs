@@ -3,7 +3,7 @@
 use super::selection::probability;
 use super::*;
 use crate::lanes::ArrayF;
-use crate::scene::{Light, NONE, Sphere};
+use crate::scene::{FlatLight, Light, NONE, Sphere};
 use glam::DVec3;
 use std::f64::consts::TAU;
 use tracer_reference::Random;
@@ -278,6 +278,59 @@ fn lights_that_show_are_in_reach() {
         }
     }
     assert!(showing > 300, "{showing}");
+}
+
+/// Small triangles with these centres and normals, in a tree.
+fn triangles(lights: &[(DVec3, DVec3)]) -> LightTable {
+    let triangle = |&(center, normal): &(DVec3, DVec3)| {
+        let [a, b] = [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())];
+        let corner = center - (a + b) * 0.01;
+        Light::Triangle(FlatLight { corner, edges: [0.03 * a, 0.03 * b], radiance: [1.0; 3], two_sided: false })
+    };
+    LightTable::new(&lights.iter().map(triangle).collect::<Vec<_>>(), &[], None)
+}
+
+/// Clusters of triangles that face one way, more or less, seen from all around and from among them: each that faces the
+/// receiver can be chosen.
+#[test]
+fn clusters_that_face_are_in_reach() {
+    let mut random = Random::new(9);
+    let mut facing = 0;
+    for cloud in 0..24 {
+        let spread = [0.0, 0.2, 0.8, 3.0][cloud % 4];
+        let mut within = |side: f64| DVec3::from([0; 3].map(|_| side * (scalar(number(&mut random)) - 0.5)));
+        let lights: Vec<_> = (0..48).map(|_| (within(1.0), (DVec3::Y + spread * within(2.0)).normalize())).collect();
+        let table = triangles(&lights);
+        for _ in 0..40 {
+            let p = within(2.0);
+            for (k, &(center, normal)) in (0..).zip(&lights) {
+                // Beyond the rounding of single precision.
+                if normal.dot(p - center) > 1e-4 {
+                    let [at, n] = [p, (center - p).normalize()].map(|v| V3::<S>::splat(v.as_vec3().to_array()));
+                    let chance = scalar(probability(&table, <S as Lanes>::U::splat(k), Receiver { p: at, n }));
+                    assert!(chance > 0.0, "cloud {cloud}, light {k} from {p}");
+                    facing += 1;
+                }
+            }
+        }
+    }
+    assert!(facing > 10_000, "{facing}");
+}
+
+/// Of two clusters that are equally far, the one that turns its back is chosen seldom.
+#[test]
+fn clusters_that_turn_their_backs_are_chosen_seldom() {
+    let mut random = Random::new(10);
+    let mut within = || DVec3::from([0; 3].map(|_| scalar(number(&mut random)) - 0.5));
+    let mut cluster = |side: f64, up: f64| -> Vec<_> {
+        (0..32).map(|_| (DVec3::X * side + within(), (DVec3::Y * up + 0.5 * within()).normalize())).collect()
+    };
+    let table = triangles(&[cluster(-3.0, 1.0), cluster(3.0, -1.0)].concat());
+    let [p, n] = [[0.0, 8.0, 0.0], [0.0, -1.0, 0.0]].map(V3::<S>::splat);
+    let of_backs = |k| scalar(probability(&table, <S as Lanes>::U::splat(k), Receiver { p, n }));
+    let chance: f64 = (32..64).map(of_backs).sum();
+    // Their axis is 180 - 20 degrees off at least, and 90 + 25 + 5 are asked for.
+    assert!(chance < 0.02, "{chance}");
 }
 
 /// A thousand lights, and ten thousand at one place: the way to none is longer than the logarithm, and none is out
