@@ -182,9 +182,11 @@ pub type TopBoxes = Boxes<8>;
 pub type SecondBoxes = Boxes<64>;
 
 impl<const N: usize> Boxes<N> {
-    const NONE: Self = Self { planes: [[0.0; N]; 6], len: 0 };
+    /// No box.
+    pub const NONE: Self = Self { planes: [[0.0; N]; 6], len: 0 };
 
-    fn push(&mut self, planes: [f32; 6]) {
+    /// Adds one; there are never more than N.
+    pub fn push(&mut self, planes: [f32; 6]) {
         for (column, plane) in self.planes.iter_mut().zip(planes) {
             column[self.len] = plane;
         }
@@ -238,7 +240,7 @@ fn node_at(units: &[Unit], unit: usize) -> &Node {
 
 impl Node {
     /// The children that are there, with their planes.
-    fn boxes(&self) -> impl Iterator<Item = ([f32; 6], Ref)> + '_ {
+    pub fn boxes(&self) -> impl Iterator<Item = ([f32; 6], Ref)> + '_ {
         let there = (0..8).filter(|&child| self.children[child] != Ref::END);
         there.map(|child| (self.planes.map(|column| column[child]), self.children[child]))
     }

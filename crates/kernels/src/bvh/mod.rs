@@ -20,6 +20,7 @@ mod arena;
 mod bounds;
 mod build;
 mod coplanar;
+mod few;
 mod geometry;
 mod kernels;
 mod layout;
@@ -30,6 +31,7 @@ mod triangle;
 mod validate;
 
 pub use build::BuildError;
+pub use few::{Few, FewTriangle};
 pub use geometry::{Geometry, InstanceGeometry, LeftOut, MeshGeometry, NONE, ShapeGeometry, SphereGeometry};
 pub use kernels::Counters;
 pub use sphere::sphere_hit;

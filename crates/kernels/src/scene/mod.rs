@@ -13,6 +13,7 @@ mod light;
 pub mod materials;
 mod mesh;
 mod met;
+mod occluders;
 mod pattern;
 mod plane;
 mod program;
@@ -32,6 +33,7 @@ pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTab
 pub use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use met::{CameraSees, Met};
+pub use occluders::OccluderTable;
 pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
@@ -143,6 +145,8 @@ pub struct Scene {
     pub top_boxes: Option<crate::bvh::TopBoxes>,
     /// The boxes under those.
     pub second_boxes: Option<crate::bvh::SecondBoxes>,
+    /// All of that, where it is little.
+    pub occluders: Option<OccluderTable>,
 }
 
 impl Scene {

@@ -48,8 +48,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 pub use stored::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told, is_kept_file};
 use tracer_kernels::scene::{
-    CurvedLight, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, PatternTable, Picture, PlaneTable,
-    Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
+    CurvedLight, Frame, InstanceTable, Light, LightTable, MaterialTable, NONE, OccluderTable, PatternTable, Picture,
+    PlaneTable, Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 use tracer_kernels::{bvh, scene};
 use trees::Hung;
@@ -259,14 +259,11 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let full = desc.render.integrator == Integrator::Full;
     let integrator = integrator(&desc.render.integrator, &frame);
     // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on that.
-    let boxes_of = |accel: &bvh::Accel| (*accel.top_boxes(), *accel.second_boxes());
-    let (top_boxes, second_boxes) = match &accel {
-        Some(_) if way != bvh::Acceleration::Bvh && full => {
-            hung.tree(bvh::Acceleration::Bvh, &[])?.map(|accel| boxes_of(&accel))
-        }
-        accel => accel.as_deref().map(boxes_of),
-    }
-    .unzip();
+    let hierarchy = match &accel {
+        Some(_) if way != bvh::Acceleration::Bvh && full => hung.tree(bvh::Acceleration::Bvh, &[])?,
+        accel => accel.clone(),
+    };
+    let hierarchy = hierarchy.as_deref();
     let tree = start.elapsed().as_secs_f64();
     let pictures =
         images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
@@ -311,8 +308,9 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         instances: built.instances,
         accel,
         camera_sees,
-        top_boxes,
-        second_boxes,
+        top_boxes: hierarchy.map(|accel| *accel.top_boxes()),
+        second_boxes: hierarchy.map(|accel| *accel.second_boxes()),
+        occluders: hierarchy.filter(|_| full).and_then(OccluderTable::new),
         acceleration: way,
     };
     Ok(Scene {

@@ -186,6 +186,13 @@ impl Coplanar {
         &self.shapes.of
     }
 
+    /// All primitives that take part, rising.
+    pub fn primitives(&self) -> Vec<u32> {
+        let mut all: Vec<u32> = self.members.iter().map(|member| member.primitive).collect();
+        all.dedup();
+        all
+    }
+
     /// The member that a primitive is in which a ray goes to or hits, at t, which may be that of a plane so far beside.
     fn member(
         &self,

@@ -5,6 +5,7 @@ pub mod ambient;
 pub mod camera;
 pub mod cameras;
 pub mod deposit;
+pub mod fan;
 pub mod first_hits;
 pub mod light_paths;
 pub mod lights;

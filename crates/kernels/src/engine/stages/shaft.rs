@@ -76,6 +76,8 @@ pub struct Obstacles {
     top: u64,
     small: [u32; PLACES],
     second: Table,
+    /// What is no triangle, where the tree holds little.
+    others: Table,
     large: LargeTable,
 }
 
@@ -124,7 +126,11 @@ impl Obstacles {
         if let Some(below) = &scene.second_boxes {
             second.set_all(below);
         }
-        Obstacles { boxes, top, small, second, large }
+        let mut others = Table::new();
+        if let Some(few) = &scene.occluders {
+            others.set_all(&few.boxes);
+        }
+        Obstacles { boxes, top, small, second, others, large }
     }
 
     /// What may stand between a group and a point on a primitive.
@@ -139,6 +145,12 @@ impl Obstacles {
         let large = self.large.left::<F>(ends, shaft, primitive);
         let more = scene.tables.spheres.large.len() > PLACES;
         Left { large, small, top: met & self.top, more }
+    }
+
+    /// Boxes of what is no triangle in a tree that holds little, which the shaft meets.
+    #[inline(always)]
+    pub fn others_left<F: Lanes>(&self, shaft: &Shaft) -> u64 {
+        shaft.meets::<F>(&self.others)
     }
 
     /// Boxes of the tree's second level that the shaft meets.
@@ -196,8 +208,8 @@ impl LargeTable {
 
 /// The points of a group's members.
 pub struct Ends {
-    lower: [f32; 3],
-    upper: [f32; 3],
+    pub lower: [f32; 3],
+    pub upper: [f32; 3],
     /// Not less than any coordinate; not finite where one is not.
     magnitude: f32,
     /// Least and greatest F of each large sphere; of members on it 0 and -1.
@@ -223,7 +235,7 @@ impl Ends {
 
     /// Finds the bounds.
     #[inline(always)]
-    fn bound<F: Lanes>(&mut self, members: &Members, group: Group) {
+    pub fn bound<F: Lanes>(&mut self, members: &Members, group: Group) {
         let c = F::splat;
         let (mut lower, mut upper) = (V3::grey(c(f32::INFINITY)), V3::grey(c(f32::NEG_INFINITY)));
         let mut wrong = c(0.0);
@@ -284,16 +296,16 @@ fn least_lane<F: Lanes>(x: F) -> f32 {
 
 /// The shaft of a point and the bounds of a group.
 pub struct Shaft {
-    y: [f32; 3],
+    pub y: [f32; 3],
     /// B - y, without zeros, and the inverses.
-    lower: [f32; 3],
-    upper: [f32; 3],
+    pub lower: [f32; 3],
+    pub upper: [f32; 3],
     inverse_lower: [f32; 3],
     inverse_upper: [f32; 3],
     /// Not less than any coordinate; not finite where one is not.
-    magnitude: f32,
+    pub magnitude: f32,
     /// The square of the longest segment.
-    length2: f32,
+    pub length2: f32,
 }
 
 impl Shaft {

@@ -18,6 +18,7 @@
 //! The rays' own densities count, so members that sample a glossy lobe join those that do not; glossy y, mirrors and
 //! glass behind x and the light that the ray itself meets stay with the path's own pixel.
 
+use super::fan::Fan;
 use super::materials::{Bsdf, Packed};
 use super::reach::Slabs;
 use super::shaft::{Ends, Left, Obstacles, Shaft};
@@ -306,6 +307,7 @@ pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usiz
     rays.len = 0;
     let mut segments =
         Segments { direction: [[0.0; 64]; 3], distance: [0.0; 64], from: [0; 64], blocked: 0, reaching: 0, own: 0 };
+    let mut fan = Fan::new();
     let (mut ends, mut ends_of) = (Ends::new(), u32::MAX);
     let mut j = next;
     while j < suffixes.len && rays.len + 64 <= PATHS {
@@ -328,12 +330,18 @@ pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usiz
             batch.groups.hidden[j] = segments.blocked | !users;
             batch.counters.segments += u64::from(users.count_ones()) - 1;
             let mut traced = segments.reaching & users & !segments.own;
-            if traced != 0
-                && let Some(boxes) = &scene.second_boxes
-            {
-                let second = obstacles.second_left::<F>(&shaft);
-                if second.count_ones() <= MOST_BOXES {
-                    traced = segments.passing::<F>(boxes, second, members, group, traced);
+            if traced != 0 {
+                let few = scene.occluders.as_ref().filter(|few| !few.may_be_covered(suffixes.primitive[j]));
+                if let Some(few) = few {
+                    fan.find::<F>(few, &ends, &shaft, suffixes.primitive[j]);
+                    let others = obstacles.others_left::<F>(&shaft);
+                    let beyond = segments.passing::<F>(&few.boxes, others, members, group, traced);
+                    traced = beyond | fan.in_doubt::<F>(members, group, &segments.from, traced);
+                } else if let Some(boxes) = &scene.second_boxes {
+                    let second = obstacles.second_left::<F>(&shaft);
+                    if second.count_ones() <= MOST_BOXES {
+                        traced = segments.passing::<F>(boxes, second, members, group, traced);
+                    }
                 }
             }
             while traced != 0 {
