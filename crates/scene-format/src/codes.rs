@@ -387,6 +387,16 @@ codes! {
     /// Scene(cameras: { "a": Camera(), "b": Camera() }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNDECIDED_CAMERA "E0411" "no camera is chosen";
+    /// A `group` of lights has a name that no layer of a picture can have: too long, or `rest`, which is what the lights
+    /// are called together that are of no group.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     lights: [SphereLight(center: (0, 5, 5), radius: 1, power: 100, group: "rest")],
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    LIGHT_GROUP "E0412" "no name for a group of lights";
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.

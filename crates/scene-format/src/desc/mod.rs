@@ -17,6 +17,7 @@ pub(crate) mod group;
 mod include;
 mod lens;
 mod light;
+mod light_group;
 mod materials;
 pub(crate) mod matrix;
 mod moments;
@@ -44,6 +45,7 @@ pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;
 pub use lens::{Focus, ThinLens};
 pub use light::{Emission, Light, SphereLight};
+pub use light_group::LightGroup;
 pub use materials::{
     Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
     Transparent,

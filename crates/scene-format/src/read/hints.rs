@@ -244,6 +244,10 @@ const LAYERS: Hints = &[
         &["cryptomatte", "crypto", "cryptoobject", "crypto_object", "cryptomaterial", "crypto_material", "cryptoasset"],
         "Cryptomatte has a field of its own beside `layers`: `cryptomatte: [Objects, Materials]`",
     ),
+    (
+        &["lightgroup", "light_group", "light_groups", "lightgroups", "lights", "lpe"],
+        "groups of lights have a field of their own beside `layers`: `light_groups: true`",
+    ),
     (&["mask", "matte", "object_mask", "objectmask"], "masks have a field of their own beside `layers`: masks: [..]"),
 ];
 

@@ -489,6 +489,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             emission: emission.into(),
             camera_visible: random.below(4) != 0,
             name: name(random),
+            group: light_group(random),
         })
     };
     let defaults = SceneDesc::default();
@@ -537,6 +538,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             backdrop: if random.below(2) == 0 { None } else { Some([random.unit(), 0.25, 1.0].into()) },
             cryptomatte: (0..random.below(3)).map(|_| *random.pick(&[Matte::Objects, Matte::Materials])).collect(),
             masks: objects.iter().filter_map(|object| object.value.name().as_str()).take(2).map(mask).collect(),
+            light_groups: random.below(2) == 0,
             marks: (0..random.below(3)).map(|k| mark(k, random)).collect(),
         },
         background: match random.below(3) {
@@ -546,6 +548,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 rotation: number(random, -400.0, 400.0),
                 up: [1.0, number(random, -1.0, 1.0), 0.0].into(),
                 camera_visible: random.below(2) == 0,
+                group: light_group(random),
             })),
             _ => share(random).into(),
         },
@@ -557,6 +560,10 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         objects,
         ..defaults
     }
+}
+
+fn light_group(random: &mut Random) -> LightGroup {
+    LightGroup::from((random.below(3) == 0).then(|| format!("of {}", text(random))))
 }
 
 fn mask(name: &str) -> Spanned<MaskName> {

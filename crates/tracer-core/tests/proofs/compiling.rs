@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::{DMat3, DVec3};
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Instances, Name, Object, Placements, Shading, SphereLight, Transform};
+use scene_format::desc::{Emission, Instances, LightGroup, Name, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -60,6 +60,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 emission: emission.clone().into(),
                 camera_visible: true,
                 name: Name::default(),
+                group: LightGroup::default(),
             };
             let floor = mesh(&square(1.0).obj("square-1"), diffuse([albedo; 3]), Shading::Flat, vec![]);
             let desc = scene(8, vec![lamp], vec![floor]).camera([-0.3, 0.4, 0.0], [0.0, 0.0, 0.0], 0.01).bounces(0);

@@ -127,6 +127,8 @@ pub struct Asked<'a> {
     pub backdrop: bool,
     /// What is counted for mattes.
     pub mattes: MattesKept,
+    /// The names of the light groups that are kept apart.
+    pub light_groups: &'a [String],
     /// As [`notes`] gives them.
     pub notes: &'a [Note],
 }
@@ -152,6 +154,7 @@ impl<'a> Asked<'a> {
             layers: told::layers(head),
             backdrop: head.has_backdrop(),
             mattes: head.mattes(),
+            light_groups: head.light_groups(),
             notes: &head.notes,
         }
     }
@@ -193,6 +196,8 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     if is_part || head.mattes() != asked.mattes {
         compare("the choice of mattes", mattes_told(&head.notes), mattes_told(asked.notes));
     }
+    let groups = told::light_groups;
+    compare("the set of light groups", groups(head.light_groups()), groups(asked.light_groups));
     let layers = told::layers(head);
     if layers != asked.layers {
         let there = told::asked_layers(&layers, &head.notes, head.has_backdrop(), head.mattes());

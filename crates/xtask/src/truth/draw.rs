@@ -5,10 +5,7 @@ use super::textures::albedo;
 use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
-use scene_format::desc::{
-    Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, Material, MaterialRef,
-    Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform,
-};
+use scene_format::desc::{Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, LightGroup, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform};
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
 use tracer_reference::Random;
@@ -45,6 +42,11 @@ pub fn color(random: &mut Random) -> Color {
     if once_in(random, 2) { [brightness; 3] } else { [0; 3].map(|_| random.between(0.05, 0.9)) }
 }
 
+/// A group of lights, or none. It shows in no picture without `light_groups`.
+pub fn group(random: &mut Random) -> LightGroup {
+    LightGroup::from(once_in(random, 3).then(|| ["key", "fill", "sky"][random.below(3) as usize]))
+}
+
 /// Light from where no object is: a colour, or a coarse picture of it with a bright patch.
 pub fn background(world: &mut World, random: &mut Random) -> Background {
     let sky = color(random);
@@ -65,7 +67,8 @@ pub fn background(world: &mut World, random: &mut Random) -> Background {
     let rotation = if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) };
     let scale = if once_in(random, 2) { [times; 3] } else { color(random).map(|c| times * c) };
     let camera_visible = !once_in(random, 3);
-    Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible }))
+    let group = group(random);
+    Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible, group }))
 }
 
 /// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.

@@ -1,11 +1,7 @@
 //! Scenes written in code.
 
 use scene_format::SceneDesc;
-use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Material, MaterialRef, Mesh,
-    MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
-    TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
-};
+use scene_format::desc::{Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, LightGroup, Material, MaterialRef, Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3};
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
 
@@ -60,6 +56,7 @@ pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
         emission: Emission::Radiance(radiance).into(),
         camera_visible: true,
         name: Name::default(),
+        group: LightGroup::default(),
     }
 }
 
