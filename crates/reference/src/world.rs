@@ -54,15 +54,15 @@ pub struct World {
 impl World {
     pub fn new(scene: &Scene) -> Self {
         let loose = (scene.spheres.len() + scene.shapes.len()) as u32;
-        let triangles = (loose..).zip(&scene.instances).flat_map(|(body, instance)| {
+        let triangles = (loose..).zip(scene.instances.iter()).flat_map(|(body, instance)| {
             let mesh = scene.meshes[instance.mesh as usize];
             (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count)
                 .map(move |k| triangle(scene, body, instance, k))
         });
         World {
-            spheres: scene.spheres.clone(),
-            curved: scene.shapes.clone(),
-            solids: scene.solids.clone(),
+            spheres: scene.spheres.to_vec(),
+            curved: scene.shapes.to_vec(),
+            solids: (*scene.solids).clone(),
             first_operand: loose + scene.instances.len() as u32,
             triangles: triangles.collect(),
             hidden: scene.camera_sees.as_ref().map_or_else(Vec::new, |seen| seen.hidden.clone()),

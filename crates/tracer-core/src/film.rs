@@ -20,8 +20,8 @@ mod state;
 
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
-pub(crate) use groups::{FilmGroups, Samples};
 use groups::TileGroups;
+pub(crate) use groups::{FilmGroups, Samples};
 use halves::TileHalf;
 pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;

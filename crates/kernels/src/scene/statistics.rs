@@ -79,7 +79,7 @@ impl Scene {
 
     fn bounds(&self) -> Option<WorldBounds> {
         let mut all = Bounds::EMPTY;
-        for sphere in &self.spheres {
+        for sphere in self.spheres.iter() {
             all.add(sphere.center - DVec3::splat(sphere.radius));
             all.add(sphere.center + DVec3::splat(sphere.radius));
         }
@@ -89,7 +89,7 @@ impl Scene {
             all.add(high);
         }
         let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| self.mesh_bounds(mesh)).collect();
-        for instance in &self.instances {
+        for instance in self.instances.iter() {
             let Some(mesh) = meshes.get(instance.mesh as usize).filter(|mesh| mesh.min.x <= mesh.max.x) else {
                 continue;
             };

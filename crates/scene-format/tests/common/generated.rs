@@ -52,7 +52,8 @@ fn material(random: &mut Random) -> Material {
         4 => {
             let color = share(random).map(|channel| channel * 1e3);
             let amount = if random.below(2) == 0 { Amount::Radiance(color) } else { Amount::Power(color) };
-            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided: random.below(2) == 0 }))
+            let (two_sided, group) = (random.below(2) == 0, light_group(random));
+            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group }))
         }
         1 => Material::Mirror(Mirror { reflectance: share(random).into() }),
         2 => Material::Transparent(Box::new(Transparent {

@@ -1,8 +1,8 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
 use super::grid::Grid;
-use super::observer::{Observer, Progress};
 use super::lighting::Lighting;
+use super::observer::{Observer, Progress};
 use super::technique::{OnFilm, Technique};
 use super::trace::trace;
 use super::watcher::Unwatched;
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use tracer_kernels::engine::batch::{Batch, ITEMS, PATHS};
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
-use tracer_kernels::layers::LayerSet;
+use tracer_kernels::layers::{LayerSamples, LayerSet};
 use tracer_kernels::report::Stage;
 use tracer_kernels::sampling::blocks::{Item, QUARTERS, slots_of_block};
 
@@ -163,9 +163,10 @@ pub struct Painter<'a> {
 impl Painter<'_> {
     /// The techniques, and the number of the lighting whose they are.
     pub fn techniques(&mut self) -> impl Iterator<Item = (usize, &mut Box<dyn Technique>)> {
-        self.lightings.iter_mut().enumerate().flat_map(|(k, lighting)| {
-            lighting.techniques.iter_mut().map(move |technique| (k, technique))
-        })
+        self.lightings
+            .iter_mut()
+            .enumerate()
+            .flat_map(|(k, lighting)| lighting.techniques.iter_mut().map(move |technique| (k, technique)))
     }
 
     /// Whether pixels share, in any lighting.
@@ -316,17 +317,18 @@ impl Painter<'_> {
         let mut added = 0;
         for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
             let slots = slots_of_block(first);
+            let half = half_of(batch.items[first].sample);
             cells.each(&batch.pixels, slots.start, |tile, common| {
                 if totals.is_empty() {
                     let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
                     let left_out = tile.add(samples, common);
                     batch.counters.dropped += left_out.dropped;
                     batch.counters.beyond += left_out.beyond;
-                    self.add_parts(samples, tile, batch, first, common);
+                    self.add_parts(samples, tile, (&batch.layers, half), first, common);
                 } else {
                     let totals = &totals[slots.clone()];
                     tile.count_totals(totals, common);
-                    self.add_parts(totals, tile, batch, first, common);
+                    self.add_parts(totals, tile, (&batch.layers, half), first, common);
                 }
                 tile.add_layers(&batch.layers, first, common);
                 if !self.mattes.is_empty() {
@@ -339,25 +341,25 @@ impl Painter<'_> {
         added
     }
 
-    /// Adds what is summed apart of the samples of the block whose first item this is: the background, and halves.
+    /// Adds what is summed apart of the samples of the block whose first item this is, which are of this half: the
+    /// background, and halves.
     fn add_parts(
         &self,
         samples: impl Samples + Copy,
         tile: &mut Tile,
-        batch: &Batch,
+        (layers, half): (&LayerSamples, usize),
         first: usize,
         common: &[[u8; 2]],
     ) {
-        let half = half_of(batch.items[first].sample);
         if self.backdrop {
-            tile.add_missed(samples, &batch.layers, first, common, half);
+            tile.add_missed(samples, layers, first, common, half);
         }
         if half == 1 {
             tile.add_half(samples, common);
         }
         if let Some(place) = self.lamps {
             let slots = slots_of_block(first);
-            let lamps = [0, 1, 2].map(|c| &batch.layers.sums[place + c][slots.clone()]);
+            let lamps = [0, 1, 2].map(|c| &layers.sums[place + c][slots.clone()]);
             tile.add_lamps(half, lamps, common, self.limit);
         }
     }

@@ -74,7 +74,13 @@ impl<'a> Cells<'a> {
 
     /// Adds what a light path of a half of the samples, and of a group of so many, brings to a pixel, if it is one of
     /// the crop.
-    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3], (limit, half): (Option<f64>, usize), group: Option<[usize; 2]>) {
+    pub fn splat(
+        &self,
+        [x, y]: [i32; 2],
+        brings: [f32; 3],
+        (limit, half): (Option<f64>, usize),
+        group: Option<[usize; 2]>,
+    ) {
         let Crop { x: left, y: top, width, height } = self.crop;
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x < left || y < top || x - left >= width || y - top >= height {

@@ -211,7 +211,8 @@ impl FilmHead {
             layers.push(SavedLayer { name, units: [real(from)?, real(from)?, real(from)?, real(from)?] });
         }
         let of_background = number(from)?;
-        let mut groups = FilmGroups { of_background: Some(of_background).filter(|&k| k != u32::MAX), names: Vec::new() };
+        let mut groups =
+            FilmGroups { of_background: Some(of_background).filter(|&k| k != u32::MAX), names: Vec::new() };
         for _ in 0..number(from)? {
             groups.names.push(text(from)?);
         }
@@ -274,7 +275,8 @@ impl FilmHead {
     pub fn bytes(&self) -> u64 {
         let layers = self.layers.iter().filter_map(|layer| Some(layer.layer()?.layer)).collect();
         Film::bytes_of(self.crop, self.clamp.is_some(), true, layers, self.halves)
-            + tile_count(self.crop) as u64 * (self.mattes.bytes() + TileGroups::most_bytes(self.light_groups().len())) as u64
+            + tile_count(self.crop) as u64
+                * (self.mattes.bytes() + TileGroups::most_bytes(self.light_groups().len())) as u64
     }
 
     /// The mattes that it holds.

@@ -237,9 +237,8 @@ impl Film {
         [0, 1, 2].map(|c| (mean[c] + light[c]) * self.unit)
     }
 
-    /// Whether the groups' sums are the picture's, number by number.
-    #[cfg(test)]
-    pub(crate) fn groups_are_all(&self) -> bool {
+    /// Whether the groups' sums are the picture's, as whole numbers: so they are wherever groups are kept.
+    pub fn groups_are_all(&self) -> bool {
         let of_tile = |tile: &Tile| {
             let groups = || tile.groups.iter().flat_map(|groups| &groups.0);
             (0..PIXELS).flat_map(|pixel| [0, 1, 2].map(|c| (c, pixel))).all(|(c, pixel)| {

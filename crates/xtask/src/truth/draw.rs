@@ -5,7 +5,10 @@ use super::textures::albedo;
 use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
-use scene_format::desc::{Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, LightGroup, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform};
+use scene_format::desc::{
+    Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, LightGroup, Material,
+    MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform,
+};
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
 use tracer_reference::Random;

@@ -2,7 +2,11 @@
 
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
-use scene_format::desc::{Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material, MaterialRef, Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent};
+use scene_format::desc::{
+    Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material,
+    MaterialRef, Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform,
+    Transparent,
+};
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
 use std::collections::BTreeMap;

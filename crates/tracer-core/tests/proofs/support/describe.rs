@@ -1,7 +1,11 @@
 //! Scenes written in code.
 
 use scene_format::SceneDesc;
-use scene_format::desc::{Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, LightGroup, Material, MaterialRef, Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture, TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3};
+use scene_format::desc::{
+    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, LightGroup, Material, MaterialRef,
+    Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
+    TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
+};
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
 
