@@ -22,6 +22,7 @@ mod hidden;
 mod inspect;
 mod integrators;
 mod layers;
+mod light_groups;
 mod marks;
 mod matrix;
 mod mattes;
