@@ -11,7 +11,8 @@ use tracer_core::Image;
 use tracer_picture::{Bits, Encoding, Provenance, Setting, encode, is_one_file, save};
 
 /// Puts a picture into a dictionary: `width`, `height`, `linear` and `display` (with alpha where there is one),
-/// `layers` (name, channels, numbers; light groups as `light.key`), `samples`, `noise`, `stopped`, `note`, and the functions `encode` and `save`.
+/// `layers` (name, channels, numbers; light groups as `light.key`), `samples`, `noise`, `stopped`, `note`, and the
+/// functions `encode` and `save`.
 ///
 /// # Errors
 /// When there is no memory.

@@ -387,8 +387,8 @@ codes! {
     /// Scene(cameras: { "a": Camera(), "b": Camera() }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNDECIDED_CAMERA "E0411" "no camera is chosen";
-    /// A `group` of lights has a name that no layer of a picture can have: too long, or `rest`, which is what the lights
-    /// are called together that are of no group.
+    /// A `group` of lights has a name that no layer of a picture can have: too long, or `rest`, which is what the
+    /// lights are called together that are of no group.
     ///
     /// ```ron
     /// Scene(

@@ -25,7 +25,7 @@ pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
 use crate::film::{Crop, Film, FilmGroups, Keeper};
-use crate::scene::{LightGroups, Scene};
+use crate::scene::Scene;
 use grid::Grid;
 use lighting::Lighting;
 use passes::{Painter, Passes, SAMPLES, is_looked_at};
@@ -103,8 +103,7 @@ fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
 fn new_film_of(scene: &Scene, options: &RenderOptions) -> Film {
     let mut film = new_film(scene, options);
     if let Some(groups) = scene.light_groups.as_ref().filter(|_| options.light_groups != Some(false)) {
-        let LightGroups { names, of_background, .. } = groups.clone();
-        film.keep_groups(FilmGroups { names, of_background });
+        film.keep_groups(FilmGroups { names: groups.names.clone(), of_background: groups.of_background });
     }
     film
 }

@@ -163,9 +163,8 @@ impl FilmHead {
             text(name, &mut out);
             out.extend(units.iter().flat_map(|x| x.to_bits().to_le_bytes()));
         }
-        let FilmGroups { names, of_background } = &self.groups;
-        out.extend([of_background.unwrap_or(u32::MAX), names.len() as u32].into_iter().flat_map(u32::to_le_bytes));
-        names.iter().for_each(|name| text(name, &mut out));
+        out.extend(self.groups.numbers().into_iter().flat_map(u32::to_le_bytes));
+        self.groups.names.iter().for_each(|name| text(name, &mut out));
         let mut head = MAGIC.to_vec();
         head.extend([FORMAT, out.len() as u32].into_iter().flat_map(u32::to_le_bytes));
         head.extend(out);
@@ -210,12 +209,9 @@ impl FilmHead {
             let name = text(from)?;
             layers.push(SavedLayer { name, units: [real(from)?, real(from)?, real(from)?, real(from)?] });
         }
-        let of_background = number(from)?;
-        let mut groups =
-            FilmGroups { of_background: Some(of_background).filter(|&k| k != u32::MAX), names: Vec::new() };
-        for _ in 0..number(from)? {
-            groups.names.push(text(from)?);
-        }
+        let (of_background, count) = (number(from)?, number(from)?);
+        let names = (0..count).map(|_| text(from)).collect::<Option<Vec<_>>>()?;
+        let groups = FilmGroups::from_number(of_background, names);
         let head = FilmHead {
             program,
             notes,

@@ -19,6 +19,18 @@ pub(crate) struct FilmGroups {
     pub of_background: Option<u32>,
 }
 
+impl FilmGroups {
+    /// As the head of a saved film has them, before their names: which is the background's, and how many there are.
+    pub fn numbers(&self) -> [u32; 2] {
+        [self.of_background.unwrap_or(u32::MAX), self.names.len() as u32]
+    }
+
+    /// Back again.
+    pub fn from_number(of_background: u32, names: Vec<String>) -> Self {
+        FilmGroups { names, of_background: Some(of_background).filter(|&group| group != u32::MAX) }
+    }
+}
+
 /// What a tile holds of its groups.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TileGroups(Vec<OfGroup>);

@@ -26,7 +26,10 @@ const SCENE: &str = r#"Scene(
         Plane(material: "matt"),
         Plane(point: (0, 0, -3), normal: (0, 0, 1), material: "matt"),
         Rectangle(center: (3, 2, 1), normal: (-1, 0, 0), size: 1, material: "panel"),
-        Disk(center: (-3, 1.5, 0), normal: (1, 0, 0), radius: 0.5, material: Emissive(radiance: "=12*key", group: "key")),
+        Disk(
+            center: (-3, 1.5, 0), normal: (1, 0, 0), radius: 0.5,
+            material: Emissive(radiance: "=12*key", group: "key"),
+        ),
         Box(center: (0, 3, 0), size: 0.3, material: Emissive(radiance: "=6*fill", group: "fill")),
         Sphere(center: (0.3, 0.2, 2), radius: 0.2, material: Emissive(radiance: "=4*rest")),
         Sphere(center: (-1, 0.8, 0), radius: 0.8, material: Transparent(ior: 1.5)),

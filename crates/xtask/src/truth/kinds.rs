@@ -539,5 +539,6 @@ pub fn case(seed: u64, size: u32) -> Case {
     if relation == Relation::Path && once_in(random, 2) {
         draw::hide(&mut world, random);
     }
+    draw::light_groups(&mut world, random);
     Case { seed, kind, world, relation, hard }
 }
