@@ -453,14 +453,18 @@ impl Film {
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        let samples = tile.samples[pixel];
-        let [r, g, b] = match &tile.splats {
-            None => tile.sums.mean(pixel, samples),
+        self.mean(&tile.sums, tile.splats.as_ref().map(|splats| &splats.sums), pixel, tile.samples[pixel])
+    }
+
+    /// Mean radiance of a pixel that has so many samples, over what they and what light paths have brought.
+    #[inline(always)]
+    fn mean(&self, sums: &Sums, splats: Option<&Sums>, pixel: usize, samples: u32) -> [f64; 3] {
+        let [r, g, b] = match splats {
+            None => sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if samples == self.light_count() => tile.sums.mean_with(&splats.sums, pixel, samples),
+            Some(splats) if samples == self.light_count() => sums.mean_with(splats, pixel, samples),
             Some(splats) => {
-                let (of_paths, of_light) =
-                    (tile.sums.mean(pixel, samples), splats.sums.mean(pixel, self.light_count()));
+                let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_count()));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
             }
         };

@@ -244,9 +244,7 @@ impl Film {
     pub fn radiance_of_group(&self, group: usize, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         let Some(of) = tile.groups.as_ref().and_then(|groups| groups.0.get(group)) else { return [0.0; 3] };
-        let mean = of.sums.mean(pixel, tile.samples[pixel]);
-        let light = of.splats.as_ref().map_or([0.0; 3], |splats| splats.mean(pixel, self.light_count()));
-        [0, 1, 2].map(|c| (mean[c] + light[c]) * self.unit)
+        self.mean(&of.sums, of.splats.as_deref(), pixel, tile.samples[pixel])
     }
 
     /// Whether the groups' sums are the picture's, as whole numbers: so they are wherever groups are kept.

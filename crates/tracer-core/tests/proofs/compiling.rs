@@ -213,7 +213,7 @@ fn copies_are_flattened_as_the_scene_says() {
     // 80 triangles each.
     assert_eq!(always.triangles.vertices.len(), 80);
     assert_eq!(never.triangles.vertices.len(), 4 * 80);
-    for (ours, theirs) in always.instances.iter().zip(&never.instances) {
+    for (ours, theirs) in always.instances.iter().zip(never.instances.iter()) {
         let rows = ours.placement.expect("an instance").map(|row| row.map(f64::from));
         let moved = |p: DVec3| DVec3::from(rows.map(|[x, y, z, w]| DVec3::new(x, y, z).dot(p) + w));
         let [x, y, z] = rows.map(|[x, y, z, _]| DVec3::new(x, y, z));

@@ -227,7 +227,9 @@ fn one(
     if let Some(part) = part.filter(|_| shell.is_told()) {
         shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
     } else if shell.is_told() {
-        let samples = film.counters.camera_rays - before.counters.camera_rays;
+        // Each group has camera rays of its own.
+        let groups = film.light_groups().len().max(1) as u64;
+        let samples = (film.counters.camera_rays - before.counters.camera_rays) / groups;
         let speed = match samples {
             0 => "all samples were there".to_owned(),
             samples => rate(samples as f64 / seconds.render),
