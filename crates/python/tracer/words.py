@@ -349,6 +349,7 @@ class Output(TypedDict, total=False):
     backdrop: A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still lights the scene, and shows in mirrors and through glass.
     cryptomatte: Mattes that EXR files get beside the picture, in the form of Cryptomatte: compositing programs cut out any object or material by its name, with soft edges.
     masks: Masks that EXR files get beside the picture: for each of these names the share of every pixel that the objects and lights of that name cover, as `mask.NAME.Y`.
+    light_groups: Tells apart what each group of lights brings: EXR files get `light.GROUP.R`, `.G`, `.B` for every `group` that lights, shining objects and the background have, and `light.rest.R`, `.G`, `.B` for those that have none. They sum to the picture. Each sample is traced once for every group.
     marks: Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how far away it is, and whether something hides it: for labels that are laid over the picture.
     """
 
@@ -357,6 +358,7 @@ class Output(TypedDict, total=False):
     backdrop: Any
     cryptomatte: Sequence[Either[Matte, RepeatItem, PickItem]]
     masks: Sequence[Either[str, RepeatItem, PickItem]]
+    light_groups: Either[bool, str, PickItem]
     marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
@@ -378,12 +380,14 @@ class Environment(_EnvironmentRequired, total=False):
     rotation: Turns it about `up`, counter-clockwise seen from there. Unit: degrees.
     up: Direction of the top row.
     camera_visible: Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
+    group: The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told apart. Several may have one.
     """
 
     scale: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
     rotation: Either[float, str, PickItem]
     up: Either[Sequence[Either[float, str]], Array, str, PickItem]
     camera_visible: Either[bool, str, PickItem]
+    group: Any
 
 
 Light = SphereLightItem
@@ -403,6 +407,7 @@ class SphereLight(_SphereLightRequired, total=False):
     power: Power: L = P / (4 pi^2 r^2). Unit: W.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen in mirrors and through glass.
     name: What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
+    group: The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told apart. Several may have one.
     """
 
     intensity: Any
@@ -410,6 +415,7 @@ class SphereLight(_SphereLightRequired, total=False):
     power: Any
     camera_visible: Either[bool, str, PickItem]
     name: Any
+    group: Any
 
 
 Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
@@ -792,11 +798,13 @@ class Emissive(TypedDict, total=False):
     radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
     power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Unit: W.
     two_sided: Whether it shines to both sides; else only to the normal's: outwards.
+    group: The group of lights that what shines so is of: with `output.light_groups`, what each group brings to the picture is told apart.
     """
 
     radiance: Any
     power: Any
     two_sided: Either[bool, str, PickItem]
+    group: Any
 
 
 Object = Either["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "UnionItem", "IntersectionItem", "DifferenceItem", "GroupItem", "IncludeItem"]
