@@ -27,8 +27,8 @@ use tracer_kernels::sampling::blocks::ITEM_PIXELS;
 use tracer_kernels::scene::Integrator;
 
 /// Explains a sample of a pixel, lit by all lights at once also where the picture tells light groups apart; `None`
-/// where the picture has no such pixel or is of no light (`render.integrator: AmbientOcclusion`), or something is wrong with
-/// the scene as the sample sees it ([`Scene::at_sample`]).
+/// where the picture has no such pixel or is of no light (`render.integrator: AmbientOcclusion`), or something is
+/// wrong with the scene as the sample sees it ([`Scene::at_sample`]).
 ///
 /// # Examples
 ///
