@@ -178,8 +178,8 @@ objects, `Include(file: \"chair.ron\", vars: {
 \"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's \
 objects and lights.
 
-- Names of the including file win against those of `include`, and of two files those of the later; the expressions of their \
-`vars` see the names that won. Materials and textures of a file keep the textures that it names itself.
+- Names of the including file win against those of `include`, and of two files those of the later; the expressions of \
+their `vars` see the names that won. Materials and textures of a file keep the textures that it names itself.
 - An `Include` has names of its own: it sees no `vars`, textures and materials of this scene, nor \
 this scene its. `vars` and \
 `materials` give names that
@@ -430,7 +430,8 @@ fn value(field: &FieldDef) -> String {
         Type::OneOf([Type::Color, Type::Later(_)]) | Type::Optional(Type::OneOf([Type::Color, Type::Later(_)])) => {
             let words = field.rule.range.words();
             format!(
-                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", a {}, or a name from `textures`",
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", a {}, or a name from \
+                 `textures`",
                 link("Texture")
             )
         }

@@ -149,7 +149,7 @@ fn what_is_no_colour_and_no_name_is_told() {
     }
     let unknown = &errors(&with(bricks, "\"briks\""), Syntax::Ron)[0];
     assert_eq!(unknown.expected, "a colour, or a name from `textures`: `bricks` or `clouds`");
-    assert_eq!(unknown.hint, "did you mean \"bricks\"?");
+    assert_eq!(unknown.hint, "did you mean `bricks`?");
     let nothing = &errors(&with("", "\"sandstone\""), Syntax::Ron)[0];
     assert_eq!(nothing.expected, "a colour, or a texture written here: `textures` is empty");
     let bare = &errors(&with(bricks, "bricks"), Syntax::Ron)[0];

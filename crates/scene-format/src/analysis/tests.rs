@@ -246,7 +246,8 @@ fn words_of_expressions_are_explained() {
 
 #[test]
 fn textures_are_found_and_renamed() {
-    let text = "Scene(textures: { \"bricks\": Lines(), \"wall\": Mix(a: \"bricks\", b: \"#b3202c\"), \"old\": \"bricks\" }, \
+    let text = "Scene(textures: { \"bricks\": Lines(), \"wall\": Mix(a: \"bricks\", b: \"#b3202c\"), \
+                \"old\": \"bricks\" }, \
                 materials: { \"bricks\": Diffuse(albedo: \"bricks\"), \"m\": Diffuse(albedo: \"|\") }, \
                 objects: [Box(material: \"bricks\")])";
     offers(text, Ron, &["bricks", "wall"], &["Checkerboard", "m"]);

@@ -161,8 +161,8 @@ scene_struct! {
         background: Background = Background::default() => Rule::light("in W/(sr m^2)");
         /// Lights. A scene needs one, or a background.
         lights: Vec<Spanned<Light>> = Vec::new();
-        /// Textures by name, for colours of materials and of other textures: `albedo: "bricks"`. A text that begins with
-        /// `#` is a colour there, and one that begins with `=` an expression; any other is a name.
+        /// Textures by name, for colours of materials and of other textures: `albedo: "bricks"`. A text that begins
+        /// with `#` is a colour there, and one that begins with `=` an expression; any other is a name.
         textures: Vec<Arc<NamedTexture>> = Vec::new() => Rule::share();
         /// Materials by name, for objects to use.
         materials: Vec<NamedMaterial> = Vec::new();
