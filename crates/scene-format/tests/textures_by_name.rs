@@ -167,8 +167,8 @@ fn what_is_no_colour_and_no_name_is_told() {
     assert_eq!(told(&with("\"a\": Noise(), \"a\": Wood()", "\"a\"")), ["E0402 two textures have the name \"a\""]);
     // Where names may be missing none is called unknown.
     assert_eq!(
-        told(&with(bricks, "\"x\"").replace("textures: {", "textures: [").replace("Noise() }", "Noise() ]")).len(),
-        1
+        told(&with("", "\"x\"").replace("textures: {  }", "textures: 3")),
+        ["E0203 the textures of the scene cannot be the number 3"]
     );
 }
 
