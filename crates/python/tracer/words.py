@@ -418,17 +418,6 @@ class SphereLight(_SphereLightRequired, total=False):
     group: Any
 
 
-Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
-
-class Diffuse(TypedDict, total=False):
-    """Lambert: albedo / pi.
-
-    albedo: Reflected share per channel.
-    """
-
-    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
-
-
 Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem"]
 
 class _TextureRequired(TypedDict):
@@ -726,6 +715,17 @@ class Multiply(TypedDict, total=False):
 
     a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+
+
+Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
+
+class Diffuse(TypedDict, total=False):
+    """Lambert: albedo / pi.
+
+    albedo: Reflected share per channel.
+    """
+
+    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
 class Mirror(TypedDict, total=False):
@@ -1500,7 +1500,7 @@ class _IncludeRequired(TypedDict):
 
 
 class Include(_IncludeRequired, total=False):
-    """The objects and lights of another scene, moved and copied as one. Its names are its own: materials and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
+    """The objects and lights of another scene, moved and copied as one. Its names are its own: materials, textures and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
 
     file: The scene file, in any syntax. Paths in it start from its own folder.
     vars: Other values for its `vars`.
@@ -1538,6 +1538,7 @@ _SceneDictFields = TypedDict("_SceneDictFields", {
     "output": "Output",
     "background": "Either[float, Sequence[Either[float, str]], Array, str, Background, PickItem]",
     "lights": "Sequence[Either[Light, RepeatItem, PickItem]]",
+    "textures": "Dict[str, Either[float, Sequence[Either[float, str]], Array, str, Pattern]]",
     "materials": "Dict[str, Material]",
     "$schema": "str",
 }, total=False)
@@ -1547,7 +1548,7 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     """A whole scene: one file.
 
     version: Version of the language. Files of version 1 load for ever.
-    include: Files whose `vars`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
+    include: Files whose `vars`, `textures`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
     vars: Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
     animation: Frames and time, for expressions.
     cameras: Cameras by name.
@@ -1558,6 +1559,7 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     output: What is written beside the picture.
     background: Radiance of everything that no object covers. Unit: W/(sr m^2).
     lights: Lights. A scene needs one, or a background.
+    textures: Textures by name, for colours of materials and of other textures: `albedo: "bricks"`. A text that begins with `#` is a colour there, and one that begins with `=` an expression; any other is a name.
     materials: Materials by name, for objects to use.
     objects: What is to be seen; at least one.
     $schema: Where this schema is, for the editor.

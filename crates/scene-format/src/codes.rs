@@ -345,24 +345,31 @@ codes! {
     BAD_SET_SYNTAX "E0404" "--set is not of the form path=value";
     /// The number in brackets in a `--set` path is beyond the end of the list: lists count from 0.
     BAD_SET_INDEX "E0405" "--set counts beyond the end of a list";
-    /// `vars` of an `Include` give a value to a name that the included scene has no var of. Write one that it has.
+    /// A text where a colour is due names no texture: it is neither `"#rrggbb"` nor in `textures`. Or `vars` of an
+    /// `Include` give a value to a name that the included scene has no var of. Write a name that there is.
     ///
-    /// ```text
-    /// Scene(background: 1, objects: [Include(file: "chair.ron", vars: { "hight": 0.5 })])
+    /// ```ron
+    /// Scene(
+    ///     textures: { "clouds": Noise(), "bricks": Lines() },
+    ///     materials: { "sky": Diffuse(albedo: "clouds"), "wall": Diffuse(albedo: "briks") },
+    ///     background: 1,
+    ///     objects: [Box(material: "wall"), Sphere(center: (0, 2, 0), radius: 1, material: "sky")],
+    /// )
     /// ```
-    UNKNOWN_VAR "E0406" "an unknown var of an included scene";
-    /// Values of `vars` need each other to be reckoned.
+    UNKNOWN_NAME "E0406" "an unknown texture, or var of an included scene";
+    /// Values of `vars` need each other to be reckoned, textures are made of each other, or files include each other.
     ///
     /// ```ron
     /// Scene(vars: { "a": "=b+1", "b": "=2*a" }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=a")])
     /// ```
-    CIRCLE "E0407" "values that stand for each other";
-    /// A name in `vars` cannot be used in an expression: it is no plain word, or a function's.
+    CIRCLE "E0407" "things that need each other";
+    /// A name in `vars` cannot be used in an expression: it is no plain word, or a function's. Or the name of a texture
+    /// begins with `#` or `=`: such a text is a colour, or an expression.
     ///
     /// ```ron
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-    BAD_VAR_NAME "E0408" "a name that no expression can use";
+    BAD_NAME "E0408" "a name that cannot be used";
     /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
     ///
     /// ```ron

@@ -149,12 +149,13 @@ codes! {
     /// )
     /// ```
     UNUSED_MATERIAL "W0401" "a material is not used";
-    /// A name in `vars` that no expression uses. Remove it, or use it.
+    /// A name in `vars` that no expression uses, or a texture that no colour of a material and no other texture names.
+    /// Remove it, or use it.
     ///
     /// ```ron
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-    UNUSED_VAR "W0402" "a var is not used";
+    UNUSED_NAME "W0402" "a var or a texture is not used";
     /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0. Or the camera
     /// has a `shutter`, and no expression asks for `time`, so that nothing is blurred by motion.
     ///

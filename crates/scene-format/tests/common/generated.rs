@@ -2,7 +2,7 @@
 
 use super::Random;
 use super::solid::solid;
-use super::textures::albedo;
+use super::textures::{albedo, named_textures};
 use scene_format::SceneDesc;
 use scene_format::desc::*;
 use scene_format::diagnostic::{Span, Spanned};
@@ -503,7 +503,11 @@ pub fn scene(random: &mut Random) -> SceneDesc {
     let named = NamedCamera { name: "front".to_owned().into(), camera: camera.clone() };
     let cameras = if random.below(3) == 0 { vec![named] } else { Vec::new() };
     let camera_name = cameras.first().map(|named| std::sync::Arc::clone(&named.name.value));
+    let mut materials: Vec<NamedMaterial> =
+        names.iter().map(|name| NamedMaterial { name: name.clone().into(), material: material(random) }).collect();
+    let textures = named_textures(random, &mut materials, &mut objects);
     SceneDesc {
+        textures,
         camera,
         camera_name,
         cameras,
@@ -554,10 +558,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             _ => share(random).into(),
         },
         lights: (0..random.below(3)).map(|_| light(random).into()).collect(),
-        materials: names
-            .iter()
-            .map(|name| NamedMaterial { name: name.clone().into(), material: material(random) })
-            .collect(),
+        materials,
         objects,
         ..defaults
     }
@@ -579,9 +580,11 @@ fn mark(k: usize, random: &mut Random) -> Mark {
 pub fn plain(scene: SceneDesc) -> SceneDesc {
     let mut materials = scene.materials;
     materials.sort_by(|a, b| a.name.value.cmp(&b.name.value));
+    let mut textures = scene.textures;
+    textures.sort_by(|a, b| a.name.value.cmp(&b.name.value));
     let mut cameras = scene.cameras;
     cameras.sort_by(|a, b| a.name.value.cmp(&b.name.value));
     // Who reads only what stands there knows of no other time.
     let moments = Default::default();
-    SceneDesc { cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, moments, ..scene }
+    SceneDesc { textures, cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, moments, ..scene }
 }

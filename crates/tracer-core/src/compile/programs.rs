@@ -11,7 +11,7 @@ use tracer_kernels::scene::{Albedo, Between, Made, Op, PLACES, Program, Space};
 /// What a step works on.
 #[derive(Clone, Copy)]
 enum Operand<'w> {
-    /// A colour or a texture, where a number is wanted or where a colour is.
+    /// A colour or a texture, no name of one, where a number is wanted or where a colour is.
     Of(&'w desc::Albedo, bool),
     /// How far a pattern is from its first part to its second.
     Between(&'w desc::Albedo),
@@ -20,6 +20,7 @@ enum Operand<'w> {
 /// What the texture of these words is made of; nothing where it is one step.
 fn operands(words: &desc::Albedo, number: bool) -> Vec<Operand<'_>> {
     let parts = words.pattern().map_or_else(Vec::new, |pattern| pattern.parts());
+    let parts: Vec<&desc::Albedo> = parts.into_iter().map(desc::Albedo::resolved).collect();
     match (words, &parts[..]) {
         (desc::Albedo::ColorRamp(_), [input]) => vec![Operand::Of(input, true)],
         (desc::Albedo::Mix(_), [a, b, weight]) => {

@@ -51,9 +51,13 @@ pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[St
     let mut lent = SceneDesc { lights: take(&mut desc.lights), ..blank() };
     part("lights", &lent);
     swap(&mut lent.lights, &mut desc.lights);
-    swap(&mut lent.materials, &mut desc.materials);
+    let swap_materials = |lent: &mut SceneDesc, desc: &mut SceneDesc| {
+        swap(&mut lent.textures, &mut desc.textures);
+        swap(&mut lent.materials, &mut desc.materials);
+    };
+    swap_materials(&mut lent, desc);
     part("materials", &lent);
-    swap(&mut lent.materials, &mut desc.materials);
+    swap_materials(&mut lent, desc);
     swap(&mut lent.objects, &mut desc.objects);
     part("objects", &lent);
     swap(&mut lent.objects, &mut desc.objects);
