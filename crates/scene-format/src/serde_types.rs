@@ -64,6 +64,8 @@ of_words![
     ColorRamp,
     Mix,
     Multiply,
+    VertexColor,
+    VertexColorSpace,
     Mapping,
     Object,
     Sphere,

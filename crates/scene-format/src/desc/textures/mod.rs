@@ -11,6 +11,7 @@ mod marble;
 mod mix;
 mod multiply;
 mod noise;
+mod vertex_color;
 mod voronoi;
 mod wood;
 
@@ -26,6 +27,7 @@ pub use marble::Marble;
 pub use mix::Mix;
 pub use multiply::Multiply;
 pub use noise::{Noise, NoiseKind};
+pub use vertex_color::{VertexColor, VertexColorSpace};
 pub use voronoi::{Voronoi, VoronoiFeature};
 pub use wood::Wood;
 
@@ -130,6 +132,8 @@ textures! {
     pattern Mix;
     /// The product of two colours or textures, channel by channel.
     pattern Multiply;
+    /// The colours that the vertices of a mesh have.
+    pattern VertexColor;
 }
 
 impl Albedo {
@@ -148,6 +152,12 @@ impl Albedo {
             found.extend(part.images());
         }
         found
+    }
+
+    /// Whether it, or a part of it, is the colours of vertices.
+    pub fn reads_vertex_colors(&self) -> bool {
+        matches!(self, Albedo::VertexColor(_))
+            || self.pattern().is_some_and(|pattern| pattern.parts().iter().any(|part| part.reads_vertex_colors()))
     }
 
     /// Whether it goes by a surface's texture coordinates.
