@@ -1,7 +1,7 @@
 //! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY, STL and glTF
 //! share.
 
-use super::colors::{NO_COLOR, settled};
+use super::coloring::{NO_COLOR, settled};
 use super::cursor::Fault;
 use super::data::{MAX_COORDINATE, MeshData, NO_INDEX};
 use super::error::MeshError;

@@ -1,6 +1,5 @@
 //! The colours of vertices.
 
-use super::oddities::{Oddities, Oddity};
 use rayon::prelude::*;
 
 /// What of a file is read beside what every mesh has.
@@ -28,15 +27,9 @@ pub enum ColorValues {
     Numbers(Vec<[f32; 3]>),
 }
 
-/// A vertex without a colour, before [`settled`]: no reader has a number that is none.
-pub(super) const NO_COLOR: [f32; 3] = [f32::NAN; 3];
-
 /// How far 255 times a number may be from a whole one, to be a 255th: six digits after the point are off by half of
 /// 1e-6, times 255.
 const OF_SIX_DIGITS: f32 = 2e-4;
-
-/// Beyond 0 to 1 by so much is rounding.
-const ROUNDING: f32 = 1e-6;
 
 impl VertexColors {
     /// Of numbers from 0 to 1, one triple for each vertex; what is beyond is clipped.
@@ -67,33 +60,4 @@ impl VertexColors {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-}
-
-/// What a file says of `vertices` vertices: the colours of the first of them, or [`NO_COLOR`], times `scale`. Those
-/// without are white.
-pub(super) fn settled(
-    mut raw: Vec<[f32; 3]>,
-    vertices: usize,
-    scale: f32,
-    is_srgb: bool,
-    oddities: &mut Oddities,
-) -> Option<VertexColors> {
-    if raw.is_empty() {
-        return None;
-    }
-    raw.resize(vertices, NO_COLOR);
-    let is_beyond = |x: &f32| !(-ROUNDING..=1.0 + ROUNDING).contains(x);
-    let settle = |color: &mut [f32; 3]| {
-        if color.iter().any(|x| x.is_nan()) {
-            *color = [1.0; 3];
-            return [1, 0];
-        }
-        *color = color.map(|x| x * scale);
-        [0, u64::from(color.iter().any(is_beyond))]
-    };
-    let sum = |a: [u64; 2], b: [u64; 2]| [a[0] + b[0], a[1] + b[1]];
-    let [missing, beyond] = raw.par_iter_mut().map(settle).reduce(|| [0; 2], sum);
-    oddities.add_many(Oddity::MissingColor, missing);
-    oddities.add_many(Oddity::ClippedColor, beyond);
-    Some(VertexColors::new(raw, is_srgb))
 }

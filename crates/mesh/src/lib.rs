@@ -24,6 +24,7 @@
 
 mod arrays;
 mod builder;
+mod coloring;
 mod colors;
 mod cursor;
 mod data;

@@ -2,7 +2,8 @@
 
 use super::piece::{FoundCorner, Piece, RawIndex};
 use super::{MOST, Oddities, Oddity};
-use crate::colors::{NO_COLOR, VertexColors, settled};
+use crate::coloring::{NO_COLOR, settled};
+use crate::colors::VertexColors;
 use crate::cursor::{Fault, shown};
 use crate::data::{MeshData, MtlNames, NO_INDEX};
 use crate::error::MeshError;

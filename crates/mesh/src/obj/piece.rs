@@ -1,6 +1,7 @@
 //! One piece of an OBJ file, parsed on its own: what it says, with indices still relative to the piece.
 
-use crate::colors::{NO_COLOR, Wanted};
+use crate::coloring::NO_COLOR;
+use crate::colors::Wanted;
 use crate::cursor::{Blanks, Cursor, Fault, shown};
 use crate::normals::unit;
 use crate::oddities::{Oddities, Oddity};

@@ -39,12 +39,17 @@ impl<'d> Readers<'d> {
 
 /// Objects whose material reads colours that they do not have. Of the same material on the same file, or on shapes of
 /// the same kind, the first is told.
-pub fn check(desc: &SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) {
+pub fn check<'d>(desc: &'d SceneDesc, loaded: &Loaded, diagnostics: &mut Diagnostics) {
     let readers = Readers::of(desc);
-    let mut known: BTreeSet<(Span, String)> = BTreeSet::new();
-    let mut told = |object: &Spanned<Object>, fault: Option<Diagnostic>| {
-        let (Some(at), Some(fault)) = (readers.place_of(object.value.material()), fault) else { return };
-        if known.insert((at, fault.message.clone())) {
+    let mut known: BTreeSet<(Option<&str>, Span, String)> = BTreeSet::new();
+    let mut told = |object: &'d Spanned<Object>, fault: Option<Diagnostic>| {
+        let material = object.value.material();
+        let (Some(at), Some(fault)) = (readers.place_of(material), fault) else { return };
+        let (name, place) = match material {
+            MaterialRef::Named { name, .. } => (Some(&**name), Span::NONE),
+            _ => (None, at),
+        };
+        if known.insert((name, place, fault.message.clone())) {
             diagnostics.push(if at == fault.span { fault } else { fault.label(at, "its material shows them") });
         }
     };

@@ -43,3 +43,4 @@ mod solids;
 mod support;
 mod surfaces;
 mod textures;
+mod vertex_color;

@@ -5,9 +5,9 @@ use super::world::World;
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
+    Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material, Mix, Multiply,
     Noise, NoiseKind, PerAxis, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
-    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Voronoi, VoronoiFeature, Wood,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
 use tracer_reference::Random;
 
@@ -158,6 +158,19 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
             Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: half(random, 1.0, 1.0), mapping: solid }))
         }
     }
+}
+
+/// The colours of so many vertices, by which what a matt material reflects is multiplied; else, as often as not, none.
+pub fn of_vertices(material: &mut Material, vertices: usize, random: &mut Random) -> Vec<Color> {
+    let Material::Diffuse(words) = material else { return Vec::new() };
+    if once_in(random, 2) {
+        return Vec::new();
+    }
+    let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
+    let b = Albedo::VertexColor(Box::new(VertexColor { color_space: one_of(random, &spaces) }));
+    let a = std::mem::take(&mut words.albedo);
+    words.albedo = Albedo::Multiply(Box::new(Multiply { a, b }));
+    (0..vertices).map(|_| color(random)).collect()
 }
 
 /// A colour or a texture.
