@@ -100,12 +100,7 @@ pub fn parse_as(text: &[u8], format: MeshFormat, path: &Path, wanted: Wanted) ->
     parse_from(text, format, (path, &Files::default()), wanted)
 }
 
-fn parse_from(
-    text: &[u8],
-    format: MeshFormat,
-    from: (&Path, &Files),
-    wanted: Wanted,
-) -> Result<MeshData, MeshError> {
+fn parse_from(text: &[u8], format: MeshFormat, from: (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
     match format {
         MeshFormat::Obj => obj::read(text, from, wanted),
         MeshFormat::Off => off::read(text, from.0, wanted),

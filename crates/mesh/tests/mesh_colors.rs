@@ -52,8 +52,7 @@ fn obj_colours_belong_to_positions() {
 fn vertices_without_are_white_and_what_is_beyond_is_clipped() {
     let read = mesh(MeshFormat::Obj, "v 0 0 0\nv 1 0 0 2 -1 0.5\nv 0 1 0\nv 1 1 0 0 0 0\nf 1 2 3\n");
     assert_eq!(read.colors, numbers(&[[1.0; 3], [1.0, 0.0, 0.5], [1.0; 3], [0.0; 3]], true));
-    let message =
-        "the mesh has oddities: 2 vertices without a colour (white); 1 vertex colour beyond 0 to 1 (clipped)";
+    let message = "the mesh has oddities: 2 vertices without a colour (white); 1 vertex colour beyond 0 to 1 (clipped)";
     assert_eq!(told(&read), [message]);
 }
 
@@ -72,7 +71,8 @@ fn off_has_them_of_both_scales() {
         assert!(told(&of_one).is_empty());
     }
     // Between normals and texture coordinates.
-    let all = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 9 0.25 1\n1 0 0 0 0 1 0 255 0 9 1 1\n0 1 0 0 0 1 1 2 3 9 0.5 0\n3 0 1 2\n";
+    let all =
+        "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 9 0.25 1\n1 0 0 0 0 1 0 255 0 9 1 1\n0 1 0 0 0 1 1 2 3 9 0.5 0\n3 0 1 2\n";
     let read = mesh(MeshFormat::Off, all);
     assert_eq!(read.colors, bytes(&[[255, 0, 0], [0, 255, 0], [1, 2, 3]], true));
     assert_eq!((read.uvs[0], read.normals[0]), ([0.25, 1.0], [0.0, 0.0, 1.0]));
@@ -163,11 +163,7 @@ fn gltf(colors: &[Option<(u32, &str, &[u8])>]) -> String {
             continue;
         };
         let number = accessors.len();
-        views.push(format!(
-            r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#,
-            binary.len(),
-            values.len()
-        ));
+        views.push(format!(r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#, binary.len(), values.len()));
         let normalized = *component != 5126;
         accessors.push(format!(
             r#"{{"bufferView": {number}, "componentType": {component}, "type": "{kind}", "count": 3, "normalized": {normalized}}}"#
@@ -217,7 +213,8 @@ fn primitives_of_gltf_have_their_own() {
     assert_eq!(told(&read), ["the mesh has oddities: 3 vertices without a colour (white)"]);
     let wrong = read_wrong(&gltf(&[Some((5121, "VEC2", &red))]));
     assert!(wrong.contains("accessors[1] (COLOR_0) is `VEC2`"), "{wrong}");
-    let few = gltf(&[Some((5121, "VEC3", &red))]).replace(r#""VEC3", "count": 3, "normalized""#, r#""VEC3", "count": 2, "normalized""#);
+    let few = gltf(&[Some((5121, "VEC3", &red))])
+        .replace(r#""VEC3", "count": 3, "normalized""#, r#""VEC3", "count": 2, "normalized""#);
     let few = read_wrong(&few);
     assert!(few.contains("accessors[1] (COLOR_0) has 2 elements, but accessors[0] (POSITION) has 3"), "{few}");
 }

@@ -68,7 +68,7 @@ def test_normals_make_faces_round():
 
 
 def test_colours_of_points_are_shown():
-    shown = {"Diffuse": {"albedo": "VertexColor"}}
+    shown = {"Diffuse": {"albedo": {"VertexColor": {}}}}
     for colors, expected in [
         (np.full((4, 3), 128, np.uint8), 0.2158605),
         (np.full((4, 4), 0.5, np.float32), 0.5),

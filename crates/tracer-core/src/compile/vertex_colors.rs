@@ -21,7 +21,8 @@ pub struct Readers<'d> {
 impl<'d> Readers<'d> {
     /// Of a scene.
     pub fn of(desc: &'d SceneDesc) -> Self {
-        let reads = desc.materials.iter().filter(|named| named.material.color().is_some_and(Albedo::reads_vertex_colors));
+        let reads =
+            desc.materials.iter().filter(|named| named.material.color().is_some_and(Albedo::reads_vertex_colors));
         Readers { named: reads.map(|named| &*named.name.value).collect() }
     }
 

@@ -54,7 +54,10 @@ impl Sheet {
         };
         let head = format!("COFF\n{} {} 0\n", self.points.len(), self.faces.len());
         let face = |[a, b, c]: &[usize; 3]| format!("3 {a} {b} {c}\n");
-        std::iter::once(head).chain(self.points.iter().enumerate().map(vertex)).chain(self.faces.iter().map(face)).collect()
+        std::iter::once(head)
+            .chain(self.points.iter().enumerate().map(vertex))
+            .chain(self.faces.iter().map(face))
+            .collect()
     }
 
     /// Linear floats.
@@ -72,7 +75,10 @@ impl Sheet {
             format!("{x} {y} {z} {r} {g} {b}\n")
         };
         let face = |[a, b, c]: &[usize; 3]| format!("3 {a} {b} {c}\n");
-        std::iter::once(head).chain(self.points.iter().enumerate().map(vertex)).chain(self.faces.iter().map(face)).collect()
+        std::iter::once(head)
+            .chain(self.points.iter().enumerate().map(vertex))
+            .chain(self.faces.iter().map(face))
+            .collect()
     }
 
     /// Written in the scene; 255ths, linear.
@@ -238,8 +244,10 @@ fn colours_are_kept_where_they_are_read_and_once() {
         let mesh = more.meshes[more.instances[instance as usize].mesh as usize];
         let vertex = more.triangles.vertices[mesh.first_triangle as usize][0];
         let of_first = more.triangles.vertices[0][0];
-        let (own, first) =
-            (more.vertex_color(VertexSpace::AsFile, instance, vertex), more.vertex_color(VertexSpace::AsFile, 0, of_first));
+        let (own, first) = (
+            more.vertex_color(VertexSpace::AsFile, instance, vertex),
+            more.vertex_color(VertexSpace::AsFile, 0, of_first),
+        );
         assert_eq!(own, first, "instance {instance}");
         assert!(own.is_some());
     }
@@ -251,7 +259,8 @@ fn a_kept_mesh_without_colours_is_read_again() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("a.off"), Sheet::new().off()).expect("a file");
     let of = |albedo: &str| {
-        let text = format!("Scene(background: 1, objects: [Mesh(file: \"a.off\", material: Diffuse(albedo: {albedo}))])");
+        let text =
+            format!("Scene(background: 1, objects: [Mesh(file: \"a.off\", material: Diffuse(albedo: {albedo}))])");
         desc(&text, folder.path())
     };
     let kept = Kept::default();

@@ -5,9 +5,10 @@ use super::world::World;
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material, Mix, Multiply,
-    Noise, NoiseKind, PerAxis, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
-    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
+    Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material,
+    Mix, Multiply, Noise, NoiseKind, PerAxis, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, VertexColor, VertexColorSpace, Voronoi,
+    VoronoiFeature, Wood,
 };
 use tracer_reference::Random;
 

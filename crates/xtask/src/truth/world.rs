@@ -66,7 +66,12 @@ impl World {
 
     /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points or
     /// none.
-    pub fn written_out(&mut self, (shape, colors): (&Shape, Vec<Color>), material: Material, transform: Vec<Transform>) {
+    pub fn written_out(
+        &mut self,
+        (shape, colors): (&Shape, Vec<Color>),
+        material: Material,
+        transform: Vec<Transform>,
+    ) {
         let mut faces = Faces::default();
         shape.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
         let mesh = InlineMesh { points: shape.positions.clone(), faces, colors };
