@@ -166,7 +166,8 @@ fn gltf(colors: &[Option<(u32, &str, &[u8])>]) -> String {
         views.push(format!(r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#, binary.len(), values.len()));
         let normalized = *component != 5126;
         accessors.push(format!(
-            r#"{{"bufferView": {number}, "componentType": {component}, "type": "{kind}", "count": 3, "normalized": {normalized}}}"#
+            r#"{{"bufferView": {number}, "componentType": {component}, "type": "{kind}", "count": 3,
+                "normalized": {normalized}}}"#
         ));
         binary.extend(*values);
         primitives.push(format!(r#"{{"attributes": {{"POSITION": 0, "COLOR_0": {number}}}}}"#));
@@ -213,8 +214,8 @@ fn primitives_of_gltf_have_their_own() {
     assert_eq!(told(&read), ["the mesh has oddities: 3 vertices without a colour (white)"]);
     let wrong = read_wrong(&gltf(&[Some((5121, "VEC2", &red))]));
     assert!(wrong.contains("accessors[1] (COLOR_0) is `VEC2`"), "{wrong}");
-    let few = gltf(&[Some((5121, "VEC3", &red))])
-        .replace(r#""VEC3", "count": 3, "normalized""#, r#""VEC3", "count": 2, "normalized""#);
+    let few = gltf(&[Some((5121, "VEC3", &red))]).replacen(r#""VEC3", "count": 3,
+"#, "\"VEC3\", \"count\": 2,\n", 1);
     let few = read_wrong(&few);
     assert!(few.contains("accessors[1] (COLOR_0) has 2 elements, but accessors[0] (POSITION) has 3"), "{few}");
 }

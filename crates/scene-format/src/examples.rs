@@ -415,7 +415,8 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
 /// A tetrahedron whose points have colours.
 fn painted(material: &str) -> String {
     format!(
-        "Mesh(\n            points: [(-1, -1, -1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)],\n            faces: [[0, 1, 2], \
+        "Mesh(\n            points: [(-1, -1, -1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)],\n            faces: [[0, 1, \
+         2], \
          [0, 2, 3], [0, 3, 1], [1, 3, 2]],\n            colors: [\"#d03020\", \"#30a040\", \"#e0b020\", \"#2050c0\"],\n\
          \x20           material: {material},\n        )"
     )

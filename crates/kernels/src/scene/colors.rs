@@ -42,8 +42,8 @@ pub struct ColorTable {
     pub words: Vec<u32>,
     /// Which mesh each instance is of.
     pub mesh: Vec<u32>,
-    /// By [`VertexSpace`], a pair a mesh: how its colours are [`Coded`], and where they begin, counted from the vertex of
-    /// number 0 (modulo 2^32); empty where no texture reads them so.
+    /// By [`VertexSpace`], a pair a mesh: how its colours are [`Coded`], and where they begin, counted from the vertex
+    /// of number 0 (modulo 2^32); empty where no texture reads them so.
     pub places: [Vec<u32>; 3],
 }
 

@@ -80,8 +80,8 @@ impl Texture {
 /// Reads the PNG, JPEG, HDR or EXR picture in `path`; its content decides which, not its extension.
 ///
 /// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours
-/// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied. HDR and
-/// EXR are linear, and clipped to 0 to 1 (with a warning); of an EXR file the first part with R, G and B is taken.
+/// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied. HDR
+/// and EXR are linear, and clipped to 0 to 1 (with a warning); of an EXR file the first part with R, G and B is taken.
 ///
 /// # Errors
 /// When there is no such file, it cannot be read, it is of another format or broken, or it has more than

@@ -142,8 +142,8 @@ fn seen(scene: &Scene, level: Level) -> Vec<[f32; 3]> {
     film.layer(Layer::Albedo).expect("all layers are kept").values.as_chunks::<3>().0.to_vec()
 }
 
-/// Points of render space, of size about one, are right to some 1e-6, corners of instances to as much, and triangles have
-/// heights of 0.03 of it at least, so that barycentric coordinates are right to some 1e-4; neighbours differ by 1 at
+/// Points of render space, of size about one, are right to some 1e-6, corners of instances to as much, and triangles
+/// have heights of 0.03 of it at least, so that barycentric coordinates are right to some 1e-4; neighbours differ by 1 at
 /// most, a ramp's slope of 5 included by as much again.
 #[test]
 fn colours_are_those_of_the_reference_at_every_level() {
@@ -317,7 +317,8 @@ fn what_has_no_colours_is_told() {
     );
     let found = faults(
         "Sphere(center: (0, 0, 0), radius: 1, material: \"skin\"), Box(size: 1, material: \"skin\"), \
-         Union(objects: [Sphere(center: (9, 0, 0), radius: 1), Sphere(center: (9, 1, 0), radius: 1, material: \"skin\")])",
+         Union(objects: [Sphere(center: (9, 0, 0), radius: 1), Sphere(center: (9, 1, 0), radius: 1, material: \
+         \"skin\")])",
     );
     let messages: Vec<&str> = found.iter().map(|(message, ..)| message.as_str()).collect();
     assert!(messages.contains(&"a `Box` has no vertices with colours, and its material shows them"), "{messages:?}");

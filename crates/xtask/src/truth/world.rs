@@ -64,8 +64,8 @@ impl World {
         self.place(MeshSource::File(file.into()), material, transform);
     }
 
-    /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points or
-    /// none.
+    /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points
+    /// or none.
     pub fn written_out(
         &mut self,
         (shape, colors): (&Shape, Vec<Color>),

@@ -198,7 +198,7 @@ impl Words for Colors {
             reader.report(fault.expected("a colour for each of the `points`, in their order"));
             whole = false;
         }
-        Some(Colors(written(whole && reader.points.is_some(), colors, item)))
+        Some(Colors(written(whole, colors, item)))
     }
 
     fn form(&self, _all: bool) -> Form {

@@ -7,9 +7,9 @@ use crate::math::V3;
 use crate::scene::{Coded, Scene, VertexSpace};
 use crate::srgb::SRGB_TO_LINEAR;
 
-/// The colour at points of triangles, in the lanes of the mask; anything elsewhere. Barycentric coordinates are those of
-/// the point, which lies on its triangle to some ulp: they are as exact as that is in proportion to the triangle, and
-/// surfaces need not carry them.
+/// The colour at points of triangles, in the lanes of the mask; anything elsewhere. Barycentric coordinates are those
+/// of the point, which lies on its triangle to some ulp: they are as exact as that is in proportion to the triangle,
+/// and surfaces need not carry them.
 #[inline(always)]
 pub fn color<F: Lanes>(scene: &Scene, space: VertexSpace, s: &At<F>, on: F::M) -> V3<F> {
     let zero = F::U::splat(0);
@@ -66,8 +66,8 @@ fn decoded<F: Lanes>(word: F::U, linear: F::M) -> F {
     F::select(linear, F::from_int(byte) * F::splat(1.0 / 255.0), F::gather(&*SRGB_TO_LINEAR, byte))
 }
 
-/// Barycentric coordinates of a point of a triangle: areas that it has with two corners each, over their sum, none below
-/// zero. They are of differences from the point, so that they keep their digits far from the origin.
+/// Barycentric coordinates of a point of a triangle: areas that it has with two corners each, over their sum, none
+/// below zero. They are of differences from the point, so that they keep their digits far from the origin.
 #[inline(always)]
 fn weights<F: Lanes>(corner: [V3<F>; 3], p: V3<F>) -> [F; 3] {
     let (zero, one) = (F::splat(0.0), F::splat(1.0));
