@@ -214,8 +214,12 @@ fn primitives_of_gltf_have_their_own() {
     assert_eq!(told(&read), ["the mesh has oddities: 3 vertices without a colour (white)"]);
     let wrong = read_wrong(&gltf(&[Some((5121, "VEC2", &red))]));
     assert!(wrong.contains("accessors[1] (COLOR_0) is `VEC2`"), "{wrong}");
-    let few = gltf(&[Some((5121, "VEC3", &red))]).replacen(r#""VEC3", "count": 3,
-"#, "\"VEC3\", \"count\": 2,\n", 1);
+    let few = gltf(&[Some((5121, "VEC3", &red))]).replacen(
+        r#""VEC3", "count": 3,
+"#,
+        "\"VEC3\", \"count\": 2,\n",
+        1,
+    );
     let few = read_wrong(&few);
     assert!(few.contains("accessors[1] (COLOR_0) has 2 elements, but accessors[0] (POSITION) has 3"), "{few}");
 }

@@ -414,12 +414,12 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
 
 /// A tetrahedron whose points have colours.
 fn painted(material: &str) -> String {
-    format!(
-        "Mesh(\n            points: [(-1, -1, -1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)],\n            faces: [[0, 1, \
-         2], \
-         [0, 2, 3], [0, 3, 1], [1, 3, 2]],\n            colors: [\"#d03020\", \"#30a040\", \"#e0b020\", \"#2050c0\"],\n\
-         \x20           material: {material},\n        )"
-    )
+    let points = "[(-1, -1, -1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)]";
+    let faces = "[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]";
+    let colors = r##"["#d03020", "#30a040", "#e0b020", "#2050c0"]"##;
+    let fields = [("points", points), ("faces", faces), ("colors", colors), ("material", material)];
+    let lines: String = fields.iter().map(|(name, value)| format!("            {name}: {value},\n")).collect();
+    format!("Mesh(\n{lines}        )")
 }
 
 #[cfg(test)]
