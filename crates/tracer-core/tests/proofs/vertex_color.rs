@@ -195,7 +195,7 @@ fn a_triangle_is_mixed_by_barycentric_coordinates() {
                 effects: Effects(antialiasing: None),
                 background: 1,
                 objects: [Mesh(points: [(-3, -3, 0), (3, -3, 0), (0, 3, 0)], faces: [[0, 1, 2]],
-                    colors: [(0.8, 0.1, 0), (0.2, 0.6, 0), "#0000ff"],
+                    colors: [(0.8, 0.1, 0), (0.2, 0.6, 0), (0, 0, 1)],
                     material: Diffuse(albedo: VertexColor(color_space: {space})))],
             )"#
         );
