@@ -141,7 +141,7 @@ fn kinds_of_materials_and_textures() {
         ("Diffuse(albedo: Math(a: 1))", "did you mean `Multiply`?"),
         ("Diffuse(albedo: Invert(a: 1))", "Mix(a: .., b: .., weight: ..)"),
         ("Diffuse(albedo: Attribute())", "did you mean `VertexColor`?"),
-        ("Diffuse(albedo: mesh_attribute)", "did you mean `VertexColor`?"),
+        ("Diffuse(albedo: mesh_attribute)", "write VertexColor()"),
         ("Diffuse(albedo: Vertex_Color())", "did you mean `VertexColor`?"),
         ("Diffuse(albedo: COLOR_0())", "did you mean `VertexColor`?"),
         ("Diffuse(albedo: Noise(a: Worley()))", "did you mean `Voronoi`?"),
