@@ -102,7 +102,6 @@ impl<'a> Assembly<'a> {
         let uvs = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.uvs)).collect());
         let names = self.used_names();
         let runs: Vec<Vec<MaterialRun>> = self.material_runs(&names);
-
         let lookup = Lookup {
             positions: &positions,
             normals: &normals,

@@ -143,8 +143,8 @@ fn seen(scene: &Scene, level: Level) -> Vec<[f32; 3]> {
 }
 
 /// Points of render space, of size about one, are right to some 1e-6, corners of instances to as much, and triangles
-/// have heights of 0.03 of it at least, so that barycentric coordinates are right to some 1e-4; neighbours differ by 1 at
-/// most, a ramp's slope of 5 included by as much again.
+/// have heights of 0.03 of it at least, so that barycentric coordinates are right to some 1e-4; neighbours differ by 1
+/// at most, and a ramp has a slope of 3.
 #[test]
 fn colours_are_those_of_the_reference_at_every_level() {
     let albedos = [
