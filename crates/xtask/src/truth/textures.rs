@@ -161,16 +161,17 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
     }
 }
 
-/// The colours of so many vertices, by which what a matt material reflects is multiplied; else, as often as not, none.
+/// The colours of so many vertices, by which what a matt or glossy material reflects is multiplied; else none.
 pub fn of_vertices(material: &mut Material, vertices: usize, random: &mut Random) -> Vec<Color> {
-    let Material::Diffuse(words) = material else { return Vec::new() };
-    if once_in(random, 2) {
-        return Vec::new();
-    }
+    let albedo = match material {
+        Material::Diffuse(words) => &mut words.albedo,
+        Material::BlinnPhong(words) => &mut words.albedo,
+        _ => return Vec::new(),
+    };
     let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
     let b = Albedo::VertexColor(Box::new(VertexColor { color_space: one_of(random, &spaces) }));
-    let a = std::mem::take(&mut words.albedo);
-    words.albedo = Albedo::Multiply(Box::new(Multiply { a, b }));
+    let a = std::mem::take(albedo);
+    *albedo = Albedo::Multiply(Box::new(Multiply { a, b }));
     (0..vertices).map(|_| color(random)).collect()
 }
 
