@@ -86,6 +86,7 @@ TriplanarItem = TypedDict("TriplanarItem", {"Triplanar": "Triplanar"})
 TubeItem = TypedDict("TubeItem", {"Tube": "Tube"})
 UnionItem = TypedDict("UnionItem", {"Union": "Union"})
 UvItem = TypedDict("UvItem", {"Uv": "Uv"})
+VertexColorItem = TypedDict("VertexColorItem", {"VertexColor": "VertexColor"})
 VoronoiItem = TypedDict("VoronoiItem", {"Voronoi": "Voronoi"})
 WoodItem = TypedDict("WoodItem", {"Wood": "Wood"})
 WorldItem = TypedDict("WorldItem", {"World": "World"})
@@ -418,7 +419,7 @@ class SphereLight(_SphereLightRequired, total=False):
     group: Any
 
 
-Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem"]
+Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem", "VertexColorItem"]
 
 class _TextureRequired(TypedDict):
     file: File
@@ -427,7 +428,7 @@ class _TextureRequired(TypedDict):
 class Texture(_TextureRequired, total=False):
     """A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
 
-    file: PNG or JPEG, relative to the scene file.
+    file: PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped, and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12.
     filter: Between texels.
     wrap: Beyond the borders.
     color_space: What the picture's numbers mean.
@@ -716,6 +717,17 @@ class Multiply(TypedDict, total=False):
     a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
+
+class VertexColor(TypedDict, total=False):
+    """The colours of a mesh's vertices, between vertices by where a point lies in its triangle: scans, sculptures, simulations. They are decoded to linear light before they are mixed, and numbers beyond 0 to 1 are clipped. OBJ (`v x y z r g b`), OFF (`COFF`, or without saying so; 0 to 255, or 0 to 1 where none is above), PLY (`red green blue`, `diffuse_red ..` or `r g b`) and glTF (`COLOR_0`) files have them, and meshes that a scene writes out with `colors`; alpha does not count, nor do colours of faces, nor those that some programs hide in STL files. Where some vertices have none they are white. It is an error on an object that has no such colours.
+
+    color_space: What their numbers mean.
+    """
+
+    color_space: Either[VertexColorSpace, PickItem]
+
+
+VertexColorSpace = Literal["Auto", "Srgb", "Linear"]
 
 Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
 
@@ -1380,9 +1392,10 @@ class Polygon(_PolygonRequired, total=False):
 class Mesh(TypedDict, total=False):
     """A triangle mesh, from a file or written out as `points` and `faces`.
 
-    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them; its materials, vertex colours, lights, cameras, skins, morph targets and animations are not.
+    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its materials, lights, cameras, skins, morph targets and animations are not.
     points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
     faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
+    colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows.
     material: Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -1395,6 +1408,7 @@ class Mesh(TypedDict, total=False):
     file: File
     points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
     faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    colors: Either[Sequence[Either[float, Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]

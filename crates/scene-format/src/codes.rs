@@ -418,8 +418,17 @@ codes! {
     /// here: most often compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again
     /// without it.
     GLTF_EXTENSION "E0513" "a glTF file requires an extension";
-    /// The picture of a texture cannot be decoded as PNG or JPEG, or that of a `HeightField` as PNG, JPEG, EXR or HDR,
-    /// or it is too large, too narrow, or has heights that are no numbers.
+    /// A material shows the colours of vertices (`VertexColor`), and the object that has it has none: it is no `Mesh`,
+    /// its file has no colours, or it has `points` without `colors`. Of files OBJ (`v x y z r g b`), OFF, PLY and glTF
+    /// may have colours, STL cannot.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Sphere(radius: 1, center: (0, 0, 0), material: Diffuse(albedo: VertexColor()))])
+    /// ```
+    NO_VERTEX_COLORS "E0515" "colours of vertices that are not there";
+    /// The picture of a texture or of a `HeightField` cannot be decoded as PNG, JPEG, HDR or EXR, or it is too large,
+    /// too narrow, or has heights that are no numbers. Of an EXR file of several layers the first part with the
+    /// channels R, G and B is taken; it is an error if none has them.
     BROKEN_TEXTURE "E0520" "a picture cannot be read";
     /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about
     /// an axis by degrees) or 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.

@@ -65,6 +65,8 @@ of_words![
     ColorRamp,
     Mix,
     Multiply,
+    VertexColor,
+    VertexColorSpace,
     Mapping,
     Object,
     Sphere,

@@ -12,7 +12,7 @@ pub use tracer_kernels::scene::{
     Albedo, Between, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis,
     Instance, Integrator, Lens, Light, Made, Material, Mesh, NONE, NoiseKind, Op, Operand, Pattern, PatternKind,
     Program, Projection, Shape, Sharing, Solids, Space, Sphere, Statistics, Step, Texel, TextureFilter, TextureView,
-    TextureWrap, Triangles, VoronoiFeature, WorldBounds, materials,
+    TextureWrap, Triangles, VertexSpace, VoronoiFeature, WorldBounds, materials,
 };
 
 /// A scene that was compiled ([`crate::compile`]); what is rendered of it is reached as if it were its own.

@@ -7,6 +7,7 @@
 //! large the scene is.
 
 mod camera;
+mod colors;
 mod environment;
 mod frame;
 mod light;
@@ -23,6 +24,7 @@ mod table;
 mod texture;
 
 pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection, Stereo};
+pub use colors::{Coded, ColorTable, MeshColors, VertexSpace};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;
@@ -223,6 +225,8 @@ pub struct Tables {
     pub textures: Arc<TextureTable>,
     /// Patterns.
     pub patterns: Arc<PatternTable>,
+    /// The colours of vertices.
+    pub colors: Arc<ColorTable>,
     /// Instances.
     pub instances: Arc<InstanceTable>,
 }

@@ -58,7 +58,8 @@ impl Scene {
             + size_of_val(&t.normal_indices[..])
             + size_of_val(&t.uvs[..])
             + size_of_val(&t.uv_indices[..])
-            + size_of_val(&t.material[..]);
+            + size_of_val(&t.material[..])
+            + size_of_val(&self.tables.colors.words[..]);
         Statistics {
             spheres: self.spheres.len() as u64,
             shapes: (self.shapes.len() - self.tables.planes.rows.len()) as u64,

@@ -409,7 +409,7 @@ pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
 /// Whether a text looks like the path of a picture.
 fn is_picture(text: &str) -> bool {
     let (_, suffix) = text.rsplit_once('.').unwrap_or_default();
-    ["png", "jpg", "jpeg"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
+    ["png", "jpg", "jpeg", "hdr", "exr"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
 }
 
 /// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.

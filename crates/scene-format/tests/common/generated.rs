@@ -109,7 +109,9 @@ fn inline_mesh(random: &mut Random) -> MeshSource {
         let corners: Vec<u32> = (0..3 + random.below(3)).map(|_| random.below(points.len()) as u32).collect();
         faces.push(&corners);
     }
-    MeshSource::Inline(Arc::new(InlineMesh { points, faces }.into()))
+    let count = if random.below(2) == 0 { points.len() } else { 0 };
+    let colors = (0..count).map(|_| share(random)).collect();
+    MeshSource::Inline(Arc::new(InlineMesh { points, faces, colors }.into()))
 }
 
 pub(super) fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {

@@ -55,7 +55,7 @@ fn solid_mapping(random: &mut Random) -> SolidMapping {
 
 fn reckoned(random: &mut Random) -> Albedo {
     let (a, b, solid) = (part(random), part(random), solid_mapping(random));
-    match random.below(11) {
+    match random.below(12) {
         0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
         1 => {
             let along = *random.pick(&[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
@@ -74,6 +74,10 @@ fn reckoned(random: &mut Random) -> Albedo {
         5 => Albedo::Wood(Box::new(Wood { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
         8 => Albedo::Mix(Box::new(Mix { a, b, weight: part(random) })),
         9 => Albedo::Multiply(Box::new(Multiply { a, b })),
+        11 => {
+            let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
+            Albedo::VertexColor(Box::new(VertexColor { color_space: *random.pick(&spaces) }))
+        }
         10 => {
             let [low, high] = [0.5 * random.unit(), 0.5 + 0.5 * random.unit()];
             let stops = [low, low, high].map(|at| Stop { at: at.into(), color: share(random).into() });

@@ -28,6 +28,7 @@ mod stored;
 mod textures;
 mod trees;
 mod unmeant;
+mod vertex_colors;
 
 use crate::develop::{Backdrop, Look};
 use crate::mattes::Mattes;
@@ -156,6 +157,7 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
     let loaded = meshes::load(desc, sources, &mut diagnostics);
+    vertex_colors::check(desc, &loaded, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
     let curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
     let solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
@@ -233,6 +235,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     };
     let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
+    let color_table = vertex_colors::table(&programs, &loaded, &built);
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
@@ -303,6 +306,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
             lights: light_table,
             textures: TextureTable::new(pictures, &uses).into(),
             patterns: pattern_table.into(),
+            colors: color_table.into(),
             instances: instance_table.into(),
         },
         shapes: shapes.into(),

@@ -2,11 +2,11 @@
 
 use super::materials::{MaterialBuilder, constants};
 use super::textures::{Lies, Lying, lying};
-use scene_format::desc::{self, RampInterpolation, SolidMapping};
+use scene_format::desc::{self, RampInterpolation, SolidMapping, VertexColorSpace};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, codes};
 use std::path::Path;
-use tracer_kernels::scene::{Albedo, Between, Made, Op, PLACES, Program, Space};
+use tracer_kernels::scene::{Albedo, Between, Made, Op, PLACES, Program, Space, VertexSpace};
 
 /// What a step works on.
 #[derive(Clone, Copy)]
@@ -96,6 +96,11 @@ impl MaterialBuilder<'_> {
         let made = match words {
             desc::Albedo::Color(color) => Made::Color(color.value),
             desc::Albedo::Texture(texture) => return self.lying_picture(program, texture, number, to, base),
+            desc::Albedo::VertexColor(colors) => Made::VertexColor(match colors.color_space {
+                VertexColorSpace::Auto => VertexSpace::AsFile,
+                VertexColorSpace::Srgb => VertexSpace::Srgb,
+                VertexColorSpace::Linear => VertexSpace::Linear,
+            }),
             desc::Albedo::ColorRamp(ramp) => ramp_of(program, ramp, first),
             desc::Albedo::Multiply(_) => Made::Multiply([first, second]),
             _ => match constants(words) {

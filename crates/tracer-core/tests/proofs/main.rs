@@ -44,3 +44,4 @@ mod solids;
 mod support;
 mod surfaces;
 mod textures;
+mod vertex_color;

@@ -155,7 +155,7 @@ pub fn clear(random: &mut Random) -> Material {
 }
 
 /// Adds a thing of a material: a sphere, or a mesh placed by every kind of step.
-pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+pub fn thing(world: &mut World, center: Point, radius: f64, mut material: Material, random: &mut Random) {
     if once_in(random, 2) {
         return world.sphere(center, radius, material);
     }
@@ -191,7 +191,8 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
         steps.push(Transform::FitTo { extent, length: 0.8 * size, about: None });
     }
     if form == 0 {
-        return world.written_out(&shape, material, steps);
+        let colors = super::textures::of_vertices(&mut material, shape.positions.len(), random);
+        return world.written_out((&shape, colors), material, steps);
     }
     let file = match form {
         1 => world.file(name, "off", shape.off().into_bytes()),

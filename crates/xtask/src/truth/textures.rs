@@ -5,10 +5,10 @@ use super::world::World;
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material,
+    Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material,
     MaterialRef, Mix, Multiply, NamedTexture, Noise, NoiseKind, PerAxis, Planar, RampInterpolation, Reflectance,
     SolidMapping, Spherical, Stop, Stops, Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap,
-    Triplanar, Voronoi, VoronoiFeature, Wood,
+    Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
 use std::sync::Arc;
 use tracer_reference::Random;
@@ -160,6 +160,20 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
             Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: half(random, 1.0, 1.0), mapping: solid }))
         }
     }
+}
+
+/// The colours of so many vertices, by which what a matt or glossy material reflects is multiplied; else none.
+pub fn of_vertices(material: &mut Material, vertices: usize, random: &mut Random) -> Vec<Color> {
+    let albedo = match material {
+        Material::Diffuse(words) => &mut words.albedo,
+        Material::BlinnPhong(words) => &mut words.albedo,
+        _ => return Vec::new(),
+    };
+    let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
+    let b = Albedo::VertexColor(Box::new(VertexColor { color_space: one_of(random, &spaces) }));
+    let a = std::mem::take(albedo);
+    *albedo = Albedo::Multiply(Box::new(Multiply { a, b }));
+    (0..vertices).map(|_| color(random)).collect()
 }
 
 /// A colour or a texture.

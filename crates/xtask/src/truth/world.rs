@@ -65,11 +65,17 @@ impl World {
         self.place(MeshSource::File(file.into()), material, transform);
     }
 
-    /// Adds a mesh that the scene writes out, without normals and texture coordinates.
-    pub fn written_out(&mut self, shape: &Shape, material: Material, transform: Vec<Transform>) {
+    /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points
+    /// or none.
+    pub fn written_out(
+        &mut self,
+        (shape, colors): (&Shape, Vec<Color>),
+        material: Material,
+        transform: Vec<Transform>,
+    ) {
         let mut faces = Faces::default();
         shape.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
-        let mesh = InlineMesh { points: shape.positions.clone(), faces };
+        let mesh = InlineMesh { points: shape.positions.clone(), faces, colors };
         self.place(MeshSource::Inline(Arc::new(mesh.into())), material, transform);
     }
 

@@ -13,6 +13,7 @@ mod multiply;
 mod named;
 mod nested;
 mod noise;
+mod vertex_color;
 mod voronoi;
 mod wood;
 
@@ -30,6 +31,7 @@ pub use multiply::Multiply;
 pub use named::NamedTexture;
 pub(crate) use nested::Nested;
 pub use noise::{Noise, NoiseKind};
+pub use vertex_color::{VertexColor, VertexColorSpace};
 pub use voronoi::{Voronoi, VoronoiFeature};
 pub use wood::Wood;
 
@@ -138,6 +140,8 @@ textures! {
     pattern Mix;
     /// The product of two colours or textures, channel by channel.
     pattern Multiply;
+    /// The colours that the vertices of a mesh have.
+    pattern VertexColor;
 }
 
 impl Albedo {
@@ -165,6 +169,12 @@ impl Albedo {
             found.extend(part.images());
         }
         found
+    }
+
+    /// Whether it, or a part of it, is the colours of vertices.
+    pub fn reads_vertex_colors(&self) -> bool {
+        matches!(self, Albedo::VertexColor(_))
+            || self.pattern().is_some_and(|pattern| pattern.parts().iter().any(|part| part.reads_vertex_colors()))
     }
 
     /// Whether it goes by a surface's texture coordinates.
