@@ -4,17 +4,17 @@ use std::sync::LazyLock;
 
 /// Linear light of each 8-bit sRGB value: the exact formula in `f64`, rounded to `f32`.
 pub static SRGB_TO_LINEAR: LazyLock<[f32; 256]> =
-    LazyLock::new(|| std::array::from_fn(|value| linear(value as f64 / 255.0) as f32));
+    LazyLock::new(|| std::array::from_fn(|value| linear_of_srgb(value as f64 / 255.0) as f32));
 
 /// Linear light of each 16-bit sRGB value.
 pub fn linear_of_srgb16() -> &'static [f32] {
     static TABLE: LazyLock<Vec<f32>> =
-        LazyLock::new(|| (0..=u16::MAX).map(|value| linear(f64::from(value) / 65535.0) as f32).collect());
+        LazyLock::new(|| (0..=u16::MAX).map(|value| linear_of_srgb(f64::from(value) / 65535.0) as f32).collect());
     &TABLE
 }
 
 /// Linear light of a code value, both in 0 to 1.
-fn linear(code: f64) -> f64 {
+pub fn linear_of_srgb(code: f64) -> f64 {
     // libm and not std: its bits are the same on every machine.
     if code <= 0.04045 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) }
 }

@@ -133,8 +133,7 @@ fn is_kind(path: &Path, kind: FileKind) -> bool {
         FileKind::Mesh => tracer_core::mesh::MeshFormat::of(path).is_some(),
         FileKind::Scene => matches!(extension.as_str(), "ron" | "toml" | "json"),
         FileKind::Placements => matches!(extension.as_str(), "txt" | "csv" | "dat"),
-        FileKind::Texture => matches!(extension.as_str(), "png" | "jpg" | "jpeg"),
-        FileKind::Environment | FileKind::Heights => {
+        FileKind::Texture | FileKind::Environment | FileKind::Heights => {
             matches!(extension.as_str(), "hdr" | "exr" | "png" | "jpg" | "jpeg")
         }
     }

@@ -1,6 +1,7 @@
 //! Meshes from arrays in memory, as programs have them.
 
 use super::builder::Builder;
+use super::colors::VertexColors;
 use super::data::{MAX_COORDINATE, MeshData};
 use super::error::MeshError;
 use scene_format::desc::Faces;
@@ -34,6 +35,8 @@ pub struct MeshArrays {
     pub normals: Vec<[f64; 3]>,
     /// Texture coordinates for each point (u to the right, v upwards); or none at all.
     pub uvs: Vec<[f64; 2]>,
+    /// A colour for each point; or none at all.
+    pub colors: Option<VertexColors>,
 }
 
 impl MeshArrays {
@@ -50,7 +53,8 @@ impl MeshArrays {
         finite("normals", &self.normals, MAX_COORDINATE).map_err(|message| fault(message, largest))?;
         let most = f64::from(f32::MAX);
         finite("uvs", &self.uvs, most).map_err(|message| fault(message, "numbers of at most 3.4e38".to_owned()))?;
-        for (what, count) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+        let colors = self.colors.as_ref().map_or(0, VertexColors::len);
+        for (what, count) in [("normals", self.normals.len()), ("uvs", self.uvs.len()), ("colors", colors)] {
             if count != 0 && count != self.points.len() {
                 let expected = format!("one for each of the {} points, or none", self.points.len());
                 return Err(fault(format!("there are {count} {what}"), expected));
@@ -67,7 +71,8 @@ impl MeshArrays {
                 .map_err(|found| fault(format!("faces[{number}]: {}", found.message), found.expected))?;
         }
         let found = format!("it has {} points and {} faces", self.points.len(), self.faces.iter().len());
-        builder.finish(name, &found)
+        let colors = self.colors.clone().filter(|colors| !colors.is_empty());
+        Ok(MeshData { colors, ..builder.finish(name, &found)? })
     }
 }
 
@@ -123,6 +128,8 @@ mod tests {
         assert!(told(&none).starts_with("E0510 the mesh m: points[1] is [1.0, 0.0, NaN]; "), "{}", told(&none));
         let short = MeshArrays { uvs: vec![[0.0; 2]], ..triangle() };
         assert_eq!(told(&short), "E0510 the mesh m: there are 1 uvs; one for each of the 3 points, or none");
+        let few = MeshArrays { colors: Some(VertexColors::new(vec![[0.5; 3]; 2], false)), ..triangle() };
+        assert_eq!(told(&few), "E0510 the mesh m: there are 2 colors; one for each of the 3 points, or none");
         let mut flat = triangle();
         flat.points[2] = [2.0, 0.0, 0.0];
         assert!(told(&flat).starts_with("E0511 m: the mesh has no triangles"), "{}", told(&flat));

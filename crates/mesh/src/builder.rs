@@ -1,6 +1,7 @@
 //! Meshes whose vertices carry everything and whose faces name them by number: what readers of OFF, PLY, STL and glTF
 //! share.
 
+use super::coloring::{NO_COLOR, settled};
 use super::cursor::Fault;
 use super::data::{MAX_COORDINATE, MeshData, NO_INDEX};
 use super::error::MeshError;
@@ -27,6 +28,10 @@ pub(super) struct Builder {
     zero_normals: usize,
     /// Triangles of parts without normals.
     flat_triangles: u64,
+    /// Of the first vertices, as the file has them or [`NO_COLOR`].
+    colors: Vec<[f32; 3]>,
+    /// What they are multiplied by, and whether they are in sRGB.
+    pub(super) colors_are: (f32, bool),
     cutter: PolygonCutter,
 }
 
@@ -50,6 +55,26 @@ impl Builder {
     /// Takes note of triangles without normals.
     pub(super) fn without_normals(&mut self, triangles: u64) {
         self.flat_triangles += triangles;
+    }
+
+    /// The colour of the next vertex.
+    pub(super) fn add_color(&mut self, color: [f64; 3]) {
+        self.colors.push(color.map(|x| x as f32));
+    }
+
+    /// Vertices up to this one have no colours, where none were added.
+    pub(super) fn lack_colors(&mut self, vertices: usize) {
+        self.colors.resize(vertices, NO_COLOR);
+    }
+
+    /// Room for the colours of so many vertices.
+    pub(super) fn reserve_colors(&mut self, vertices: usize) {
+        self.colors.reserve_exact(vertices);
+    }
+
+    /// The largest number of all colours.
+    pub(super) fn largest_color(&self) -> f32 {
+        self.colors.as_flattened().iter().copied().fold(0.0, f32::max)
     }
 
     /// The texture coordinates of the next vertex, written at a byte.
@@ -142,12 +167,13 @@ impl Builder {
             self.lack_normals(self.mesh.positions.len());
             self.oddities.add_many(Oddity::MissingNormals, self.flat_triangles);
         }
-        let Builder { mut mesh, oddities, zero_normals, .. } = self;
+        let Builder { mut mesh, mut oddities, zero_normals, colors, colors_are: (scale, is_srgb), .. } = self;
         if mesh.triangles.is_empty() {
             let odd = oddities.summary();
             let hint = if odd.is_empty() { found.to_owned() } else { format!("{found}: {odd}") };
             return Err(MeshError::Empty { path: path.to_owned(), hint });
         }
+        mesh.colors = settled(colors, mesh.positions.len(), scale, is_srgb, &mut oddities);
         if zero_normals == mesh.normals.len() {
             mesh.normals = Vec::new();
         } else if zero_normals > 0 {

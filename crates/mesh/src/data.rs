@@ -1,5 +1,6 @@
 //! A mesh as readers give it.
 
+use super::colors::VertexColors;
 use scene_format::Diagnostics;
 use scene_format::desc::NamedMaterial;
 use std::path::PathBuf;
@@ -32,6 +33,9 @@ pub struct MeshData {
     pub uvs: Vec<[f32; 2]>,
     /// As `normal_triangles`, for `uvs`.
     pub uv_triangles: Option<Vec<[u32; 3]>>,
+    /// The colours of all vertices, as many as `positions`; `None` where the file has none, or where nobody wanted them
+    /// ([`Wanted`](crate::Wanted)).
+    pub colors: Option<VertexColors>,
     /// The MTL materials that triangles use, in order of first use. File names of textures are complete: they start at
     /// the folder of the MTL file as this mesh's path gave it, and must not be joined to the scene's folder again.
     pub materials: Vec<NamedMaterial>,

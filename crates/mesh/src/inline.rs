@@ -1,6 +1,7 @@
 //! Meshes that stand in a scene itself: points, and faces that name them.
 
 use super::builder::Builder;
+use super::colors::VertexColors;
 use super::data::MeshData;
 use super::error::MeshError;
 use scene_format::Diagnostic;
@@ -18,6 +19,8 @@ use std::path::Path;
 pub fn mesh_of(inline: &InlineMesh, span: Span) -> Result<MeshData, Box<Diagnostic>> {
     let mut builder = Builder::default();
     builder.mesh.positions = inline.points.clone();
+    let colors = (inline.colors.len() == inline.points.len())
+        .then(|| VertexColors::new(inline.colors.iter().map(|color| color.map(|x| x as f32)).collect(), false));
     for (number, face) in inline.faces.iter().enumerate() {
         let added = face.iter().try_for_each(|&corner| builder.corner(i64::from(corner), number).map(drop));
         added.and_then(|()| builder.add_face(face, number)).map_err(|fault| {
@@ -36,6 +39,7 @@ pub fn mesh_of(inline: &InlineMesh, span: Span) -> Result<MeshData, Box<Diagnost
             other => other.to_diagnostic(span),
         })
     })?;
+    mesh.colors = colors;
     // They are about the scene, not about another file.
     for warning in &mut mesh.warnings {
         *warning = Diagnostic::warning(warning.code, span, std::mem::take(&mut warning.message));
@@ -51,7 +55,7 @@ mod tests {
     fn inline(points: &[[f64; 3]], faces: &[&[u32]]) -> InlineMesh {
         let mut list = Faces::default();
         faces.iter().for_each(|face| list.push(face));
-        InlineMesh { points: points.to_vec(), faces: list }
+        InlineMesh { points: points.to_vec(), faces: list, colors: Vec::new() }
     }
 
     const ARROW: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [2.0, -1.0, 0.0], [0.0, 3.0, 0.0], [-2.0, -1.0, 0.0]];

@@ -24,6 +24,8 @@
 
 mod arrays;
 mod builder;
+mod coloring;
+mod colors;
 mod cursor;
 mod data;
 mod files;
@@ -44,6 +46,7 @@ pub mod placements;
 pub mod shapes;
 
 pub use arrays::MeshArrays;
+pub use colors::{ColorValues, VertexColors, Wanted};
 pub use data::{MAX_COORDINATE, MeshData, MtlNames, NO_INDEX};
 pub use error::{MeshError, Place};
 pub use files::{FileError, Files, plain, read_regular_file};
@@ -66,10 +69,18 @@ pub fn load(path: &Path) -> Result<MeshData, MeshError> {
 /// # Errors
 /// As [`load`].
 pub fn load_from(path: &Path, files: &Files) -> Result<MeshData, MeshError> {
+    load_as(path, files, Wanted::default())
+}
+
+/// As [`load_from`], with what is wanted of it.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_as(path: &Path, files: &Files, wanted: Wanted) -> Result<MeshData, MeshError> {
     let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
     match files.get(path) {
-        Some(bytes) => parse_from(bytes, format, path, files),
-        None => parse_from(&read_regular_file(path)?, format, path, files),
+        Some(bytes) => parse_from(bytes, format, (path, files), wanted),
+        None => parse_from(&read_regular_file(path)?, format, (path, files), wanted),
     }
 }
 
@@ -78,15 +89,23 @@ pub fn load_from(path: &Path, files: &Files) -> Result<MeshData, MeshError> {
 /// # Errors
 /// As [`load`].
 pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, MeshError> {
-    parse_from(text, format, path, &Files::default())
+    parse_as(text, format, path, Wanted::default())
 }
 
-fn parse_from(text: &[u8], format: MeshFormat, path: &Path, files: &Files) -> Result<MeshData, MeshError> {
+/// As [`parse`], with what is wanted of it.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse_as(text: &[u8], format: MeshFormat, path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
+    parse_from(text, format, (path, &Files::default()), wanted)
+}
+
+fn parse_from(text: &[u8], format: MeshFormat, from: (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
     match format {
-        MeshFormat::Obj => obj::read(text, path, files),
-        MeshFormat::Off => off::read(text, path),
-        MeshFormat::Ply => ply::read(text, path),
-        MeshFormat::Stl => stl::read(text, path),
-        MeshFormat::Gltf | MeshFormat::Glb => gltf::read(text, path, files),
+        MeshFormat::Obj => obj::read(text, from, wanted),
+        MeshFormat::Off => off::read(text, from.0, wanted),
+        MeshFormat::Ply => ply::read(text, from.0, wanted),
+        MeshFormat::Stl => stl::read(text, from.0),
+        MeshFormat::Gltf | MeshFormat::Glb => gltf::read(text, from, wanted),
     }
 }

@@ -29,8 +29,12 @@ pub(super) enum Oddity {
     UnusedNormals,
     /// Texture coordinates that no face names.
     UnusedUvs,
-    /// A vertex with a colour.
+    /// A vertex with a colour that nobody wants.
     VertexColor,
+    /// A vertex without a colour in a file where others have them.
+    MissingColor,
+    /// A vertex whose colour is beyond 0 to 1.
+    ClippedColor,
     /// A face with a colour.
     FaceColor,
     /// A vertex with a weight other than 1.
@@ -48,7 +52,7 @@ pub(super) enum Oddity {
 }
 
 impl Oddity {
-    const ALL: [Oddity; 18] = [
+    const ALL: [Oddity; 20] = [
         Oddity::DegenerateTriangle,
         Oddity::CrossingPolygon,
         Oddity::SmallFace,
@@ -60,6 +64,8 @@ impl Oddity {
         Oddity::UnusedNormals,
         Oddity::UnusedUvs,
         Oddity::VertexColor,
+        Oddity::MissingColor,
+        Oddity::ClippedColor,
         Oddity::FaceColor,
         Oddity::Weight,
         Oddity::TrailingLine,
@@ -89,6 +95,8 @@ impl Oddity {
                 ["texture coordinate that no face names", "texture coordinates that no face names", "ignored"]
             }
             Oddity::VertexColor => ["vertex colour", "vertex colours", "ignored"],
+            Oddity::MissingColor => ["vertex without a colour", "vertices without a colour", "white"],
+            Oddity::ClippedColor => ["vertex colour beyond 0 to 1", "vertex colours beyond 0 to 1", "clipped"],
             Oddity::FaceColor => ["face colour", "face colours", "ignored"],
             Oddity::Weight => ["vertex weight other than 1", "vertex weights other than 1", "ignored"],
             Oddity::TrailingLine => ["line after the last face", "lines after the last face", "ignored"],

@@ -3,12 +3,14 @@
 //! - Header: `OFF` with the prefixes `ST`, `C` and `N`, or none; the counts on its line, glued to it, or on the next;
 //!   the number of edges may be missing. `4OFF`, `nOFF` and binary files are refused.
 //! - One vertex a line: `x y z`, then the normal (N), the colour (C, or unannounced) and
-//!   texture coordinates (ST).
+//!   texture coordinates (ST). Colours are in sRGB, from 0 to 255 where any number of them is above 1, else from 0 to
+//!   1, since files of both kinds say the same of themselves; a fourth number of them is passed over.
 //! - One face a line: the number of corners, their 0-based indices, and possibly a colour.
 //!
 //! The counts of the header are only compared with what is there; memory is reserved by the size of the file.
 
 use super::builder::{Builder, MOST_VERTICES, check_room};
+use super::colors::Wanted;
 use super::cursor::{Blanks, Cursor, Fault, shown};
 use super::data::MeshData;
 use super::error::MeshError;
@@ -50,16 +52,19 @@ struct Counts {
 }
 
 /// Reads an OFF file.
-pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
-    let mut reader =
-        Reader { cursor: Cursor::new(text, Blanks { comma: false, continuation: false }), builder: Builder::default() };
+pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
+    let cursor = Cursor::new(text, Blanks { comma: false, continuation: false });
+    let mut reader = Reader { cursor, builder: Builder::default(), wanted };
     let counts = reader.read_all().map_err(|fault| MeshError::at_line(path, text, *fault))?;
+    let scale = if reader.builder.largest_color() > 1.0 { 1.0 / 255.0 } else { 1.0 };
+    reader.builder.colors_are = (scale, true);
     reader.builder.finish(path, &format!("the file has {} vertices and {} faces", counts.vertices, counts.faces))
 }
 
 struct Reader<'a> {
     cursor: Cursor<'a>,
     builder: Builder,
+    wanted: Wanted,
 }
 
 impl Reader<'_> {
@@ -179,6 +184,11 @@ impl Reader<'_> {
         // Many programs write colours without saying C.
         match count.checked_sub(known) {
             Some(0) if !layout.color => {}
+            Some(3 | 4) if self.wanted.colors => {
+                let first = if layout.normal { 3 } else { 0 };
+                self.builder.lack_colors(self.builder.mesh.positions.len());
+                self.builder.add_color([numbers[first], numbers[first + 1], numbers[first + 2]]);
+            }
             Some(3 | 4) => self.builder.oddities.add(Oddity::VertexColor),
             _ => {
                 let message = format!("a vertex with {} numbers", 3 + count);

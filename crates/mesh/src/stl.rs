@@ -4,6 +4,8 @@
 //! - ASCII: all `solid`s are one mesh; keywords in any case; what else stands after `solid`, `facet` and `outer` does
 //!   not matter.
 //! - Binary: 80 bytes of anything, the number of triangles, 50 bytes each. Such a file may start with `solid`, too.
+//! - Colours that VisCAM, SolidView and Magics hide in the attributes of binary files are passed over: they are of
+//!   triangles, and mean different things by program.
 //! - Normals are not taken, as they are those of the triangles. Corners with the same bits are one vertex.
 
 use super::builder::{Builder, MOST_VERTICES, check_room, coordinate};

@@ -7,7 +7,7 @@ mod peak;
 
 use peak::peak_of;
 use std::path::Path;
-use tracer_mesh::{MeshFormat, parse};
+use tracer_mesh::{MeshFormat, Wanted, parse_as};
 
 type File = (&'static str, MeshFormat, Vec<u8>, usize);
 
@@ -24,6 +24,7 @@ fn ply_files() -> Vec<File> {
     let (text, binary) = ("ascii", "binary_little_endian");
     let xyz = "property char x\nproperty char y\nproperty char z\n";
     let all = format!("{xyz}property char nx\nproperty char ny\nproperty char nz\nproperty char u\nproperty char v\n");
+    let rgb = "property uchar r\nproperty uchar g\nproperty uchar b\n";
     let four = format!("element vertex 4\n{xyz}");
     let nine = format!("element vertex 9\n{xyz}");
     let places = b"\0\0\0\x01\0\0\x01\x01\0\0\x01\0";
@@ -65,6 +66,7 @@ fn ply_files() -> Vec<File> {
         ),
         file("PLY vertices", ply(binary, &format!("element vertex COUNT\n{xyz}"), b"", &[1, 2, 3]), 9),
         file("PLY vertices with all", ply(binary, &format!("element vertex COUNT\n{all}"), b"", &[0; 8]), 9),
+        file("PLY vertices with colours", ply(binary, &format!("element vertex COUNT\n{xyz}{rgb}"), b"", &[0; 6]), 9),
         file("PLY vertices in ASCII", ply(text, &format!("element vertex COUNT\n{xyz}"), b"", b"0 0 0\n"), 9),
         file(
             "PLY triangles",
@@ -203,6 +205,8 @@ fn memory_is_in_proportion_to_the_file() {
         ("a header of 10^12 faces", MeshFormat::Off, "OFF\n1 1000000000000 0\n0 0 0\n3 0 0 0\n".to_owned()),
         ("a face of 10^12 corners", MeshFormat::Off, "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n1000000000000 0 1 2\n".to_owned()),
         ("OBJ vertices", MeshFormat::Obj, repeated(square, "v 0 0 0\n") + "f 1 2 3\n"),
+        ("OBJ vertices with colours", MeshFormat::Obj, repeated(square, "v 0 0 0 1 1 1\n") + "f 1 2 3\n"),
+        ("OBJ vertices and a colour", MeshFormat::Obj, repeated(square, "v 0 0 0\n") + "v 0 0 0 .1 1 1\nf 1 2 3\n"),
         ("OBJ texture coordinates", MeshFormat::Obj, repeated(square, "vt 0\n") + "f 1/1 2/1 3/1\n"),
         ("OBJ normals", MeshFormat::Obj, repeated(square, "vn 0 0 1\n") + "f 1//1 2//1 3//1\n"),
         ("OBJ triangles", MeshFormat::Obj, repeated(square, "f 1 2 3\n")),
@@ -220,7 +224,7 @@ fn memory_is_in_proportion_to_the_file() {
     let files = files.map(|(what, format, text)| (what, format, text.into_bytes(), 9));
     for (what, format, text, times) in files.into_iter().chain(ply_files()).chain(stl_files()).chain(gltf_files()) {
         let peak = peak_of(|| {
-            let _ = parse(&text, format, Path::new("none/m"));
+            let _ = parse_as(&text, format, Path::new("none/m"), Wanted { colors: true });
         });
         println!("{what}: {:.1} times {} bytes", peak as f64 / text.len() as f64, text.len());
         // The text itself is the tenth.

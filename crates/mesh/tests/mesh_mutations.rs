@@ -9,7 +9,7 @@ mod mutate;
 use mutate::{mutants, run};
 use std::path::Path;
 use tracer_mesh::placements::parse_placements;
-use tracer_mesh::{MAX_COORDINATE, MeshData, MeshFormat, NO_INDEX, load, parse};
+use tracer_mesh::{ColorValues, MAX_COORDINATE, MeshData, MeshFormat, NO_INDEX, Wanted, load, parse, parse_as};
 
 const OBJ: &str = "# a box with a dent\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n 1.0\nv 1 1 0\nv 0.5 0.25 0\nv 0 1 0\n\
     v -1e-3 2.5E2 .5 0.1 0.2 0.3\nvt 0 0\nvt 1 0.5\nvn 0 0 1\nvn 0.1 0.2 0.3\no box\ng a b\ns 1\nusemtl m\n\
@@ -60,6 +60,13 @@ fn assert_whole(mesh: &MeshData) {
         assert!((length - 1.0).abs() < 1e-6);
     }
     assert!(mesh.uvs.iter().flatten().all(|x| x.is_finite()));
+    if let Some(colors) = &mesh.colors {
+        assert_eq!(colors.len(), mesh.positions.len());
+        match &colors.values {
+            ColorValues::Bytes(bytes) => assert!(bytes.iter().all(|word| word >> 24 == 0)),
+            ColorValues::Numbers(numbers) => assert!(numbers.iter().flatten().all(|x| (0.0..=1.0).contains(x))),
+        }
+    }
     assert!(mesh.triangle_material.is_empty() || mesh.triangle_material.len() == mesh.triangles.len());
     assert!(mesh.triangle_material.iter().all(|&m| m == NO_INDEX || (m as usize) < mesh.materials.len()));
     assert!(mesh.barycentre().iter().all(|x| x.is_finite()));
@@ -73,14 +80,26 @@ fn mutate_mesh(seed: u64, format: MeshFormat, original: impl AsRef<[u8]>) {
 /// Of a format where most damage breaks the file: one of so many mutants must be read all the same.
 fn mutate_brittle(seed: u64, format: MeshFormat, original: impl AsRef<[u8]>, of: usize) {
     let count = mutants();
-    let good = run(seed, count, original.as_ref(), |bytes| match parse(bytes, format, Path::new("none/m")) {
-        Ok(mesh) => {
-            assert_whole(&mesh);
-            true
-        }
-        Err(error) => {
-            assert!(!error.to_string().is_empty());
-            false
+    let good = run(seed, count, original.as_ref(), |bytes| {
+        let name = Path::new("none/m");
+        // What is wrong with colours is wrong only where they are wanted.
+        match (parse_as(bytes, format, name, Wanted { colors: true }), parse(bytes, format, name)) {
+            (Ok(mesh), Ok(without)) => {
+                assert_whole(&mesh);
+                assert_whole(&without);
+                assert!(without.colors.is_none() && mesh.triangles == without.triangles);
+                true
+            }
+            (Err(error), Ok(without)) => {
+                assert!(!error.to_string().is_empty());
+                assert_whole(&without);
+                false
+            }
+            (Ok(_), Err(error)) => panic!("without colours it is wrong: {error}"),
+            (Err(error), Err(_)) => {
+                assert!(!error.to_string().is_empty());
+                false
+            }
         }
     });
     assert!(good > count / of && good < count, "{good} of {count}");

@@ -1,4 +1,5 @@
-//! OpenEXR: R, G, B, A where the picture has it, and the channels of the picture's layers (`depth.Z`) in 32-bit floats,
+//! OpenEXR: R, G, B, A where the picture has it, and the channels of the picture's layers (`depth.Z`) and light groups
+//! (`light.key.R`) in 32-bit floats,
 //! ZIP, in one part as readers of channels by name expect it, with attributes that say what the picture was made from.
 
 use super::{Encoding, Provenance, WriteError};
@@ -19,8 +20,8 @@ pub(super) fn encode(image: &Image, provenance: &Provenance) -> Result<Vec<u8>, 
     let mut channels = vec![channel("R", 0), channel("G", 1), channel("B", 2)];
     channels.extend(image.alpha.iter().map(|alpha| AnyChannel::new("A", FlatSamples::F32(alpha.clone()))));
     channels.extend(image.layers.iter().flat_map(channels_of));
-    let of_matte = |(name, values): &(String, Vec<f32>)| AnyChannel::new(text(name), FlatSamples::F32(values.clone()));
-    channels.extend(image.mattes.channels.iter().map(of_matte));
+    let named = |(name, values): &(String, Vec<f32>)| AnyChannel::new(text(name), FlatSamples::F32(values.clone()));
+    channels.extend(image.mattes.channels.iter().chain(&image.light_groups).map(named));
     // The format wants channels in alphabetical order; `sort` makes it so.
     let channels = AnyChannels::sort(SmallVec::from_vec(channels));
     let comments = [provenance.scene_name.as_str(), &provenance.settings_line()].join(": ");

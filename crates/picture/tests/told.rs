@@ -24,7 +24,7 @@ fn file(encoding: Encoding, provenance: &Provenance) -> Vec<u8> {
         values: vec![0.5; channels.len() * width as usize * height as usize],
     };
     let layers = vec![layer("normal", &["X", "Y", "Z"]), layer("depth", &["Z"])];
-    let image = Image { width, height, linear, display, alpha: None, layers, mattes };
+    let image = Image { width, height, linear, display, alpha: None, layers, mattes, light_groups: Vec::new() };
     encode(&image, encoding, provenance).expect("a whole picture")
 }
 

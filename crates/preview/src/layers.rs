@@ -27,6 +27,7 @@ impl LastLayer {
             reuse: Some(false),
             caustics: Some(false),
             layers: Some(LayerSet::from_iter([layer])),
+            light_groups: Some(false),
             threads: shared.options.threads,
             ..RenderOptions::default()
         };

@@ -57,6 +57,7 @@ pub fn at(stage: &Stage, frame: &Frame, [x, y]: [u32; 2], scene: &Path) -> Optio
         reuse: Some(false),
         caustics: Some(false),
         layers: Some(LayerSet::all()),
+        light_groups: Some(false),
         threads: 1,
         ..RenderOptions::default()
     };

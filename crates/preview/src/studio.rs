@@ -152,6 +152,8 @@ impl Studio<'_> {
         RenderOptions {
             threads: self.shared.options.threads,
             longest_pass: Some(LONGEST_PASS),
+            // Who looks at the picture does not wait for shares of it that are not shown.
+            light_groups: Some(false),
             ..RenderOptions::default()
         }
     }

@@ -4,7 +4,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use scene_format::desc::Faces;
-use tracer_core::mesh::MeshArrays;
+use tracer_core::mesh::{MeshArrays, VertexColors};
 use tracer_core::texture::Pixels;
 use tracer_core::{Asset, Assets};
 
@@ -37,7 +37,14 @@ fn asset(item: &Bound<'_, PyDict>, name: &str) -> PyResult<Asset> {
             let points = numbers(&bytes("points")?, f64::from_ne_bytes).as_chunks::<3>().0.to_vec();
             let normals = numbers(&bytes("normals")?, f64::from_ne_bytes).as_chunks::<3>().0.to_vec();
             let uvs = numbers(&bytes("uvs")?, f64::from_ne_bytes).as_chunks::<2>().0.to_vec();
-            MeshArrays { points, faces, normals, uvs }.into()
+            let of_bytes = number("color_bytes")? == 1;
+            let colors = bytes("colors")?;
+            let shares: Vec<f32> = match of_bytes {
+                true => colors.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
+                false => numbers(&colors, f32::from_ne_bytes),
+            };
+            let colors = (!shares.is_empty()).then(|| VertexColors::new(shares.as_chunks::<3>().0.to_vec(), of_bytes));
+            MeshArrays { points, faces, normals, uvs, colors }.into()
         }
         kind => {
             let (width, height, channels) = (number("width")?, number("height")?, number("channels")?);

@@ -11,7 +11,8 @@ use tracer_core::Image;
 use tracer_picture::{Bits, Encoding, Provenance, Setting, encode, is_one_file, save};
 
 /// Puts a picture into a dictionary: `width`, `height`, `linear` and `display` (with alpha where there is one),
-/// `layers` (name, channels, numbers), `samples`, `noise`, `stopped`, `note`, and the functions `encode` and `save`.
+/// `layers` (name, channels, numbers; light groups as `light.key`), `samples`, `noise`, `stopped`, `note`, and the
+/// functions `encode` and `save`.
 ///
 /// # Errors
 /// When there is no memory.
@@ -25,9 +26,15 @@ pub fn put(out: &Bound<'_, PyDict>, made: Made, desc: &SceneDesc) -> PyResult<()
     out.set_item("display", with_alpha(py, &image, &image.display, |x| [(x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8])?)?;
     let layers = image.layers.iter().map(|layer| {
         let numbers = bytes(py, layer.values.iter().copied(), layer.values.len(), f32::to_ne_bytes)?;
-        Ok((layer.name, layer.channels.len(), numbers))
+        Ok((layer.name.to_owned(), layer.channels.len(), numbers))
     });
-    out.set_item("layers", layers.collect::<PyResult<Vec<_>>>()?)?;
+    let groups = image.light_groups.chunks_exact(3).map(|group| {
+        let [(name, red), (_, green), (_, blue)] = group else { unreachable!("three channels each") };
+        let numbers = red.iter().zip(green).zip(blue).flat_map(|((&r, &g), &b)| [r, g, b]);
+        let name = name.strip_suffix(".R").unwrap_or(name).to_owned();
+        Ok((name, 3, bytes(py, numbers, 3 * red.len(), f32::to_ne_bytes)?))
+    });
+    out.set_item("layers", layers.chain(groups).collect::<PyResult<Vec<_>>>()?)?;
     let samples = film.samples();
     out.set_item("samples", (*samples.start(), *samples.end()))?;
     let noise = film.relative_noise();

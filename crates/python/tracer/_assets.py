@@ -15,7 +15,8 @@ class Mesh:
     """A mesh of arrays. It stands where a scene names a mesh file.
 
     `points`: n x 3. `faces`: m x 3 numbers of points, or m x k for faces of k corners. `normals` (n x 3) and `uvs` (n x 2,
-    u to the right, v upwards) belong to the points.
+    u to the right, v upwards) belong to the points, and so do `colors` (n x 3 or, alpha ignored, n x 4), which a `VertexColor`
+    shows: uint8 is sRGB, floats from 0 to 1 are linear.
 
     >>> import numpy as np, tracer
     >>> square = tracer.Mesh(points=[[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], faces=[[0, 1, 2, 3]])
@@ -24,7 +25,7 @@ class Mesh:
     (8, 8, 3)
     """
 
-    def __init__(self, points: Any, faces: Any, normals: Any = None, uvs: Any = None) -> None:
+    def __init__(self, points: Any, faces: Any, normals: Any = None, uvs: Any = None, colors: Any = None) -> None:
         self.points = _rows("points", points, 3)
         faces = np.asarray(faces)
         if faces.ndim != 2 or faces.shape[1] < 3:
@@ -36,6 +37,7 @@ class Mesh:
         self.faces = np.ascontiguousarray(faces, dtype=np.uint32)
         self.normals = None if normals is None else _rows("normals", normals, 3)
         self.uvs = None if uvs is None else _rows("uvs", uvs, 2)
+        self.colors = None if colors is None else _colors(colors)
 
     def __repr__(self) -> str:
         return f"<tracer.Mesh of {len(self.points)} points and {len(self.faces)} faces>"
@@ -49,6 +51,8 @@ class Mesh:
             "corners": self.faces.shape[1],
             "normals": none if self.normals is None else self.normals.tobytes(),
             "uvs": none if self.uvs is None else self.uvs.tobytes(),
+            "colors": none if self.colors is None else self.colors.tobytes(),
+            "color_bytes": int(self.colors is not None and self.colors.dtype == np.uint8),
         }
 
 
@@ -59,6 +63,22 @@ def _rows(name: str, values: Any, width: int) -> "np.ndarray[Any, Any]":
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} is an array of numbers, not of {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def _colors(values: Any) -> "np.ndarray[Any, Any]":
+    array = np.asarray(values)
+    if array.ndim != 2 or array.shape[1] not in (3, 4):
+        raise ValueError(f"colors is an array of n x 3 or n x 4 numbers, not of shape {array.shape}")
+    if array.dtype != np.uint8 and array.dtype.kind != "f":
+        raise TypeError(f"colors is an array of uint8 (sRGB) or of floats (linear), not of {array.dtype}")
+    array = array[:, :3]
+    if array.dtype == np.uint8:
+        return np.ascontiguousarray(array)
+    wrong = ~((array >= 0) & (array <= 1)).all(axis=1)
+    if wrong.any():
+        k = int(wrong.argmax())
+        raise ValueError(f"colors[{k}] is {array[k].tolist()}; floats are from 0 to 1, and colours of 0 to 255 are uint8")
+    return np.ascontiguousarray(array, dtype=np.float32)
 
 
 def _pixels(name: str, array: "np.ndarray[Any, Any]") -> Asset:
@@ -143,7 +163,7 @@ class _Walk:
         points, faces = value.get("points"), value.get("faces")
         if key == "Mesh" and "file" not in value and isinstance(points, np.ndarray) and isinstance(faces, np.ndarray):
             # As a file would be: numbers, and not their text.
-            arrays = {name: value.pop(name) for name in ("points", "faces", "normals", "uvs") if name in value}
+            arrays = {name: value.pop(name) for name in ("points", "faces", "normals", "uvs", "colors") if name in value}
             value = {"file": self.name_of(Mesh(**arrays)), **value}
         return {
             field: self.plain(item, field, f"{path}.{field}" if path else field) for field, item in value.items()

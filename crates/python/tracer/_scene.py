@@ -95,7 +95,8 @@ class Picture:
             name: _layer(np.frombuffer(values, np.float32), shape[0], shape[1], channels)
             for name, channels, values in made["layers"]
         }
-        """Layers by name: height x width, or x 3 (x 2) where they have several numbers a pixel."""
+        """Layers by name: height x width, or x 3 (x 2) where they have several numbers a pixel. Where the scene says
+        `"output": {"light_groups": True}`, what each group of lights brings, too: `light.key`, `light.rest`."""
         self.samples: Tuple[int, int] = made["samples"]
         """The fewest and the most samples that pixels have."""
         self.noise: Optional[float] = made["noise"]

@@ -86,6 +86,7 @@ TriplanarItem = TypedDict("TriplanarItem", {"Triplanar": "Triplanar"})
 TubeItem = TypedDict("TubeItem", {"Tube": "Tube"})
 UnionItem = TypedDict("UnionItem", {"Union": "Union"})
 UvItem = TypedDict("UvItem", {"Uv": "Uv"})
+VertexColorItem = TypedDict("VertexColorItem", {"VertexColor": "VertexColor"})
 VoronoiItem = TypedDict("VoronoiItem", {"Voronoi": "Voronoi"})
 WoodItem = TypedDict("WoodItem", {"Wood": "Wood"})
 WorldItem = TypedDict("WorldItem", {"World": "World"})
@@ -349,6 +350,7 @@ class Output(TypedDict, total=False):
     backdrop: A colour to see instead of the background, whatever exposure and tone map do to the rest: `1` is white paper. The background still lights the scene, and shows in mirrors and through glass.
     cryptomatte: Mattes that EXR files get beside the picture, in the form of Cryptomatte: compositing programs cut out any object or material by its name, with soft edges.
     masks: Masks that EXR files get beside the picture: for each of these names the share of every pixel that the objects and lights of that name cover, as `mask.NAME.Y`.
+    light_groups: Tells apart what each group of lights brings: EXR files get `light.GROUP.R`, `.G`, `.B` for every `group` that lights, shining objects and the background have, and `light.rest.R`, `.G`, `.B` for those that have none. They sum to the picture. Each sample is traced once for every group.
     marks: Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how far away it is, and whether something hides it: for labels that are laid over the picture.
     """
 
@@ -357,6 +359,7 @@ class Output(TypedDict, total=False):
     backdrop: Any
     cryptomatte: Sequence[Either[Matte, RepeatItem, PickItem]]
     masks: Sequence[Either[str, RepeatItem, PickItem]]
+    light_groups: Either[bool, str, PickItem]
     marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
@@ -378,12 +381,14 @@ class Environment(_EnvironmentRequired, total=False):
     rotation: Turns it about `up`, counter-clockwise seen from there. Unit: degrees.
     up: Direction of the top row.
     camera_visible: Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
+    group: The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told apart. Several may have one.
     """
 
     scale: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
     rotation: Either[float, str, PickItem]
     up: Either[Sequence[Either[float, str]], Array, str, PickItem]
     camera_visible: Either[bool, str, PickItem]
+    group: Any
 
 
 Light = SphereLightItem
@@ -403,6 +408,7 @@ class SphereLight(_SphereLightRequired, total=False):
     power: Power: L = P / (4 pi^2 r^2). Unit: W.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen in mirrors and through glass.
     name: What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
+    group: The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told apart. Several may have one.
     """
 
     intensity: Any
@@ -410,20 +416,10 @@ class SphereLight(_SphereLightRequired, total=False):
     power: Any
     camera_visible: Either[bool, str, PickItem]
     name: Any
+    group: Any
 
 
-Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
-
-class Diffuse(TypedDict, total=False):
-    """Lambert: albedo / pi.
-
-    albedo: Reflected share per channel.
-    """
-
-    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
-
-
-Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem"]
+Pattern = Either["TextureItem", "CheckerboardItem", "LinesItem", "DotsItem", "GradientItem", "NoiseItem", "WoodItem", "MarbleItem", "VoronoiItem", "ColorRampItem", "MixItem", "MultiplyItem", "VertexColorItem"]
 
 class _TextureRequired(TypedDict):
     file: File
@@ -432,7 +428,7 @@ class _TextureRequired(TypedDict):
 class Texture(_TextureRequired, total=False):
     """A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
 
-    file: PNG or JPEG, relative to the scene file.
+    file: PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped, and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12.
     filter: Between texels.
     wrap: Beyond the borders.
     color_space: What the picture's numbers mean.
@@ -722,6 +718,28 @@ class Multiply(TypedDict, total=False):
     b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
+class VertexColor(TypedDict, total=False):
+    """The colours of a mesh's vertices, between vertices by where a point lies in its triangle: scans, sculptures, simulations. They are decoded to linear light before they are mixed, and numbers beyond 0 to 1 are clipped. OBJ (`v x y z r g b`), OFF (`COFF`, or without saying so; 0 to 255, or 0 to 1 where none is above), PLY (`red green blue`, `diffuse_red ..` or `r g b`) and glTF (`COLOR_0`) files have them, and meshes that a scene writes out with `colors`; alpha does not count, nor do colours of faces, nor those that some programs hide in STL files. Where some vertices have none they are white. It is an error on an object that has no such colours.
+
+    color_space: What their numbers mean.
+    """
+
+    color_space: Either[VertexColorSpace, PickItem]
+
+
+VertexColorSpace = Literal["Auto", "Srgb", "Linear"]
+
+Material = Either["DiffuseItem", "MirrorItem", "TransparentItem", "BlinnPhongItem", "ConductorItem", "EmissiveItem"]
+
+class Diffuse(TypedDict, total=False):
+    """Lambert: albedo / pi.
+
+    albedo: Reflected share per channel.
+    """
+
+    albedo: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
+
+
 class Mirror(TypedDict, total=False):
     """A perfect mirror.
 
@@ -792,11 +810,13 @@ class Emissive(TypedDict, total=False):
     radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
     power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Unit: W.
     two_sided: Whether it shines to both sides; else only to the normal's: outwards.
+    group: The group of lights that what shines so is of: with `output.light_groups`, what each group brings to the picture is told apart.
     """
 
     radiance: Any
     power: Any
     two_sided: Either[bool, str, PickItem]
+    group: Any
 
 
 Object = Either["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "UnionItem", "IntersectionItem", "DifferenceItem", "GroupItem", "IncludeItem"]
@@ -1372,9 +1392,10 @@ class Polygon(_PolygonRequired, total=False):
 class Mesh(TypedDict, total=False):
     """A triangle mesh, from a file or written out as `points` and `faces`.
 
-    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them; its materials, vertex colours, lights, cameras, skins, morph targets and animations are not.
+    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its materials, lights, cameras, skins, morph targets and animations are not.
     points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
     faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
+    colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows.
     material: Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -1387,6 +1408,7 @@ class Mesh(TypedDict, total=False):
     file: File
     points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
     faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    colors: Either[Sequence[Either[float, Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
@@ -1492,7 +1514,7 @@ class _IncludeRequired(TypedDict):
 
 
 class Include(_IncludeRequired, total=False):
-    """The objects and lights of another scene, moved and copied as one. Its names are its own: materials and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
+    """The objects and lights of another scene, moved and copied as one. Its names are its own: materials, textures and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not taken.
 
     file: The scene file, in any syntax. Paths in it start from its own folder.
     vars: Other values for its `vars`.
@@ -1530,6 +1552,7 @@ _SceneDictFields = TypedDict("_SceneDictFields", {
     "output": "Output",
     "background": "Either[float, Sequence[Either[float, str]], Array, str, Background, PickItem]",
     "lights": "Sequence[Either[Light, RepeatItem, PickItem]]",
+    "textures": "Dict[str, Either[float, Sequence[Either[float, str]], Array, str, Pattern]]",
     "materials": "Dict[str, Material]",
     "$schema": "str",
 }, total=False)
@@ -1539,7 +1562,7 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     """A whole scene: one file.
 
     version: Version of the language. Files of version 1 load for ever.
-    include: Files whose `vars`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
+    include: Files whose `vars`, `textures`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
     vars: Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
     animation: Frames and time, for expressions.
     cameras: Cameras by name.
@@ -1550,6 +1573,7 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     output: What is written beside the picture.
     background: Radiance of everything that no object covers. Unit: W/(sr m^2).
     lights: Lights. A scene needs one, or a background.
+    textures: Textures by name, for colours of materials and of other textures: `albedo: "bricks"`. A text that begins with `#` is a colour there, and one that begins with `=` an expression; any other is a name.
     materials: Materials by name, for objects to use.
     objects: What is to be seen; at least one.
     $schema: Where this schema is, for the editor.

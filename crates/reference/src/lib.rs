@@ -22,6 +22,7 @@ mod solids;
 pub mod statistics;
 mod surface;
 mod texture;
+mod vertex_color;
 mod world;
 
 pub use first_hit::{FirstHit, first_hits};

@@ -1,6 +1,7 @@
 //! Textures that are reckoned, point by point in f64: written after the manual's formulas.
 
 use crate::surface::Surface;
+use crate::vertex_color;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 use tracer_core::Scene;
@@ -47,6 +48,7 @@ pub fn program(scene: &Scene, index: u32, s: &Surface, texel: impl Fn(u32, [f64;
                 let p = coordinates(scene, space, map, s);
                 texel(texture, [p.x, p.y])
             }
+            Made::VertexColor(space) => vertex_color::color(scene, space, s),
             Made::Mix([a, b, weight]) => of(a).lerp(of(b), luminance(of(weight))),
             Made::Multiply([a, b]) => of(a) * of(b),
             Made::Ramp { input, first, count, between } => {

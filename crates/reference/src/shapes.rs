@@ -131,7 +131,7 @@ pub fn surface(body: u32, shape: &Shape, p: DVec3, direction: DVec3) -> Surface 
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
     let uv = uv(&shape.unit, q, flat);
-    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material, body }
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: shape.material, body, on_mesh: None }
 }
 
 /// The face of a cube that is nearest: a rectangle that faces outwards, as the manual says.
@@ -145,7 +145,7 @@ fn on_cube(body: u32, material: u32, (p, q): (DVec3, DVec3), inverse: &DMat3, di
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
     let uv = [0.5 + right.dot(q), 0.5 + up.dot(q)];
-    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material, body }
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material, body, on_mesh: None }
 }
 
 /// Texture coordinates as the manual says them.

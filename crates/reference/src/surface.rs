@@ -26,6 +26,18 @@ pub struct Surface {
     /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the copy of
     /// a mesh.
     pub body: u32,
+    /// Where it lies on a mesh.
+    pub on_mesh: Option<OnMesh>,
+}
+
+/// A point of a triangle of a mesh.
+pub struct OnMesh {
+    /// The numbers of the corners' vertices.
+    pub vertices: [u32; 3],
+    /// Barycentric coordinates.
+    pub weights: [f64; 3],
+    /// Which copy of a mesh.
+    pub instance: u32,
 }
 
 /// The normal is (p - c)/r; u is the longitude from -z over -x, z and x (the middle of the picture looks along +z), v
@@ -35,7 +47,7 @@ pub fn on_sphere(body: u32, sphere: &Sphere, p: DVec3, direction: DVec3) -> Surf
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
     let uv = [0.5 + outward.x.atan2(outward.z) / TAU, 1.0 - outward.y.clamp(-1.0, 1.0).acos() / PI];
-    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: sphere.material, body }
+    Surface { p, start: p, ng: n, ns: n, smooth: false, outside, uv, material: sphere.material, body, on_mesh: None }
 }
 
 /// Counter-clockwise is outside. The shading normal is the vertex normals', weighted by the barycentric coordinates
@@ -59,6 +71,7 @@ pub fn on_triangle(triangle: &Triangle, p: DVec3, direction: DVec3, smoothing: S
         uv: triangle.uvs.map_or([0.0; 2], |uvs| [0, 1].map(|axis| (0..3).map(|k| weights[k] * uvs[k][axis]).sum())),
         material: triangle.material,
         body: triangle.body,
+        on_mesh: Some(OnMesh { vertices: triangle.vertices, weights, instance: triangle.instance }),
     };
     let Some(normals) = triangle.normals else { return surface };
     let interpolated: DVec3 = (0..3).map(|k| weights[k] * normals[k]).sum();

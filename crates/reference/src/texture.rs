@@ -2,6 +2,7 @@
 
 use crate::pattern;
 use crate::surface::Surface;
+use crate::vertex_color::srgb;
 use glam::DVec3;
 use tracer_core::Scene;
 use tracer_core::scene::{Albedo, Texel, TextureView};
@@ -56,10 +57,4 @@ fn wrap(i: f64, n: u32, wrap: TextureWrap) -> u32 {
         }
     };
     k as u32
-}
-
-/// Linear light of an sRGB code value (IEC 61966-2-1).
-fn srgb(code: u8) -> f64 {
-    let c = f64::from(code) / 255.0;
-    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }

@@ -22,6 +22,10 @@ pub struct Triangle {
     pub object: u32,
     /// See [`surface::Surface::body`].
     pub body: u32,
+    /// The numbers of the corners.
+    pub vertices: [u32; 3],
+    /// Which copy of a mesh it is of.
+    pub instance: u32,
 }
 
 /// What a ray hit.
@@ -54,15 +58,15 @@ pub struct World {
 impl World {
     pub fn new(scene: &Scene) -> Self {
         let loose = (scene.spheres.len() + scene.shapes.len()) as u32;
-        let triangles = (loose..).zip(&scene.instances).flat_map(|(body, instance)| {
+        let triangles = (loose..).zip(scene.instances.iter()).flat_map(|(body, instance)| {
             let mesh = scene.meshes[instance.mesh as usize];
             (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count)
-                .map(move |k| triangle(scene, body, instance, k))
+                .map(move |k| triangle(scene, (body, body - loose), instance, k))
         });
         World {
-            spheres: scene.spheres.clone(),
-            curved: scene.shapes.clone(),
-            solids: scene.solids.clone(),
+            spheres: scene.spheres.to_vec(),
+            curved: scene.shapes.to_vec(),
+            solids: (*scene.solids).clone(),
             first_operand: loose + scene.instances.len() as u32,
             triangles: triangles.collect(),
             hidden: scene.camera_sees.as_ref().map_or_else(Vec::new, |seen| seen.hidden.clone()),
@@ -129,7 +133,7 @@ impl World {
 }
 
 /// A triangle of a copy, brought to render space: points by the matrix, normals by its inverse transpose.
-fn triangle(scene: &Scene, body: u32, instance: &Instance, k: u32) -> Triangle {
+fn triangle(scene: &Scene, (body, number): (u32, u32), instance: &Instance, k: u32) -> Triangle {
     let [x, y, z] =
         instance.placement.map_or([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], |rows| {
             rows.map(|row| row.map(f64::from))
@@ -142,6 +146,7 @@ fn triangle(scene: &Scene, body: u32, instance: &Instance, k: u32) -> Triangle {
     let [a, b, c] = if matrix.determinant() < 0.0 { [0, 2, 1] } else { [0, 1, 2] };
     let corners = triangles.corners(k).expect("a triangle of a mesh").map(|p| matrix * p + translation);
     let normals = triangles.corner_normals(k).map(|n| n.map(|n| (normal_matrix * n).normalize_or_zero()));
+    let vertices = triangles.vertices[k as usize];
     Triangle {
         corners: [corners[a], corners[b], corners[c]],
         normals: normals.map(|n| [n[a], n[b], n[c]]),
@@ -150,6 +155,8 @@ fn triangle(scene: &Scene, body: u32, instance: &Instance, k: u32) -> Triangle {
         light: triangles.light.get(k as usize).copied().unwrap_or(NONE),
         object: instance.object,
         body,
+        vertices: [vertices[a], vertices[b], vertices[c]],
+        instance: number,
     }
 }
 

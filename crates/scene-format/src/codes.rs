@@ -345,24 +345,31 @@ codes! {
     BAD_SET_SYNTAX "E0404" "--set is not of the form path=value";
     /// The number in brackets in a `--set` path is beyond the end of the list: lists count from 0.
     BAD_SET_INDEX "E0405" "--set counts beyond the end of a list";
-    /// `vars` of an `Include` give a value to a name that the included scene has no var of. Write one that it has.
+    /// A text where a colour is due names no texture: it is neither `"#rrggbb"` nor in `textures`. Or `vars` of an
+    /// `Include` give a value to a name that the included scene has no var of. Write a name that there is.
     ///
-    /// ```text
-    /// Scene(background: 1, objects: [Include(file: "chair.ron", vars: { "hight": 0.5 })])
+    /// ```ron
+    /// Scene(
+    ///     textures: { "clouds": Noise(), "bricks": Lines() },
+    ///     materials: { "sky": Diffuse(albedo: "clouds"), "wall": Diffuse(albedo: "briks") },
+    ///     background: 1,
+    ///     objects: [Box(material: "wall"), Sphere(center: (0, 2, 0), radius: 1, material: "sky")],
+    /// )
     /// ```
-    UNKNOWN_VAR "E0406" "an unknown var of an included scene";
-    /// Values of `vars` need each other to be reckoned.
+    UNKNOWN_NAME "E0406" "an unknown texture, or var of an included scene";
+    /// Values of `vars` need each other to be reckoned, textures are made of each other, or files include each other.
     ///
     /// ```ron
     /// Scene(vars: { "a": "=b+1", "b": "=2*a" }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: "=a")])
     /// ```
-    CIRCLE "E0407" "values that stand for each other";
-    /// A name in `vars` cannot be used in an expression: it is no plain word, or a function's.
+    CIRCLE "E0407" "things that need each other";
+    /// A name in `vars` cannot be used in an expression: it is no plain word, or a function's. Or the name of a texture
+    /// begins with `#` or `=`: such a text is a colour, or an expression.
     ///
     /// ```ron
     /// Scene(vars: { "table height": 0.75 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-    BAD_VAR_NAME "E0408" "a name that no expression can use";
+    BAD_NAME "E0408" "a name that cannot be used";
     /// `camera`, or `--camera`, names a camera that the scene has none of in `cameras`.
     ///
     /// ```ron
@@ -387,6 +394,16 @@ codes! {
     /// Scene(cameras: { "a": Camera(), "b": Camera() }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     UNDECIDED_CAMERA "E0411" "no camera is chosen";
+    /// A `group` of lights has a name that no layer of a picture can have: too long, or `rest`, which is what the
+    /// lights are called together that are of no group.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     lights: [SphereLight(center: (0, 5, 5), radius: 1, power: 100, group: "rest")],
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    LIGHT_GROUP "E0412" "no name for a group of lights";
     /// A mesh, texture or placements file is not there. Paths are relative to the scene file.
     FILE_NOT_FOUND "E0501" "a file is not there";
     /// A file is there but cannot be read: a folder, or no permission.
@@ -401,8 +418,17 @@ codes! {
     /// here: most often compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again
     /// without it.
     GLTF_EXTENSION "E0513" "a glTF file requires an extension";
-    /// The picture of a texture cannot be decoded as PNG or JPEG, or that of a `HeightField` as PNG, JPEG, EXR or HDR,
-    /// or it is too large, too narrow, or has heights that are no numbers.
+    /// A material shows the colours of vertices (`VertexColor`), and the object that has it has none: it is no `Mesh`,
+    /// its file has no colours, or it has `points` without `colors`. Of files OBJ (`v x y z r g b`), OFF, PLY and glTF
+    /// may have colours, STL cannot.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Sphere(radius: 1, center: (0, 0, 0), material: Diffuse(albedo: VertexColor()))])
+    /// ```
+    NO_VERTEX_COLORS "E0515" "colours of vertices that are not there";
+    /// The picture of a texture or of a `HeightField` cannot be decoded as PNG, JPEG, HDR or EXR, or it is too large,
+    /// too narrow, or has heights that are no numbers. Of an EXR file of several layers the first part with the
+    /// channels R, G and B is taken; it is an error if none has them.
     BROKEN_TEXTURE "E0520" "a picture cannot be read";
     /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about
     /// an axis by degrees) or 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.

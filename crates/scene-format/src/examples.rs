@@ -4,7 +4,7 @@
 use crate::desc::{
     Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
     Matte, Metal, NoiseKind, Object, PixelFilter, RampInterpolation, Reuse, Shading, SolidMapping, TextureChannel,
-    TextureColorSpace, TextureFilter, TextureWrap, ToneMap, VoronoiFeature,
+    TextureColorSpace, TextureFilter, TextureWrap, ToneMap, VertexColorSpace, VoronoiFeature,
 };
 use crate::desc::{
     BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
@@ -51,7 +51,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 37] = [
+pub(crate) const CHOICES: [&EnumDef; 38] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
@@ -83,6 +83,7 @@ pub(crate) const CHOICES: [&EnumDef; 37] = [
     &LinesAlong::DEF,
     &NoiseKind::DEF,
     &VoronoiFeature::DEF,
+    &VertexColorSpace::DEF,
     &RampInterpolation::DEF,
     &Curve::DEF,
     &Instances::DEF,
@@ -93,7 +94,7 @@ pub(crate) const CHOICES: [&EnumDef; 37] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 141] = [
+const SNIPPETS: [(&str, &str, &str); 145] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -205,6 +206,7 @@ const SNIPPETS: [(&str, &str, &str); 141] = [
         "Diffuse(albedo: Multiply(a: Checkerboard(a: 0.4, mapping: Uv(scale: (16, 8))), b: Gradient(a: \"#d04020\", b: \
          \"#f0d080\")))",
     ),
+    ("PatternWords", "VertexColor", "Diffuse(albedo: VertexColor())"),
     ("TextureFilter", "Bilinear", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Bilinear))"),
     ("TextureFilter", "Nearest", "Diffuse(albedo: Texture(file: \"checker.png\", filter: Nearest))"),
     ("TextureWrap", "Repeat", "Diffuse(albedo: Texture(file: \"checker.png\", wrap: Repeat))"),
@@ -266,6 +268,9 @@ const SNIPPETS: [(&str, &str, &str); 141] = [
     ("VoronoiFeature", "F1", "Diffuse(albedo: Voronoi(feature: F1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "F2MinusF1", "Diffuse(albedo: Voronoi(feature: F2MinusF1, mapping: Object(scale: 3)))"),
     ("VoronoiFeature", "Cell", "Diffuse(albedo: Voronoi(feature: Cell, jitter: 0.7, mapping: Object(scale: 3)))"),
+    ("VertexColorSpace", "Auto", "Diffuse(albedo: VertexColor(color_space: Auto))"),
+    ("VertexColorSpace", "Srgb", "Diffuse(albedo: VertexColor(color_space: Srgb))"),
+    ("VertexColorSpace", "Linear", "Diffuse(albedo: VertexColor(color_space: Linear))"),
     (
         "RampInterpolation",
         "Linear",
@@ -365,6 +370,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             background = words;
             files = &[SKY];
         }
+        "PatternWords" | "VertexColorSpace" if words.contains("VertexColor") => object = painted(words),
         "Material" | "Metal" => object = format!("Sphere(center: (0, 0, 0), radius: 1, material: {words})"),
         "PatternWords" | "TextureFilter" | "TextureWrap" | "TextureColorSpace" | "TextureChannel" | "MappingWords"
         | "SolidMapping" | "GradientAxis" | "LinesAlong" | "NoiseKind" | "VoronoiFeature" | "RampInterpolation" => {
@@ -404,6 +410,16 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
     let choice = choice.trim_end_matches("Words");
     let title = if choice == kind { kind.to_owned() } else { format!("{choice}::{kind}") };
     Example { title, ron, files }
+}
+
+/// A tetrahedron whose points have colours.
+fn painted(material: &str) -> String {
+    let points = "[(-1, -1, -1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)]";
+    let faces = "[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]";
+    let colors = r##"["#d03020", "#30a040", "#e0b020", "#2050c0"]"##;
+    let fields = [("points", points), ("faces", faces), ("colors", colors), ("material", material)];
+    let lines: String = fields.iter().map(|(name, value)| format!("            {name}: {value},\n")).collect();
+    format!("Mesh(\n{lines}        )")
 }
 
 #[cfg(test)]

@@ -115,8 +115,11 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
             json!({ "anyOf": [type_schema(*inner, rule, definitions), { "enum": ["None"] }, { "type": "null" }] })
         }
         Type::OneOf(kinds) => {
-            let kinds: Vec<Value> =
+            let mut kinds: Vec<Value> =
                 kinds.iter().map(|&kind| Value::Object(type_schema(kind, rule, definitions))).collect();
+            if kind.is_texture() {
+                kinds.push(json!({ "type": "string", "pattern": "^[^#=]", "description": "A name from `textures`." }));
+            }
             json!({ "anyOf": kinds })
         }
         Type::Struct(def) => {

@@ -233,6 +233,7 @@ fn described(Whole { scene, camera, .. }: Whole) -> SceneDesc {
         output: scene.output,
         background: scene.background,
         lights: scene.lights,
+        textures: scene.textures,
         materials: scene.materials,
         objects: scene.objects.0,
         base_dir: PathBuf::new(),

@@ -267,6 +267,11 @@ impl Setter {
             (Type::OneOf(kinds), _) => {
                 let fitting = kinds.iter().find(|kind| fits(item, kind));
                 match fitting {
+                    _ if kind.is_texture() && item.kind() == Kind::Text && !item.text().starts_with(['#', '=']) => {
+                        let fault =
+                            self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `textures`, by its name"));
+                        Err(fault.hint(format!("set the texture of that name: textures.{}", shortened(&item.text()))))
+                    }
                     Some(&kind) if !matches!(kind, Type::Text | Type::File) => self.find(item, kind, steps, noun),
                     Some(_) => Err(self
                         .fault(
@@ -288,6 +293,7 @@ impl Setter {
                 let (what, group) = match inner {
                     Type::Value => ("var", "vars"),
                     Type::Struct(_) => ("camera", "cameras"),
+                    inner if inner.is_texture() => ("texture", "textures"),
                     _ => ("material", "materials"),
                 };
                 let found = item.fields().find(|(key, _)| key.text() == *name);

@@ -49,7 +49,8 @@ RON is made for people, TOML for those who have editors for it, JSON for [progra
 
 - Numbers: `3`, `-0.25`, `1.5e3`, and `1_000` but in JSON; a whole number may stand where any number may.
 - Vectors: `(x, y, z)` or `[x, y, z]`; in TOML and JSON `[x, y, z]`.
-- Colours: `(r, g, b)` linear RGB, one number for grey, or `\"#rrggbb\"` (sRGB).
+- Colours: `(r, g, b)` linear RGB, one number for grey, or `\"#rrggbb\"` (sRGB). Where a texture may stand, too, \
+another text is [the name of one](#textures-by-name).
 - Kinds: `Name(field: value)` in RON, `{ Name = { field = value } }` in TOML, `{ \"Name\": { \"field\": value } }` in \
 JSON; kinds without
   fields are `Name`, and in TOML and JSON `\"Name\"`. What is said of values in TOML below holds in JSON, too, where \
@@ -115,6 +116,35 @@ first follows again:
 - Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every \
 machine.
 
+## Textures by name
+
+`textures` gives names to textures, and to colours, as `materials` does to materials. Wherever a colour may be a \
+texture, the name may stand, in
+other textures too:
+
+```ron
+Scene(
+    background: 1,
+    textures: {
+        \"clay\": Noise(a: \"#5c1f12\", b: \"#c46a4a\", mapping: Object(scale: 3)),
+        \"bricks\": Lines(a: 0.6, b: \"clay\", width: 0.08, mapping: Triplanar(scale: 5)),
+    },
+    materials: { \"wall\": Diffuse(albedo: \"bricks\") },
+    objects: [
+        Box(size: (3, 1, 0.2), material: \"wall\"),
+        Sphere(center: (0, 0.8, 0), radius: 0.3, material: Diffuse(albedo: Mix(a: \"bricks\", b: \"clay\"))),
+    ],
+)
+```
+
+- A text that begins with `#` is a colour, one that begins with `=` an expression, any other a name: no texture's name \
+begins so.
+- A name is what stands at it, as if that were written in its place: the picture is the same to the byte, and where a \
+number is wanted a
+  picture is read as numbers. They stand in any order and may use each other, but not in a circle; what is within \
+each other to sixteen deep counts through names.
+- `--set textures.bricks.width=0.1` sets a part of one.
+
 ## Groups and other files
 
 A `Group` is moved and copied as one; what has no material in it takes the group's:
@@ -142,14 +172,16 @@ do elsewhere.
 - Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. A group \
 has no `DropTo` and no `FitTo`.
 
-`include: [\"house.ron\"]` at the scene's top takes `vars`, `materials` and `cameras` of other files. Among the \
+`include: [\"house.ron\"]` at the scene's top takes `vars`, `textures`, `materials` and `cameras` of other \
+files. Among the \
 objects, `Include(file: \"chair.ron\", vars: {
 \"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's \
 objects and lights.
 
-- Names of the including file win against those of `include`, and of two files those of the later; their expressions \
-see the names that won.
-- An `Include` has names of its own: it sees no `vars` and materials of this scene, nor this scene its. `vars` and \
+- Names of the including file win against those of `include`, and of two files those of the later; the expressions of \
+their `vars` see the names that won. Materials and textures of a file keep the textures that it names itself.
+- An `Include` has names of its own: it sees no `vars`, textures and materials of this scene, nor \
+this scene its. `vars` and \
 `materials` give names that
   it has other values. Its camera, picture, background and settings are not taken.
 - Files may be in any syntax, whatever this one is. Paths in a file start from its own folder. Files may include \
@@ -391,13 +423,15 @@ fn value(field: &FieldDef) -> String {
         Type::Enum(def) => link(title(def.name)),
         Type::Map(Type::Enum(def)) => format!("{{ \"name\": {} }}", link(def.name)),
         Type::Map(Type::Struct(def)) => format!("{{ \"name\": {} }}", link(def.name)),
+        Type::Map(inner) if inner.is_texture() => format!("{{ \"name\": colour or {} }}", link("Texture")),
         Type::OneOf([Type::Text, Type::Struct(def)]) => format!("a name from `cameras`, or a {}", link(def.name)),
         Type::OneOf([Type::Text, Type::Enum(def)]) => format!("a name from `materials`, or a {}", link(def.name)),
         // Twelve kinds, in a dozen places.
         Type::OneOf([Type::Color, Type::Later(_)]) | Type::Optional(Type::OneOf([Type::Color, Type::Later(_)])) => {
             let words = field.rule.range.words();
             format!(
-                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or a {}",
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", a {}, or a name from \
+                 `textures`",
                 link("Texture")
             )
         }

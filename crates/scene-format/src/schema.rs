@@ -49,6 +49,15 @@ impl Type {
         }
     }
 
+    /// Whether it is a colour that may differ from place to place: a text that is no colour is the name of a texture.
+    pub fn is_texture(self) -> bool {
+        match self.resolved() {
+            Type::OneOf([Type::Color, Type::Later(_)]) => true,
+            Type::Optional(inner) => inner.is_texture(),
+            _ => false,
+        }
+    }
+
     /// The fields of a group of the scene, also where a name may stand for it.
     pub fn group(self) -> Option<&'static StructDef> {
         match self {

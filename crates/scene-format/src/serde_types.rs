@@ -7,6 +7,7 @@ use crate::words::Words;
 use crate::{deserialize, load, serialize, write};
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 macro_rules! of_words {
@@ -64,6 +65,8 @@ of_words![
     ColorRamp,
     Mix,
     Multiply,
+    VertexColor,
+    VertexColorSpace,
     Mapping,
     Object,
     Sphere,
@@ -147,25 +150,44 @@ impl Serialize for NamedMaterial {
 
 impl<'de> Deserialize<'de> for NamedMaterial {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(OneNamed)
+        let (name, material) = deserializer.deserialize_map(OneNamed { of: PhantomData, what: "a material" })?;
+        Ok(NamedMaterial { name, material })
     }
 }
 
-struct OneNamed;
+/// A map of one name, as it stands among the textures of a scene.
+impl Serialize for NamedTexture {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let entry = Entry::new(self.name.value.to_string(), self.texture.form(false));
+        Form::Map(vec![entry]).serialize(serializer)
+    }
+}
 
-impl<'de> Visitor<'de> for OneNamed {
-    type Value = NamedMaterial;
+/// What it names itself is not known here: that is refused.
+impl<'de> Deserialize<'de> for NamedTexture {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (name, texture) = deserializer.deserialize_map(OneNamed { of: PhantomData, what: "a texture" })?;
+        Ok(NamedTexture { name, texture })
+    }
+}
+
+struct OneNamed<T> {
+    of: PhantomData<T>,
+    what: &'static str,
+}
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for OneNamed<T> {
+    type Value = (Spanned<Arc<str>>, T);
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str("a name with its material")
+        write!(formatter, "the name of {} with it", self.what)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<NamedMaterial, A::Error> {
-        let (name, material) =
-            entries.next_entry::<String, Material>()?.ok_or_else(|| A::Error::custom("there is no name"))?;
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
+        let (name, value) = entries.next_entry::<String, T>()?.ok_or_else(|| A::Error::custom("there is no name"))?;
         if entries.next_key::<String>()?.is_some() {
             return Err(A::Error::custom("there is more than one name"));
         }
-        Ok(NamedMaterial { name: Arc::<str>::from(name).into(), material })
+        Ok((Arc::<str>::from(name).into(), value))
     }
 }

@@ -50,6 +50,7 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
         output: scene.output.clone(),
         background: scene.background.clone(),
         lights: scene.lights.clone(),
+        textures: scene.textures.clone(),
         materials: scene.materials.clone(),
         objects: Objects(scene.objects.clone()),
     };

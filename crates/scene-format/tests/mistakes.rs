@@ -109,10 +109,11 @@ impl Site<'_> {
             && self.sign(6, &[")", "]"])
     }
 
-    /// The name of a field, its value following. (In TOML and JSON names of materials look the same.)
+    /// The name of a field, its value following. (In TOML and JSON names of materials and textures look the
+    /// same.)
     fn is_field(&self) -> bool {
         let named = |sign: &str| self.text.contains(&format!("{sign}\"{}\"", self.here()));
-        if named("material = ") || named("\"material\": ") {
+        if named("= ") || named("\": ") {
             return false;
         }
         self.is(0, Kind::Word, &[]) && self.sign(1, &[":", "="]) && self.here().starts_with(char::is_lowercase)

@@ -110,8 +110,11 @@ fn parts_go_round() {
         goes_round(&scene.effects);
         goes_round(&scene.background);
         scene.lights.iter().for_each(goes_round);
-        scene.materials.iter().for_each(goes_round);
-        for object in &scene.objects {
+        // What names a texture is whole only in a scene.
+        let whole = |part: &dyn std::fmt::Debug| !format!("{part:?}").contains("NamedTexture");
+        scene.materials.iter().filter(|named| whole(named)).for_each(goes_round);
+        scene.textures.iter().filter(|named| whole(&named.texture)).for_each(|named| goes_round(&**named));
+        for object in scene.objects.iter().filter(|object| whole(object)) {
             object.value.transform().iter().for_each(goes_round);
             goes_round(object.value.material());
             // The groups that an object stands in are no part of it.

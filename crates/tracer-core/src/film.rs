@@ -7,6 +7,7 @@
 mod cells;
 mod exact;
 mod file;
+mod groups;
 mod halves;
 mod layers;
 mod mattes;
@@ -19,6 +20,8 @@ mod state;
 
 pub(crate) use cells::Cells;
 pub use file::{FilmError, FilmHead, Note, PROGRAM, SavedFilm};
+use groups::TileGroups;
+pub(crate) use groups::{FilmGroups, Samples};
 use halves::TileHalf;
 pub(crate) use halves::{half_end, half_of};
 pub use layers::LayerImage;
@@ -107,6 +110,8 @@ pub(crate) struct Tile {
     missed: Option<Box<Sums>>,
     /// Where samples with mattes have been added.
     mattes: Option<Box<TileMattes>>,
+    /// Where samples of light groups have been added.
+    groups: Option<Box<TileGroups>>,
 }
 
 /// Whether a sample can be summed; false for NaN too.
@@ -122,6 +127,15 @@ pub(crate) struct LeftOut {
     pub dropped: u64,
     /// Finite, but above [`LARGEST`].
     pub beyond: u64,
+}
+
+impl LeftOut {
+    /// Counts a sample that cannot be summed.
+    fn count(&mut self, sample: [f32; 3]) {
+        let finite = sample.iter().all(|x| x.is_finite());
+        self.beyond += u64::from(finite);
+        self.dropped += u64::from(!finite);
+    }
 }
 
 /// Luminance of linear sRGB.
@@ -170,9 +184,7 @@ impl Tile {
             let sample = [r, g, b];
             self.samples[pixel] += 1;
             if !counts(sample) {
-                let finite = sample.iter().all(|x| x.is_finite());
-                left_out.beyond += u64::from(finite);
-                left_out.dropped += u64::from(!finite);
+                left_out.count(sample);
                 continue;
             }
             self.sums.add(pixel, [fixed(r), fixed(g), fixed(b)]);
@@ -259,6 +271,8 @@ pub struct Film {
     backdrop: bool,
     /// What is counted for mattes.
     mattes: MattesKept,
+    /// The light groups that are summed by themselves, too.
+    groups: FilmGroups,
     first_tile: [u32; 2],
     tile_columns: u32,
     tiles: Vec<Tile>,
@@ -314,6 +328,7 @@ impl Film {
             halves: false,
             backdrop: false,
             mattes: MattesKept::default(),
+            groups: FilmGroups::default(),
             first_tile,
             tile_columns,
             tiles,
@@ -409,7 +424,8 @@ impl Film {
             let half = tile.half.as_ref().map_or(0, |half| half.bytes());
             let [taken, splats, missed] = [tile.taken.is_some(), tile.splats.is_some(), tile.missed.is_some()];
             let mattes = tile.mattes.as_ref().map_or(0, |mattes| mattes.bytes());
-            Tile::bytes(taken, splats, of_layers(tile), half, missed) + mattes
+            let groups = tile.groups.as_ref().map_or(0, |groups| groups.bytes());
+            Tile::bytes(taken, splats, of_layers(tile), half, missed) + mattes + groups
         };
         self.tiles.iter().map(of_tile).sum()
     }
@@ -437,14 +453,18 @@ impl Film {
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        let samples = tile.samples[pixel];
-        let [r, g, b] = match &tile.splats {
-            None => tile.sums.mean(pixel, samples),
+        self.mean(&tile.sums, tile.splats.as_ref().map(|splats| &splats.sums), pixel, tile.samples[pixel])
+    }
+
+    /// Mean radiance of a pixel that has so many samples, over what they and what light paths have brought.
+    #[inline(always)]
+    fn mean(&self, sums: &Sums, splats: Option<&Sums>, pixel: usize, samples: u32) -> [f64; 3] {
+        let [r, g, b] = match splats {
+            None => sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if samples == self.light_count() => tile.sums.mean_with(&splats.sums, pixel, samples),
+            Some(splats) if samples == self.light_count() => sums.mean_with(splats, pixel, samples),
             Some(splats) => {
-                let (of_paths, of_light) =
-                    (tile.sums.mean(pixel, samples), splats.sums.mean(pixel, self.light_count()));
+                let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_count()));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
             }
         };

@@ -48,7 +48,7 @@ pub mod texture;
 pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
 pub use compile::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told as StoreTold};
-pub use compile::{LookedAt, Looking, ToldFrame, check_frames, compile_storing, is_kept_file};
+pub use compile::{LookedAt, Looking, ToldFrame, check_frames, compile_storing, is_kept_file, most_light_groups};
 pub use denoise::{DENOISE_REACH, DenoiseError, DenoiseTold, Denoised, GUIDES, Noisy, denoise, lacks as denoise_lacks};
 pub use develop::{Backdrop, Image, Look, develop, develop_denoised, develop_radiance, srgb_decode, srgb_encode};
 pub use engine::{
@@ -61,7 +61,7 @@ pub use film::{Gap, Gaps, MergeError, Part, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};
 pub use marks::{Eye, MarkSeen, marks};
 pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};
-pub use scene::{CompileTimes, Moments, Scene, film_layers, layer_set, layer_word};
+pub use scene::{CompileTimes, LightGroups, Moments, Scene, film_layers, layer_set, layer_word};
 pub use tracer_kernels::layers::{Layer, LayerSet};
 pub use tracer_kernels::level::Level;
 pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};

@@ -191,6 +191,7 @@ fn is_free(scene: &mut Scene, camera: &Camera, point: DVec3) -> bool {
         reuse: Some(false),
         caustics: Some(false),
         layers: Some(LayerSet::from_iter([Layer::Depth])),
+        light_groups: Some(false),
         ..RenderOptions::default()
     };
     let film = render(scene, &options, &Unobserved);

@@ -12,7 +12,7 @@ pub use tracer_kernels::scene::{
     Albedo, Between, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis,
     Instance, Integrator, Lens, Light, Made, Material, Mesh, NONE, NoiseKind, Op, Operand, Pattern, PatternKind,
     Program, Projection, Shape, Sharing, Solids, Space, Sphere, Statistics, Step, Texel, TextureFilter, TextureView,
-    TextureWrap, Triangles, VoronoiFeature, WorldBounds, materials,
+    TextureWrap, Triangles, VertexSpace, VoronoiFeature, WorldBounds, materials,
 };
 
 /// A scene that was compiled ([`crate::compile`]); what is rendered of it is reached as if it were its own.
@@ -28,10 +28,37 @@ pub struct Scene {
     pub mattes: Mattes,
     /// What was odd but not wrong.
     pub warnings: Vec<Diagnostic>,
+    /// The groups that its lights are of, where a picture is to be made of each; `None` where not.
+    pub light_groups: Option<LightGroups>,
     /// Where something moves while the camera's shutter is open: what it is compiled of at other times.
     pub moments: Option<Arc<dyn Moments>>,
     /// How long compiling took.
     pub times: CompileTimes,
+}
+
+/// Groups of lights whose shares of the picture are told apart ([`Film::light_groups`](crate::Film::light_groups)).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LightGroups {
+    /// Their names, in the order of the alphabet; behind them [`LightGroups::REST`], where anything shines that is of
+    /// no group. None where nothing shines.
+    pub names: Vec<String>,
+    /// Which of them each light is of.
+    pub of_light: Vec<u32>,
+    /// Which of them the background is of, where it shines.
+    pub of_background: Option<u32>,
+}
+
+impl LightGroups {
+    /// What the lights are called together that are of no group; no group has this name.
+    pub const REST: &str = desc::LightGroup::REST;
+
+    /// The scene once for each group, lit by it alone; all but the lights is shared by them.
+    pub(crate) fn lit(&self, scene: &tracer_kernels::scene::Scene) -> Vec<tracer_kernels::scene::Scene> {
+        let of = |group: u32| {
+            scene.lit_by(|light| self.of_light.get(light) == Some(&group), self.of_background == Some(group))
+        };
+        (0..self.names.len() as u32).map(of).collect()
+    }
 }
 
 /// Seconds that the parts of compiling took.
@@ -64,7 +91,7 @@ impl DerefMut for Scene {
 pub trait Moments: Send + Sync {
     /// The scene as it is so large a part, from 0 to 1, of the time that the shutter is open after the shutter opens.
     /// It has the [`Frame`] and the unit of radiance of the scene that this stands in, and as many materials and
-    /// objects where these are told apart.
+    /// objects where these are told apart, and the same [`LightGroups::names`].
     ///
     /// # Errors
     /// What is wrong with it then.

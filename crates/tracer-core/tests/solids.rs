@@ -79,7 +79,7 @@ impl Alone {
 
     /// Whether a point is in it, and how far it is from the surface of any of its operands, at most about.
     fn inside(&self, p: DVec3) -> (bool, f64) {
-        let Solids { operands, steps, .. } = &self.0.solids;
+        let Solids { operands, steps, .. } = &*self.0.solids;
         let solid = self.solid();
         let mut nearest = f64::INFINITY;
         let mut stack = Vec::new();

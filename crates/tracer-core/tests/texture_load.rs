@@ -1,8 +1,8 @@
-//! Pictures: every kind of PNG and JPEG comes out as the right texels, and wrong files as clear errors.
+//! Pictures: every kind of PNG, JPEG, HDR and EXR comes out as the right texels, and wrong files as clear errors.
 
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType as Color, ImageEncoder};
+use image::{ExtendedColorType as Color, ImageEncoder, ImageFormat};
 use scene_format::diagnostic::Span;
 use std::path::Path;
 use tracer_core::texture::{Channel, ColorSpace, Reading, SRGB_TO_LINEAR, Texels, Texture, decode, decode_as, load};
@@ -202,19 +202,111 @@ fn other_formats_and_broken_files_are_clear_errors() {
     const SAVE_AGAIN: &str = "open it in an image program and save it again";
     const CONVERT: &str = "convert the picture to PNG";
     for (bytes, message) in [
-        (&b""[..], "p.png is no PNG or JPEG picture"),
-        (b"v 0 0 0\n", "p.png is no PNG or JPEG picture"),
-        (b"GIF89a\x01\0\x01\0", "p.png is no PNG or JPEG picture, but looks like `gif`"),
-        (b"#?RADIANCE\n", "p.png is no PNG or JPEG picture, but looks like `hdr`"),
+        (&b""[..], "p.png is no PNG, JPEG, HDR or EXR picture"),
+        (b"v 0 0 0\n", "p.png is no PNG, JPEG, HDR or EXR picture"),
+        (b"GIF89a\x01\0\x01\0", "p.png is no PNG, JPEG, HDR or EXR picture, but looks like `gif`"),
     ] {
-        assert_eq!(error(bytes), ["E0520", message, "a PNG or JPEG file", CONVERT].map(str::to_owned));
+        assert_eq!(error(bytes), ["E0520", message, "a PNG, JPEG, HDR or EXR file", CONVERT].map(str::to_owned));
     }
     let good = png(&[1; 300], 10, 10, Color::Rgb8);
     for end in [8, 20, 33, 50, good.len() - 20] {
         let [code, message, expected, hint] = error(&good[..end]);
         assert!(message.starts_with("the picture p.png is broken: "), "{message}");
-        assert_eq!([code.as_str(), &expected, &hint], ["E0520", "a whole PNG or JPEG file", SAVE_AGAIN]);
+        assert_eq!([code.as_str(), &expected, &hint], ["E0520", "a whole PNG, JPEG, HDR or EXR file", SAVE_AGAIN]);
     }
+}
+
+/// Pixels as HDR or EXR file.
+fn floats(pixels: &[f32], width: u32, height: u32, color: Color, format: ImageFormat) -> Vec<u8> {
+    let bytes: Vec<u8> = pixels.iter().flat_map(|x| x.to_ne_bytes()).collect();
+    let mut file = std::io::Cursor::new(Vec::new());
+    image::write_buffer_with_format(&mut file, &bytes, width, height, color, format).expect("encoded");
+    file.into_inner()
+}
+
+/// The numbers of EXR as they stand, those of HDR to its eight bits; row 0 on top.
+#[test]
+fn floats_are_linear() {
+    let pixels = [0.5, 0.25, 0.125, 1.0, 0.0, 0.75, 0.1, 0.2, 0.3, 0.9, 0.01, 0.6];
+    for format in [ImageFormat::OpenExr, ImageFormat::Hdr] {
+        let texture = picture(&floats(&pixels, 2, 2, Color::Rgb32F, format));
+        assert_eq!((texture.width, texture.height), (2, 2));
+        assert!(texture.warnings.is_empty(), "{:?}", texture.warnings);
+        let Texels::Linear(texels) = &texture.texels else { panic!("{:?}", texture.texels) };
+        for (texel, expected) in texels.iter().zip(pixels.as_chunks::<3>().0) {
+            // HDR has a common exponent, and a mantissa of eight bits for the largest channel.
+            let most = expected.iter().copied().fold(0.0, f32::max);
+            let off = if format == ImageFormat::Hdr { most / 128.0 } else { 0.0 };
+            assert!(texel.iter().zip(expected).all(|(a, b)| (a - b).abs() <= off), "{texel:?} {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn floats_are_read_by_channel_and_space() {
+    let file = floats(&[0.5, 0.25, 0.125, 0.75, 1.0, 0.0, 0.5, 1.0], 2, 1, Color::Rgba32F, ImageFormat::OpenExr);
+    let read = |space, channel| decode_as(&file, Path::new("p.exr"), Reading { space, channel }).expect("a picture");
+    let first = |space, channel| match read(space, channel).texels {
+        Texels::Linear(texels) => texels[0],
+        other => panic!("{other:?}"),
+    };
+    for space in [ColorSpace::Auto, ColorSpace::Linear] {
+        assert_eq!(first(space, Channel::Color), [0.5, 0.25, 0.125]);
+        assert_eq!(first(space, Channel::Red), [0.5; 3]);
+        assert_eq!(first(space, Channel::Green), [0.25; 3]);
+        assert_eq!(first(space, Channel::Blue), [0.125; 3]);
+        let luminance = (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125) as f32;
+        assert!((first(space, Channel::Luminance)[1] - luminance).abs() < 1e-7);
+    }
+    // Alpha is linear whatever is said: ((0.5 + 0.055) / 1.055)^2.4 for red.
+    assert_eq!(first(ColorSpace::Srgb, Channel::Alpha), [0.75; 3]);
+    assert!((first(ColorSpace::Srgb, Channel::Red)[0] - 0.214_041_14).abs() < 1e-7);
+    let codes = |texture: Texture| texture.warnings.iter().map(|w| w.code.as_str().to_owned()).collect::<Vec<_>>();
+    assert_eq!(codes(read(ColorSpace::Auto, Channel::Color)), ["W0520"]);
+    assert!(codes(read(ColorSpace::Auto, Channel::Alpha)).is_empty());
+    let opaque = floats(&[0.5; 3], 1, 1, Color::Rgb32F, ImageFormat::OpenExr);
+    let alpha = Reading { space: ColorSpace::Auto, channel: Channel::Alpha };
+    let alpha = decode_as(&opaque, Path::new("p.exr"), alpha).expect("a picture");
+    assert_eq!((&alpha.texels, codes(alpha.clone())), (&Texels::Linear(vec![[1.0; 3]]), vec!["W0520".to_owned()]));
+}
+
+#[test]
+fn floats_beyond_a_share_are_clipped_and_told() {
+    let pixels =
+        [2.0, 0.5, -1.0, f32::INFINITY, f32::NAN, 1.0, 0.0, 1.0, 0.5, f32::NEG_INFINITY, 65504.0, 1.0 + f32::EPSILON];
+    let texture = picture(&floats(&pixels, 2, 2, Color::Rgb32F, ImageFormat::OpenExr));
+    let clipped = vec![[1.0, 0.5, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 0.5], [0.0, 1.0, 1.0]];
+    assert_eq!(texture.texels, Texels::Linear(clipped));
+    let told: Vec<_> = texture.warnings.iter().map(|w| (w.code.as_str(), w.message.as_str())).collect();
+    assert_eq!(told, [("W0522", "3 texels of the picture are beyond 0 to 1, or no numbers")]);
+}
+
+/// Headers that promise more than the file holds, files that are cut off, layers without colours.
+#[test]
+fn wrong_pictures_of_floats_are_clear_errors() {
+    let exr = floats(&[0.5; 300], 10, 10, Color::Rgb32F, ImageFormat::OpenExr);
+    let hdr = floats(&[0.5; 300], 10, 10, Color::Rgb32F, ImageFormat::Hdr);
+    for (file, ends) in [(&exr, [20, 100, exr.len() - 40]), (&hdr, [12, 40, hdr.len() - 10])] {
+        for end in ends {
+            let [code, message, expected, _] = error(&file[..end]);
+            assert!(message.starts_with("the picture p.png is broken: "), "{message}");
+            assert_eq!([code.as_str(), &expected], ["E0520", "a whole PNG, JPEG, HDR or EXR file"], "{message}");
+        }
+    }
+    let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 30000\n";
+    let [code, message, ..] = error(huge);
+    assert_eq!((code.as_str(), &*message), ("E0520", "the picture p.png has 30000 x 30000 pixels in 53 bytes"));
+    // Channels of a layer with a name, as programs write passes: no R, G and B by themselves.
+    let mut named = exr;
+    let at = |file: &[u8], name: &[u8]| file.windows(name.len()).position(|window| window == name);
+    for name in [b"\0R\0\x02\0\0\0", b"\0G\0\x02\0\0\0"] {
+        if let Some(at) = at(&named, name) {
+            named[at + 1] += 1;
+        }
+    }
+    let [code, message, expected, _] = error(&named);
+    assert_eq!(code, "E0520");
+    assert!(expected.contains("R, G and B"), "{message}: {expected}");
 }
 
 /// Decoders fill the rest of a JPEG that is cut off with grey: here it is an error, wherever the cut is.

@@ -22,4 +22,10 @@ fn memory_is_in_proportion_to_the_file() {
         let peak = peak_of(|| assert!(texture::decode(&jpeg, Path::new("p.jpg")).is_err()));
         assert!(peak <= 9 * jpeg.len() + (1 << 20), "{peak} bytes for {side} x {side}");
     }
+    // Radiance files that promise as much.
+    for side in [5000, 30000] {
+        let hdr = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {side} +X {side}\n");
+        let peak = peak_of(|| assert!(texture::decode(hdr.as_bytes(), Path::new("p.hdr")).is_err()));
+        assert!(peak <= 9 * hdr.len() + (1 << 20), "{peak} bytes for {side} x {side}");
+    }
 }

@@ -18,8 +18,16 @@ fn mutated_pictures() {
     let rgb = image::ExtendedColorType::Rgb8;
     image::codecs::png::PngEncoder::new(&mut png).write_image(&pixels, 16, 12, rgb).expect("encoded");
     image::codecs::jpeg::JpegEncoder::new(&mut jpeg).write_image(&pixels, 16, 12, rgb).expect("encoded");
+    let floats: Vec<u8> = pixels.iter().flat_map(|byte| (f32::from(*byte) / 200.0).to_ne_bytes()).collect();
+    let of_floats = |format| {
+        let mut file = std::io::Cursor::new(Vec::new());
+        let rgb = image::ExtendedColorType::Rgb32F;
+        image::write_buffer_with_format(&mut file, &floats, 16, 12, rgb, format).expect("encoded");
+        file.into_inner()
+    };
+    let (hdr, exr) = (of_floats(image::ImageFormat::Hdr), of_floats(image::ImageFormat::OpenExr));
     // Checksums make nearly every change of a PNG an error; a JPEG often decodes to something.
-    for (seed, original, least) in [(6, png, 0), (7, jpeg, 50)] {
+    for (seed, original, least) in [(6, png, 0), (7, jpeg, 50), (8, hdr, 50), (9, exr, 50)] {
         let count = mutants() / 5;
         let good = run(seed, count, &original, |bytes| match decode(bytes, Path::new("p")) {
             Ok(texture) => {

@@ -43,6 +43,7 @@ fn image(width: usize, height: usize, display: Vec<f32>) -> Image {
         alpha: None,
         layers: Vec::new(),
         mattes: Default::default(),
+        light_groups: Vec::new(),
     }
 }
 

@@ -15,7 +15,7 @@ impl PictureLayer for Albedo {
 
     #[inline(always)]
     fn at<F: Lanes>(hit: &FirstHit<'_, F>) -> [F; 3] {
-        let color = Bsdf::at(&hit.scene.tables, hit.surface, hit.valid).color;
+        let color = Bsdf::at(hit.scene, hit.surface, hit.valid).color;
         [color.0, color.1, color.2]
     }
 }

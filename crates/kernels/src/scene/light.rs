@@ -79,6 +79,15 @@ impl Light {
         }
     }
 
+    /// Makes it one that shines nothing.
+    pub fn darken(&mut self) {
+        match self {
+            Light::Sphere { radiance, .. } => *radiance = [0.0; 3],
+            Light::Curved(curved) => curved.radiance = [0.0; 3],
+            Light::Parallelogram(flat) | Light::Triangle(flat) => flat.radiance = [0.0; 3],
+        }
+    }
+
     /// Whether both of its sides shine.
     pub fn two_sided(&self) -> bool {
         match self {
@@ -158,9 +167,12 @@ pub struct CurvedRow {
 }
 
 /// Lights as look-up tables, and the tree by which one of them is chosen. Spheres come first, then the curved ones.
+#[derive(Clone)]
 pub struct LightTable {
     /// Number of lights.
     pub len: u32,
+    /// Number of those that shine: the others are met as all are, but never asked, and not in the tree.
+    pub asked: u32,
     /// Number of spheres among them.
     pub spheres: u32,
     /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it
@@ -182,7 +194,7 @@ pub struct LightTable {
     /// Steps from the root to the deepest light.
     pub depth: u32,
     /// Light from all directions.
-    pub environment: Option<Environment>,
+    pub environment: Option<Arc<Environment>>,
 }
 
 /// A light as the tree sees it.
@@ -238,7 +250,7 @@ impl LightTable {
     pub const LEAF: u32 = 1 << 31;
 
     /// Of lights among which the spheres come first, then the curved ones.
-    pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Environment>) -> Self {
+    pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Arc<Environment>>) -> Self {
         let emitters: Vec<Emitter> = lights.iter().map(|light| Emitter::new(light, spheres)).collect();
         let rows = lights.iter().filter_map(|light| {
             let Light::Sphere { sphere, radiance, two_sided } = *light else { return None };
@@ -264,14 +276,17 @@ impl LightTable {
             v
         };
         let mut builder = Builder { emitters: &emitters, tree: Vec::new(), trail: vec![0; emitters.len()], depth: 0 };
-        if !emitters.is_empty() {
-            let mut order: Vec<u32> = (0..emitters.len() as u32).collect();
-            builder.tree.resize(Self::STRIDE as usize, 0.0);
+        let mut order: Vec<u32> =
+            (0..).zip(lights).filter(|(_, light)| light.radiance() != [0.0; 3]).map(|(k, _)| k).collect();
+        let asked = order.len() as u32;
+        builder.tree.resize(Self::STRIDE as usize, 0.0);
+        if asked > 0 {
             builder.node(0, &mut order, 0, 0);
         }
         let sphere_count = lights.iter().filter(|light| matches!(light, Light::Sphere { .. })).count();
         LightTable {
             len: emitters.len() as u32,
+            asked,
             spheres: sphere_count as u32,
             rows: Table::new(rows),
             first_flat: (sphere_count + curved.len()) as u32,
@@ -286,13 +301,13 @@ impl LightTable {
 
     /// Whether there is none to ask.
     pub fn is_empty(&self) -> bool {
-        self.len == 0 && self.environment.is_none()
+        self.asked == 0 && self.environment.is_none()
     }
 
     /// Whether one is to be chosen.
     #[inline(always)]
     pub fn several(&self) -> bool {
-        self.len > 1 || (self.len == 1 && self.environment.is_some())
+        self.asked > 1 || (self.asked == 1 && self.environment.is_some())
     }
 
     /// Whether there are lights other than spheres.

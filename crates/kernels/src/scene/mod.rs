@@ -7,6 +7,7 @@
 //! large the scene is.
 
 mod camera;
+mod colors;
 mod environment;
 mod frame;
 mod light;
@@ -24,6 +25,7 @@ mod table;
 mod texture;
 
 pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection, Stereo};
+pub use colors::{Coded, ColorTable, MeshColors, VertexSpace};
 pub use environment::Environment;
 pub use frame::Frame;
 pub use light::LightTable;
@@ -49,6 +51,7 @@ pub use texture::{Picture, Texels, TextureFilter, TextureTable, TextureUse, Text
 pub use texture::{Texel, TextureView};
 
 use crate::bvh::Acceleration;
+use std::sync::Arc;
 
 /// No primitive, no instance.
 pub const NONE: u32 = u32::MAX;
@@ -78,7 +81,8 @@ pub enum Integrator {
     },
 }
 
-/// A compiled scene.
+/// A compiled scene. What is large in it is shared by its clones.
+#[derive(Clone)]
 pub struct Scene {
     /// Where render space lies in the person's world.
     pub frame: Frame,
@@ -117,47 +121,65 @@ pub struct Scene {
     /// where it is [`Scene::environment`].
     pub background: [f32; 3],
     /// Spheres of objects and lights, in the order of their primitive ids 0 .. `spheres.len()`.
-    pub spheres: Vec<Sphere>,
+    pub spheres: Arc<Vec<Sphere>>,
     /// Curved shapes that are no spheres, and behind them planes without an end. Shape k has primitive id
     /// `spheres.len() + k`.
-    pub shapes: Vec<Shape>,
+    pub shapes: Arc<Vec<Shape>>,
     /// What those of them are made of that are made of several.
-    pub solids: Solids,
+    pub solids: Arc<Solids>,
     /// Materials; surfaces name them by index.
-    pub materials: Vec<Material>,
+    pub materials: Arc<Vec<Material>>,
     /// Lights: the spheres, then the other curved ones, then the flat ones.
     pub lights: Vec<Light>,
     /// Meshes, each once.
-    pub meshes: Vec<Mesh>,
+    pub meshes: Arc<Vec<Mesh>>,
     /// The triangles of all meshes. Triangle k has primitive id `spheres.len() + shapes.len() + k`.
-    pub triangles: Triangles,
+    pub triangles: Arc<Triangles>,
     /// Meshes placed in the scene.
-    pub instances: Vec<Instance>,
+    pub instances: Arc<Vec<Instance>>,
     /// What finds the hits.
     pub acceleration: Acceleration,
     /// The scene as tables for the engine.
     pub tables: Tables,
     /// The tree over meshes and many spheres; `None` when there are neither.
-    pub accel: Option<std::sync::Arc<crate::bvh::Accel>>,
+    pub accel: Option<Arc<crate::bvh::Accel>>,
     /// What camera rays meet, where not all of it.
-    pub camera_sees: Option<Box<CameraSees>>,
+    pub camera_sees: Option<Arc<CameraSees>>,
     /// The boxes under the root of the bounding volume hierarchy, also where another structure finds the hits.
     pub top_boxes: Option<crate::bvh::TopBoxes>,
     /// The boxes under those.
     pub second_boxes: Option<crate::bvh::SecondBoxes>,
     /// All of that, where it is little.
-    pub occluders: Option<OccluderTable>,
+    pub occluders: Option<Arc<OccluderTable>>,
 }
 
 impl Scene {
     /// The picture of all directions behind everything, if there is one.
     pub fn environment(&self) -> Option<&Environment> {
-        self.tables.lights.environment.as_ref()
+        self.tables.lights.environment.as_deref()
     }
 
     /// Whether light comes from where no object is.
     pub fn is_open(&self) -> bool {
         self.background.iter().any(|&x| x > 0.0) || self.environment().is_some()
+    }
+
+    /// The same scene in which only some of the lights shine: those of which `shines` is true, by their index, and the
+    /// background where `background` is. The others are there, and dark. All but the lights is shared with this one.
+    pub fn lit_by(&self, shines: impl Fn(usize) -> bool, background: bool) -> Scene {
+        let mut lit = self.clone();
+        for (_, light) in lit.lights.iter_mut().enumerate().filter(|(k, _)| !shines(*k)) {
+            light.darken();
+        }
+        let environment = self.tables.lights.environment.clone().filter(|_| background);
+        lit.tables.lights = LightTable::new(&lit.lights, &lit.spheres, environment);
+        if !background {
+            lit.background = [0.0; 3];
+        }
+        if lit.reuse == Sharing::Indoors && !lit.is_open() {
+            lit.reuse = Sharing::Always;
+        }
+        lit
     }
 
     /// A texture, by the index in [`Albedo::Texture`].
@@ -191,23 +213,26 @@ impl Scene {
 }
 
 /// The scene as the engine reads it: structures of arrays, padded for whole-register loads and look-ups.
+#[derive(Clone)]
 pub struct Tables {
     /// Spheres.
-    pub spheres: SphereTable,
+    pub spheres: Arc<SphereTable>,
     /// Curved shapes and planes.
-    pub shapes: ShapeTable,
+    pub shapes: Arc<ShapeTable>,
     /// Planes, as rays are tested with them.
-    pub planes: PlaneTable,
+    pub planes: Arc<PlaneTable>,
     /// Materials.
-    pub materials: MaterialTable,
+    pub materials: Arc<MaterialTable>,
     /// Lights.
     pub lights: LightTable,
     /// Textures.
-    pub textures: TextureTable,
+    pub textures: Arc<TextureTable>,
     /// Patterns.
-    pub patterns: PatternTable,
+    pub patterns: Arc<PatternTable>,
+    /// The colours of vertices.
+    pub colors: Arc<ColorTable>,
     /// Instances.
-    pub instances: InstanceTable,
+    pub instances: Arc<InstanceTable>,
 }
 
 impl Tables {

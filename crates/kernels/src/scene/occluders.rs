@@ -32,12 +32,9 @@ pub struct OccluderTable {
 }
 
 impl OccluderTable {
-    /// No more triangles than this are held.
-    pub const MOST: usize = 256;
-
-    /// Of a tree that holds little, else `None`.
-    pub fn new(accel: &Accel) -> Option<Self> {
-        let few = accel.few(Self::MOST)?;
+    /// Of a tree that holds no more triangles than this, and little else; of others `None`.
+    pub fn new(accel: &Accel, most: usize) -> Option<Self> {
+        let few = accel.few(most)?;
         let len = few.triangles.len();
         let column = |of: &dyn Fn(usize) -> f32| -> Vec<f32> {
             (0..len).map(of).chain(std::iter::repeat_n(0.0, ROOM)).collect()

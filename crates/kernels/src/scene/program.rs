@@ -1,7 +1,7 @@
 //! Textures made of others: a flat list of steps, each of which writes a colour to a place, from colours at other
 //! places.
 
-use super::Space;
+use super::{Space, VertexSpace};
 
 /// Places that a program may have. A step of three operands needs two beside what the first of them needs, if those
 /// that need most are reckoned first: a program that needs more has several thousand steps.
@@ -23,6 +23,8 @@ pub enum Made {
         /// Rows of the 3x4 matrix to what the texture's coordinates are made of.
         map: [[f64; 4]; 3],
     },
+    /// The colour of a mesh's vertices.
+    VertexColor(VertexSpace),
     /// a + w (b - a), w the luminance of the third.
     Mix([u8; 3]),
     /// The product, channel by channel.

@@ -58,7 +58,8 @@ impl Scene {
             + size_of_val(&t.normal_indices[..])
             + size_of_val(&t.uvs[..])
             + size_of_val(&t.uv_indices[..])
-            + size_of_val(&t.material[..]);
+            + size_of_val(&t.material[..])
+            + size_of_val(&self.tables.colors.words[..]);
         Statistics {
             spheres: self.spheres.len() as u64,
             shapes: (self.shapes.len() - self.tables.planes.rows.len()) as u64,
@@ -79,7 +80,7 @@ impl Scene {
 
     fn bounds(&self) -> Option<WorldBounds> {
         let mut all = Bounds::EMPTY;
-        for sphere in &self.spheres {
+        for sphere in self.spheres.iter() {
             all.add(sphere.center - DVec3::splat(sphere.radius));
             all.add(sphere.center + DVec3::splat(sphere.radius));
         }
@@ -89,7 +90,7 @@ impl Scene {
             all.add(high);
         }
         let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| self.mesh_bounds(mesh)).collect();
-        for instance in &self.instances {
+        for instance in self.instances.iter() {
             let Some(mesh) = meshes.get(instance.mesh as usize).filter(|mesh| mesh.min.x <= mesh.max.x) else {
                 continue;
             };

@@ -4,6 +4,7 @@ use crate::lanes::{Bits, Lanes};
 
 /// Rows of K numbers. Up to 32 of them lie column by column, and registers are permuted to look them up; more lie row
 /// by row, so that a lane finds its row in one or two lines of the cache.
+#[derive(Clone)]
 pub enum Table<const K: usize> {
     One([f32; K]),
     Sixteen(Box<[[f32; 16]; K]>),

@@ -362,6 +362,12 @@ impl<'a> Buffers<'a> {
         Ok(Run { bytes, start: (value.byte_offset + offset.min(needed)) as usize, stride: stride as usize })
     }
 
+    /// Whether the elements of an accessor, named at a byte, have four numbers.
+    pub(super) fn are_fours(&self, index: u32, named_at: usize) -> Result<bool, Box<Fault>> {
+        let Element { value, .. } = self.document.element::<Accessor>(List::Accessors, index, named_at)?;
+        Ok(value.r#type == "VEC4")
+    }
+
     /// An accessor of elements of N numbers, named at a byte.
     pub(super) fn values<const N: usize>(
         &mut self,
@@ -371,7 +377,7 @@ impl<'a> Buffers<'a> {
     ) -> Result<Values<'a, N>, Box<Fault>> {
         let Element { value: accessor, at } = self.document.element::<Accessor>(List::Accessors, index, named_at)?;
         let label = format!("{} ({what})", List::Accessors.shown(index));
-        let kind = ["", "SCALAR", "VEC2", "VEC3"].get(N).copied().unwrap_or_default();
+        let kind = ["", "SCALAR", "VEC2", "VEC3", "VEC4"].get(N).copied().unwrap_or_default();
         if accessor.r#type != kind {
             let message = format!("{label} is {}", shown(accessor.r#type.as_bytes()));
             return Err(Fault::new(at, message, format!("the type {kind}")));

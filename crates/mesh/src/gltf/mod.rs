@@ -20,6 +20,7 @@ mod document;
 mod walk;
 
 use super::builder::Builder;
+use super::colors::Wanted;
 use super::cursor::{Fault, shown};
 use super::data::MeshData;
 use super::error::MeshError;
@@ -44,7 +45,7 @@ const OF_LOOKS: [&str; 5] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "
 const NAMES: usize = 8;
 
 /// Reads a glTF file; its content tells which of the two forms it has.
-pub(super) fn read(bytes: &[u8], path: &Path, files: &Files) -> Result<MeshData, MeshError> {
+pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
     let is_container = bytes.starts_with(b"glTF");
     let parts = if is_container {
         Parts::of_container(bytes).map_err(|fault| MeshError::at_byte(path, *fault))?
@@ -68,7 +69,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, files: &Files) -> Result<MeshData,
     let mut builder = Builder::default();
     builder.oddities.add_many(Oddity::TrailingByte, parts.trailing);
     let mut buffers = Buffers::new(&document, (path, files), parts.binary, bytes.len() as u64);
-    let mut walk = Walk::new(&document, &mut builder, &mut buffers);
+    let mut walk = Walk::new(&document, &mut builder, &mut buffers, wanted);
     walk.all().map_err(told)?;
     let walk::Found { meshes, morphs, materials, uvs } = walk.found;
     let libraries = buffers.files();

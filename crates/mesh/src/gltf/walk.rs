@@ -3,6 +3,7 @@
 use super::accessor::{Buffers, Values};
 use super::document::{Document, Element, List};
 use crate::builder::{Builder, MOST_VERTICES, coordinate};
+use crate::colors::Wanted;
 use crate::cursor::Fault;
 use crate::data::NO_INDEX;
 use crate::oddities::Oddity;
@@ -60,7 +61,7 @@ struct Attributes {
     #[serde(rename = "TEXCOORD_0")]
     uv: Option<u32>,
     #[serde(rename = "COLOR_0")]
-    color: Option<IgnoredAny>,
+    color: Option<u32>,
 }
 
 /// What was found besides triangles.
@@ -132,13 +133,20 @@ pub(super) struct Walk<'w, 'a> {
     document: &'a Document<'a>,
     builder: &'w mut Builder,
     buffers: &'w mut Buffers<'a>,
+    wanted: Wanted,
     stretches: Vec<Stretch>,
     pub(super) found: Found,
 }
 
 impl<'w, 'a> Walk<'w, 'a> {
-    pub(super) fn new(document: &'a Document<'a>, builder: &'w mut Builder, buffers: &'w mut Buffers<'a>) -> Self {
-        Walk { document, builder, buffers, stretches: Vec::new(), found: Found::default() }
+    pub(super) fn new(
+        document: &'a Document<'a>,
+        builder: &'w mut Builder,
+        buffers: &'w mut Buffers<'a>,
+        wanted: Wanted,
+    ) -> Self {
+        builder.colors_are = (1.0, false);
+        Walk { document, builder, buffers, wanted, stretches: Vec::new(), found: Found::default() }
     }
 
     /// Brings all meshes of the default scene.
@@ -206,7 +214,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         self.found.meshes += 1;
         let placed = Placed::new(map);
         // Primitives of a mesh often share their vertices.
-        let mut known: BTreeMap<[u32; 3], Vertices> = BTreeMap::new();
+        let mut known: BTreeMap<[u32; 4], Vertices> = BTreeMap::new();
         for (k, raw) in primitives.into_iter().enumerate() {
             let label = || format!("{}.primitives[{k}]", List::Meshes.shown(index));
             self.buffers.spend(raw.get().len() as u64, at)?;
@@ -222,7 +230,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         at: usize,
         label: &impl Fn() -> String,
         placed: &Placed,
-        known: &mut BTreeMap<[u32; 3], Vertices>,
+        known: &mut BTreeMap<[u32; 4], Vertices>,
     ) -> Result<(), Box<Fault>> {
         let attributes = &primitive.attributes;
         let mode = primitive.mode.unwrap_or(4);
@@ -238,7 +246,8 @@ impl<'w, 'a> Walk<'w, 'a> {
             return Ok(());
         };
         self.found.morphs += u64::from(!primitive.targets.is_empty());
-        let key = [position, attributes.normal.unwrap_or(NO_INDEX), attributes.uv.unwrap_or(NO_INDEX)];
+        let color = attributes.color.filter(|_| self.wanted.colors);
+        let key = [Some(position), attributes.normal, attributes.uv, color].map(|of| of.unwrap_or(NO_INDEX));
         let vertices = match known.get(&key) {
             Some(&vertices) => vertices,
             None => {
@@ -265,7 +274,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             let count = (end - first) as u64;
             self.stretches.push(Stretch { end, uv: attributes.uv.is_some() });
             self.found.materials.extend(primitive.material);
-            if attributes.color.is_some() {
+            if attributes.color.is_some() && !self.wanted.colors {
                 self.builder.oddities.add_many(Oddity::VertexColor, u64::from(vertices.count));
             }
             if attributes.normal.is_none() {
@@ -324,7 +333,30 @@ impl<'w, 'a> Walk<'w, 'a> {
                 self.builder.add_uv([u, 1.0 - v], uvs.at)?;
             }
         }
+        if let Some(color) = attributes.color.filter(|_| self.wanted.colors) {
+            self.buffers.spend(12 * positions.count as u64, at)?;
+            if self.buffers.are_fours(color, at)? {
+                let colors = self.buffers.values::<4>(color, at, "COLOR_0")?;
+                same(colors.count, colors.at, &colors.label)?;
+                self.colors(first, &colors)?;
+            } else {
+                let colors = self.buffers.values::<3>(color, at, "COLOR_0")?;
+                same(colors.count, colors.at, &colors.label)?;
+                self.colors(first, &colors)?;
+            }
+        }
         Ok(Vertices { first: first as u32, count: positions.count as u32 })
+    }
+
+    /// Adds the colours of the vertices from here on; alpha is passed over.
+    fn colors<const N: usize>(&mut self, first: usize, colors: &Values<'_, N>) -> Result<(), Box<Fault>> {
+        self.builder.lack_colors(first);
+        for k in 0..colors.count {
+            if let [red, green, blue, ..] = colors.get(k)?[..] {
+                self.builder.add_color([red, green, blue]);
+            }
+        }
+        Ok(())
     }
 
     /// Adds the triangles of so many corners in a row.

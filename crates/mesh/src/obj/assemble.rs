@@ -2,6 +2,8 @@
 
 use super::piece::{FoundCorner, Piece, RawIndex};
 use super::{MOST, Oddities, Oddity};
+use crate::coloring::{NO_COLOR, settled};
+use crate::colors::VertexColors;
 use crate::cursor::{Fault, shown};
 use crate::data::{MeshData, MtlNames, NO_INDEX};
 use crate::error::MeshError;
@@ -94,12 +96,12 @@ impl<'a> Assembly<'a> {
         (path, files): (&Path, &Files),
         oddities: &mut Oddities,
     ) -> Result<MeshData, MeshError> {
+        let colors = self.take_colors(oddities);
         let positions = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.positions)).collect());
         let normals = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.normals)).collect());
         let uvs = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.uvs)).collect());
         let names = self.used_names();
         let runs: Vec<Vec<MaterialRun>> = self.material_runs(&names);
-
         let lookup = Lookup {
             positions: &positions,
             normals: &normals,
@@ -160,12 +162,27 @@ impl<'a> Assembly<'a> {
             normal_triangles: normals.triangles,
             uvs: uvs.values,
             uv_triangles: uvs.triangles,
+            colors,
             materials: materials.materials,
             triangle_material,
             mtl,
             libraries: materials.libraries,
             warnings: materials.warning.into_iter().collect(),
         })
+    }
+
+    /// The colours of all vertices, if any has one.
+    fn take_colors(&mut self, oddities: &mut Oddities) -> Option<VertexColors> {
+        if self.pieces.iter().all(|piece| piece.colors.is_empty()) {
+            return None;
+        }
+        let of_piece = |piece: &mut Piece| {
+            let mut colors = std::mem::take(&mut piece.colors);
+            colors.resize(piece.positions.len(), NO_COLOR);
+            colors
+        };
+        let raw = join(self.pieces.iter_mut().map(of_piece).collect());
+        settled(raw, self.total.positions, 1.0, true, oddities)
     }
 
     /// The names of materials that faces use, in the order of first use.

@@ -1,7 +1,8 @@
 //! Wavefront OBJ, as the specification of Advanced Visualizer 4.2 (appendix B1) describes polygons, and as programs
 //! write it.
 //!
-//! - `v` with 3 coordinates, a weight, or a colour (both ignored, counted); `vt` with 1 to 3 numbers; `vn`.
+//! - `v` with 3 coordinates, a weight (ignored, counted), a colour (sRGB from 0 to 1), or both; `vt` with 1 to 3
+//!   numbers; `vn`.
 //! - `f` (and the old `fo`) in all forms of corners: `1`, `1/2`, `1//3`, `1/2/3`, counted from 1, or back from here if
 //!   negative. Faces may name vertices that come later in the file.
 //! - `mtllib` and `usemtl`; `g`, `o` and `s` are read over: normals come from `vn` alone.
@@ -14,6 +15,7 @@
 mod assemble;
 mod piece;
 
+use super::colors::Wanted;
 use super::cursor::Fault;
 use super::data::MeshData;
 use super::error::MeshError;
@@ -31,15 +33,21 @@ const PIECE: usize = 1 << 20;
 const MOST: usize = 1 << 31;
 
 /// Reads an OBJ file.
-pub(super) fn read(text: &[u8], path: &Path, files: &Files) -> Result<MeshData, MeshError> {
-    read_in_pieces(text, path, files, PIECE)
+pub(super) fn read(text: &[u8], from: (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
+    read_in_pieces(text, from, wanted, PIECE)
 }
 
-fn read_in_pieces(text: &[u8], path: &Path, files: &Files, piece_bytes: usize) -> Result<MeshData, MeshError> {
+fn read_in_pieces(
+    text: &[u8],
+    (path, files): (&Path, &Files),
+    wanted: Wanted,
+    piece_bytes: usize,
+) -> Result<MeshData, MeshError> {
     if let Some(fault) = foreign_encoding(text) {
         return Err(MeshError::at_line(path, text, *fault));
     }
-    let pieces: Vec<Piece> = cut(text, piece_bytes).into_par_iter().map(|part| Piece::parse(text, part)).collect();
+    let parse = |part| Piece::parse(text, part, wanted);
+    let pieces: Vec<Piece> = cut(text, piece_bytes).into_par_iter().map(parse).collect();
     let mut oddities = Oddities::default();
     let mut good = Vec::with_capacity(pieces.len());
     for mut piece in pieces {

@@ -1,5 +1,7 @@
 //! One piece of an OBJ file, parsed on its own: what it says, with indices still relative to the piece.
 
+use crate::coloring::NO_COLOR;
+use crate::colors::Wanted;
 use crate::cursor::{Blanks, Cursor, Fault, shown};
 use crate::normals::unit;
 use crate::oddities::{Oddities, Oddity};
@@ -66,6 +68,8 @@ pub(super) struct Piece<'a> {
     /// Where it lies in the file.
     pub(super) range: Range<usize>,
     pub(super) positions: Vec<[f64; 3]>,
+    /// As many as positions, or none when no vertex has any.
+    pub(super) colors: Vec<[f32; 3]>,
     pub(super) uvs: Vec<[f32; 2]>,
     /// Of unit length, or zero.
     pub(super) normals: Vec<[f32; 3]>,
@@ -87,12 +91,16 @@ pub(super) struct Piece<'a> {
 impl<'a> Piece<'a> {
     /// Parses a part of the file that holds whole statements.
     #[expect(clippy::indexing_slicing, reason = "the range is one of the text's own parts")]
-    pub(super) fn parse(text: &'a [u8], range: Range<usize>) -> Piece<'a> {
+    pub(super) fn parse(text: &'a [u8], range: Range<usize>, wanted: Wanted) -> Piece<'a> {
         let mut piece = Piece { range: range.clone(), ..Piece::default() };
         let mut cursor = Cursor::new(&text[range.clone()], OBJ_BLANKS);
-        if let Err(mut fault) = piece.parse_statements(&mut cursor) {
+        if let Err(mut fault) = piece.parse_statements(&mut cursor, wanted) {
             fault.at += range.start;
             piece.fault = Some(fault);
+        }
+        if !piece.colors.is_empty() {
+            piece.colors.resize(piece.positions.len(), NO_COLOR);
+            piece.colors.shrink_to_fit();
         }
         // What grew by doubling is kept until all pieces are joined.
         piece.positions.shrink_to_fit();
@@ -112,10 +120,10 @@ impl<'a> Piece<'a> {
         self.face_ends = Vec::new();
     }
 
-    fn parse_statements(&mut self, cursor: &mut Cursor<'a>) -> Result<(), Box<Fault>> {
+    fn parse_statements(&mut self, cursor: &mut Cursor<'a>, wanted: Wanted) -> Result<(), Box<Fault>> {
         while cursor.find_statement() {
             match cursor.word() {
-                b"v" => self.parse_vertex(cursor)?,
+                b"v" => self.parse_vertex(cursor, wanted)?,
                 b"f" | b"fo" => self.parse_face(cursor)?,
                 b"vt" => self.parse_uv(cursor)?,
                 b"vn" => self.parse_normal(cursor)?,
@@ -134,17 +142,17 @@ impl<'a> Piece<'a> {
         Ok(())
     }
 
-    fn parse_vertex(&mut self, cursor: &mut Cursor) -> Result<(), Box<Fault>> {
+    fn parse_vertex(&mut self, cursor: &mut Cursor, wanted: Wanted) -> Result<(), Box<Fault>> {
         let position = cursor.position().map_err(|fault| fault.expecting(VERTEX))?;
         self.positions.push(position);
         cursor.skip_blanks();
         if !cursor.is_at_end_of_statement() {
-            self.parse_weight_and_color(cursor)?;
+            self.parse_weight_and_color(cursor, wanted)?;
         }
         Ok(())
     }
 
-    fn parse_weight_and_color(&mut self, cursor: &mut Cursor) -> Result<(), Box<Fault>> {
+    fn parse_weight_and_color(&mut self, cursor: &mut Cursor, wanted: Wanted) -> Result<(), Box<Fault>> {
         let start = cursor.at();
         let mut numbers = [0.0; 4];
         let mut count = 0;
@@ -162,8 +170,15 @@ impl<'a> Piece<'a> {
         if matches!(count, 1 | 4) && numbers[0] != 1.0 {
             self.oddities.add(Oddity::Weight);
         }
-        if count > 1 {
-            self.oddities.add(Oddity::VertexColor);
+        let [a, b, c, d] = numbers;
+        match count {
+            0 | 1 => {}
+            _ if !wanted.colors => self.oddities.add(Oddity::VertexColor),
+            _ => {
+                // This vertex is there already.
+                self.colors.resize(self.positions.len() - 1, NO_COLOR);
+                self.colors.push(if count == 3 { [a, b, c] } else { [b, c, d] }.map(|x| x as f32));
+            }
         }
         Ok(())
     }

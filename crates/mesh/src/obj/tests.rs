@@ -1,15 +1,18 @@
 use super::*;
 
 /// Every kind of statement, index and line end, so that pieces are cut in all kinds of places.
-const SAMPLE: &str = "# sample\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\\\n 0\n\
+const SAMPLE: &str = "# sample\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n\nv 1 1 0\nv 0 1 0 .1 .2 0\nvt 0 0\nvt \
+                      1 0\\\n 0\n\
                       vn 0 0 1\n\
-    usemtl a\nf 1/1/1 2/2/1 3/1/1\ng one\nv 0 0 1\nv 1 0 1\nusemtl b\nf -2//-1 \\\r\n -1//-1 \\\n -3//-1\nvn 0 0 0\n\
+    usemtl a\nf 1/1/1 2/2/1 3/1/1\ng one\nv 0 0 1\nv 1 0 1 1 1 0 2\nusemtl b\nf -2//-1 \\\r\n -1//-1 \\\n -3//-1\nvn \
+    0 0 0\n\
     f 1 2 3 4\nusemtl c\nusemtl a\nl 1 2\nf 1 2 2\nf 6/-1 5/-2 4\nvn 0 1 0\nf 1//2 2//2 3//3\ncurv 1 2\nf 7 1 2\n\
     v 5 5 5\n\
     s1\ns2\ns3\ns4\ns5\ns1\ns6\ns7\ns8\ns9\ns1\n";
 
 fn read(text: &str, piece_bytes: usize) -> Result<MeshData, String> {
-    read_in_pieces(text.as_bytes(), Path::new("m.obj"), &Files::default(), piece_bytes)
+    let wanted = Wanted { colors: true };
+    read_in_pieces(text.as_bytes(), (Path::new("m.obj"), &Files::default()), wanted, piece_bytes)
         .map_err(|error| error.to_string())
 }
 

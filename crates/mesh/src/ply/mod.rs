@@ -3,7 +3,9 @@
 //! - ASCII and binary of both byte orders; all types by their old and new names; elements in any order.
 //! - `vertex`: `x y z`, normals `nx ny nz`, texture coordinates `u v`, `s t` or `texture_u texture_v`.
 //! - `face`: a list `vertex_indices` or `vertex_index`. `tristrips`: such a list, -1 between strips.
-//! - All else is stepped over; colours, and texture coordinates of faces, are counted.
+//! - Colours of vertices: `red green blue`, `diffuse_red diffuse_green diffuse_blue` or `r g b`, where they are wanted:
+//!   whole numbers are in sRGB, from 0 to 65535 of type ushort and else from 0 to 255, floats are linear, from 0 to 1.
+//! - All else is stepped over; colours of faces, and their texture coordinates, are counted.
 //!
 //! The counts of the header are only compared with what is there; memory is reserved by the size of the file.
 
@@ -11,6 +13,7 @@ mod header;
 mod source;
 
 use super::builder::{Builder, MOST_VERTICES, check_room, coordinate};
+use super::colors::Wanted;
 use super::cursor::Fault;
 use super::data::MeshData;
 use super::error::MeshError;
@@ -20,12 +23,12 @@ use source::{Ascii, Binary, Source};
 use std::path::Path;
 
 /// Reads a PLY file.
-pub(super) fn read(text: &[u8], path: &Path) -> Result<MeshData, MeshError> {
+pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
     let header = Header::parse(text).map_err(|fault| MeshError::at_line(path, text, *fault))?;
     let builder = match header.encoding {
-        Encoding::Ascii => Reader::new(Ascii::new(text, header.data)).read(&header),
-        Encoding::LittleEndian => Reader::new(Binary::<false>::new(text, header.data)).read(&header),
-        Encoding::BigEndian => Reader::new(Binary::<true>::new(text, header.data)).read(&header),
+        Encoding::Ascii => Reader::new(Ascii::new(text, header.data)).read(&header, wanted),
+        Encoding::LittleEndian => Reader::new(Binary::<false>::new(text, header.data)).read(&header, wanted),
+        Encoding::BigEndian => Reader::new(Binary::<true>::new(text, header.data)).read(&header, wanted),
     };
     let builder = builder.map_err(|fault| {
         if header.encoding == Encoding::Ascii || fault.at < header.data {
@@ -47,15 +50,28 @@ enum Role {
     Nothing,
 }
 
-/// Where a property of a vertex goes: its position, its normal, its texture coordinates.
-const SLOTS: usize = 3 + 3 + 2;
+/// Where a property of a vertex goes: its position, its normal, its texture coordinates, its colour.
+const SLOTS: usize = 3 + 3 + 2 + 3;
 
 /// What vertices have besides their positions.
 #[derive(Clone, Copy, Default)]
 struct VertexLayout {
     normal: bool,
     uv: bool,
+    color: Option<ColorLayout>,
 }
+
+/// How colours are written.
+#[derive(Clone, Copy)]
+struct ColorLayout {
+    /// What each channel is multiplied by, so that it goes from 0 to 1.
+    scale: [f64; 3],
+    is_srgb: bool,
+}
+
+/// The names of the properties of colours.
+const COLORS: [[&str; 3]; 3] =
+    [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
 
 /// What is done with the next properties of an item.
 enum Step {
@@ -88,10 +104,10 @@ struct Plan<'h> {
 }
 
 impl<'h> Plan<'h> {
-    fn new(element: &'h Element<'h>) -> Result<Plan<'h>, Box<Fault>> {
+    fn new(element: &'h Element<'h>, wanted: Wanted) -> Result<Plan<'h>, Box<Fault>> {
         let (role, takes) = match element.name {
             b"vertex" => {
-                let (layout, slots) = vertex_slots(element)?;
+                let (layout, slots) = vertex_slots(element, wanted)?;
                 (Role::Vertices(layout), slots)
             }
             b"face" | b"tristrips" => match index_list(element)? {
@@ -123,7 +139,7 @@ impl<'h> Plan<'h> {
 /// The numbers of the properties that are read, ascending, each with its slot.
 type Taken = Vec<(usize, usize)>;
 
-fn vertex_slots(element: &Element) -> Result<(VertexLayout, Taken), Box<Fault>> {
+fn vertex_slots(element: &Element, wanted: Wanted) -> Result<(VertexLayout, Taken), Box<Fault>> {
     const EXPECTED: &str = "the properties `x`, `y` and `z` of the element `vertex`, each a number";
     let find = |name: &str| {
         let scalar = |kind| matches!(kind, Kind::Scalar(_));
@@ -155,8 +171,28 @@ fn vertex_slots(element: &Element) -> Result<(VertexLayout, Taken), Box<Fault>> 
             layout.uv = true;
         }
     }
+    for names in COLORS.iter().filter(|_| wanted.colors) {
+        if let (None, [Some(red), Some(green), Some(blue)]) =
+            (layout.color, [find(names[0])?, find(names[1])?, find(names[2])?])
+        {
+            taken.extend([(red, 8), (green, 9), (blue, 10)]);
+            layout.color = Some(ColorLayout::of([red, green, blue].map(|k| element.properties.get(k).map(|p| p.kind))));
+        }
+    }
     taken.sort_unstable();
     Ok((layout, taken))
+}
+
+impl ColorLayout {
+    fn of(kinds: [Option<Kind>; 3]) -> Self {
+        let scale = |kind| match kind {
+            Some(Kind::Scalar(Scalar::U16)) => 1.0 / 65535.0,
+            Some(Kind::Scalar(kind)) if kind.is_integer() => 1.0 / 255.0,
+            _ => 1.0,
+        };
+        let is_whole = |kind: &Option<Kind>| matches!(kind, Some(Kind::Scalar(kind)) if kind.is_integer());
+        ColorLayout { scale: kinds.map(scale), is_srgb: kinds.iter().all(is_whole) }
+    }
 }
 
 /// The number of the property that lists the corners of faces or strips; none where there are no faces.
@@ -190,8 +226,9 @@ impl<S: Source> Reader<S> {
         Reader { source, builder: Builder::default(), corners: Vec::new() }
     }
 
-    fn read(mut self, header: &Header) -> Result<Builder, Box<Fault>> {
-        let plans = header.elements.iter().map(Plan::new).collect::<Result<Vec<Plan>, _>>()?;
+    fn read(mut self, header: &Header, wanted: Wanted) -> Result<Builder, Box<Fault>> {
+        let plan = |element| Plan::new(element, wanted);
+        let plans = header.elements.iter().map(plan).collect::<Result<Vec<Plan>, _>>()?;
         let mut all_vertices = plans.iter().filter(|plan| matches!(plan.role, Role::Vertices(_)));
         let expected = "one element `vertex`";
         match (all_vertices.next(), all_vertices.next()) {
@@ -216,7 +253,7 @@ impl<S: Source> Reader<S> {
                 }
                 Role::Nothing => self.skip_element(plan)?,
             }
-            self.count_colors(plan);
+            self.count_colors(plan, wanted);
         }
         let end = self.source.clone();
         for (plan, source) in waiting {
@@ -302,6 +339,10 @@ impl<S: Source> Reader<S> {
         mesh.positions.reserve_exact(count);
         mesh.normals.reserve_exact(if layout.normal { count } else { 0 });
         mesh.uvs.reserve_exact(if layout.uv { count } else { 0 });
+        if let Some(color) = layout.color {
+            self.builder.reserve_colors(count);
+            self.builder.colors_are = (1.0, color.is_srgb);
+        }
         self.read_items(plan, |reader, steps| {
             let at = reader.source.at();
             let mut values = [0.0; SLOTS];
@@ -319,13 +360,16 @@ impl<S: Source> Reader<S> {
                     Step::SkipList { count, item } | Step::TakeList { count, item } => reader.skip_list(count, item)?,
                 }
             }
-            let [x, y, z, nx, ny, nz, u, v] = values;
+            let [x, y, z, nx, ny, nz, u, v, red, green, blue] = values;
             reader.builder.mesh.positions.push([x, y, z]);
             if layout.normal {
                 reader.builder.add_normal([nx, ny, nz]);
             }
             if layout.uv {
                 reader.builder.add_uv([u, v], at)?;
+            }
+            if let Some(ColorLayout { scale: [r, g, b], .. }) = layout.color {
+                reader.builder.add_color([red * r, green * g, blue * b]);
             }
             Ok(())
         })
@@ -395,15 +439,15 @@ impl<S: Source> Reader<S> {
     }
 
     /// Counts what is passed over and would be seen.
-    fn count_colors(&mut self, plan: &Plan) {
-        let has = |name: &[u8]| plan.element.properties.iter().any(|property| property.name == name);
-        let (colors, count) = (has(b"red") && has(b"green") && has(b"blue"), plan.element.count);
+    fn count_colors(&mut self, plan: &Plan, wanted: Wanted) {
+        let has = |name: &str| plan.element.properties.iter().any(|property| property.name == name.as_bytes());
+        let (colors, count) = (COLORS.iter().any(|names| names.iter().all(|name| has(name))), plan.element.count);
         let oddities = &mut self.builder.oddities;
         match plan.role {
-            Role::Vertices(_) if colors => oddities.add_many(Oddity::VertexColor, count),
+            Role::Vertices(_) if colors && !wanted.colors => oddities.add_many(Oddity::VertexColor, count),
             Role::Faces => {
                 oddities.add_many(Oddity::FaceColor, if colors { count } else { 0 });
-                oddities.add_many(Oddity::CornerUvs, if has(b"texcoord") { count } else { 0 });
+                oddities.add_many(Oddity::CornerUvs, if has("texcoord") { count } else { 0 });
             }
             _ => {}
         }

@@ -67,6 +67,26 @@ def test_normals_make_faces_round():
     assert not np.allclose(flat[8, 4], bent[1]["normal"][8, 4])
 
 
+def test_colours_of_points_are_shown():
+    shown = {"Diffuse": {"albedo": {"VertexColor": {}}}}
+    for colors, expected in [
+        (np.full((4, 3), 128, np.uint8), 0.2158605),
+        (np.full((4, 4), 0.5, np.float32), 0.5),
+        (np.full((4, 3), 0.25), 0.25),
+    ]:
+        for mesh in [{"file": tracer.Mesh(POINTS, FACES, colors=colors)}, {"points": POINTS, "faces": FACES, "colors": colors}]:
+            _, layers = tracer.render(scene({**mesh, "material": shown}), layers=["albedo"], size=(8, 8), samples=1)
+            assert np.allclose(layers["albedo"][4, 4], expected, atol=1e-6)
+    with pytest.raises(ValueError, match=r"colors\[1\] is \[0.0, 2.0, 0.0\]"):
+        tracer.Mesh(POINTS, FACES, colors=np.array([[0, 0, 0], [0, 2, 0], [0, 0, 0], [0, 0, 0]], float))
+    with pytest.raises(TypeError, match="uint8"):
+        tracer.Mesh(POINTS, FACES, colors=np.zeros((4, 3), int))
+    with pytest.raises(ValueError, match="n x 3 or n x 4"):
+        tracer.Mesh(POINTS, FACES, colors=np.zeros((4, 2)))
+    with pytest.raises(tracer.SceneError, match="there are 3 colors"):
+        tracer.render(scene({"file": tracer.Mesh(POINTS, FACES, colors=np.zeros((3, 3))), "material": shown}), **SETTINGS)
+
+
 def test_what_is_wrong_with_arrays_is_told():
     with pytest.raises(tracer.SceneError) as told:
         tracer.render(scene({"points": POINTS, "faces": np.array([[0, 1, 9]])}))

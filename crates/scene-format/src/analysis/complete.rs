@@ -199,6 +199,15 @@ fn value(
                     snippet: escaped(&written(name)),
                 }));
             }
+            if kind.is_texture() {
+                out.items.extend(names::defined(text, syntax).textures.iter().map(|name| Completion {
+                    label: name.clone(),
+                    kind: CompletionKind::Name,
+                    detail: "a texture of this scene".to_owned(),
+                    documentation: String::new(),
+                    snippet: escaped(&if quoted { name.to_owned() } else { format!("\"{name}\"") }),
+                }));
+            }
             all.iter()
                 .filter(|kind| !matches!(kind, Type::Text))
                 .for_each(|kind| value(text, syntax, *kind, field, way, out));

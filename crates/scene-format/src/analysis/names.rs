@@ -1,7 +1,7 @@
-//! Names that a person gives: of materials, of cameras, of objects and lights, and of values in `vars`.
+//! Names that a person gives: of materials, of textures, of cameras, of objects and lights, and of values in `vars`.
 
 use super::hover::range;
-use super::visit::{tree, visit};
+use super::visit::{Visit, tree, visit};
 use crate::diagnostic::Edit;
 use crate::diagnostic::Span;
 use crate::expression::{is_known, is_name};
@@ -15,6 +15,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Of {
     Material,
+    Texture,
     Camera,
     Var,
     /// An object or a light, which masks name.
@@ -132,6 +133,7 @@ pub(super) struct Defined {
     /// Of objects and lights.
     pub things: Vec<String>,
     pub materials: Vec<String>,
+    pub textures: Vec<String>,
     pub cameras: Vec<String>,
     /// Of values at the top of the scene.
     pub vars: Vec<String>,
@@ -143,6 +145,7 @@ pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
     for place in places(text, syntax).into_iter().filter(|place| place.defines) {
         let list = match place.of {
             Of::Material => &mut defined.materials,
+            Of::Texture => &mut defined.textures,
             Of::Camera => &mut defined.cameras,
             Of::Thing => &mut defined.things,
             Of::Var => &mut defined.vars,
@@ -173,6 +176,7 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
         if let Some(key) = visit.name {
             let of = match (visit.section, visit.kind) {
                 ("materials", _) => Some(Of::Material),
+                ("textures", _) => Some(Of::Texture),
                 ("cameras", _) => Some(Of::Camera),
                 (_, Type::Value) => Some(Of::Var),
                 _ => None,
@@ -189,6 +193,9 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
         } else if field == Some("material") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Material, item.lexeme(), item.span(), false, item.text().into_owned()));
+        } else if is_texture(visit) {
+            let item = visit.item;
+            found.push(of_text(Of::Texture, item.lexeme(), item.span(), false, item.text().into_owned()));
         } else if field == Some("camera") && matches!(visit.kind, Type::Text) {
             let item = visit.item;
             found.push(of_text(Of::Camera, item.lexeme(), item.span(), false, item.text().into_owned()));
@@ -211,6 +218,15 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
     found.sort_by_key(|place| place.range.start);
     found.dedup();
     found
+}
+
+/// Whether a text is the name of a texture, where that or a colour is due.
+fn is_texture(visit: &Visit<'_, '_>) -> bool {
+    let is_due = match visit.field {
+        Some((field, _)) => field.kind.is_texture(),
+        None => visit.section == "textures" && matches!(visit.kind, Type::Color),
+    };
+    is_due && !visit.item.text().starts_with(['#', '='])
 }
 
 fn of_text(of: Of, lexeme: &str, span: Span, defines: bool, name: String) -> Place {

@@ -245,6 +245,29 @@ fn words_of_expressions_are_explained() {
 }
 
 #[test]
+fn textures_are_found_and_renamed() {
+    let text = "Scene(textures: { \"bricks\": Lines(), \"wall\": Mix(a: \"bricks\", b: \"#b3202c\"), \
+                \"old\": \"bricks\" }, \
+                materials: { \"bricks\": Diffuse(albedo: \"bricks\"), \"m\": Diffuse(albedo: \"|\") }, \
+                objects: [Box(material: \"bricks\")])";
+    offers(text, Ron, &["bricks", "wall"], &["Checkerboard", "m"]);
+    offers(&text.replace("\"|\"", "|"), Ron, &["bricks", "Checkerboard"], &["m"]);
+    let toml = "[textures]\nbricks = { Lines = {} }\n[materials]\nm = { Diffuse = { albedo = \"|\" } }";
+    offers(toml, Toml, &["bricks"], &["m"]);
+    let (text, _) = cursor(text);
+    let first = text.find("bricks").expect("its definition");
+    let used = text.rfind("albedo: \"bricks").expect("it is used") + 9;
+    assert_eq!(definition(&text, Ron, used), Some(first..first + 6));
+    let edits = rename(&text, Ron, first, "red tiles").expect("a free name");
+    let renamed = applied(&text, &edits);
+    assert_eq!((edits.len(), renamed.matches("red tiles").count()), (4, 4), "{renamed}");
+    assert!(renamed.contains("\"bricks\": Diffuse(albedo: \"red tiles\")") && renamed.contains("material: \"bricks\""));
+    assert!(rename(&text, Ron, first, "wall").is_err());
+    let sections: Vec<String> = symbols(&text, Ron).into_iter().map(|symbol| symbol.name).collect();
+    assert_eq!(sections, ["textures", "materials", "objects"]);
+}
+
+#[test]
 fn masks_are_of_names_that_things_have() {
     let text = "Scene(output: Output(masks: [\"lamp\", \"|\"]), objects: [Group(objects: [Sphere(name: \"cup\")])], \
                 lights: [SphereLight(name: \"lamp\")])";

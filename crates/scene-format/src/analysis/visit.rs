@@ -56,7 +56,7 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
     let kind = match kind.resolved() {
         Type::Optional(inner) => *inner,
         Type::OneOf(kinds) => match kinds.iter().find(|kind| fits(item.without_some(), kind)) {
-            Some(kind) => *kind,
+            Some(kind) => kind.resolved(),
             None => at.kind,
         },
         kind => kind,

@@ -149,12 +149,13 @@ codes! {
     /// )
     /// ```
     UNUSED_MATERIAL "W0401" "a material is not used";
-    /// A name in `vars` that no expression uses. Remove it, or use it.
+    /// A name in `vars` that no expression uses, or a texture that no colour of a material and no other texture names.
+    /// Remove it, or use it.
     ///
     /// ```ron
     /// Scene(vars: { "height": 2 }, background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
-    UNUSED_VAR "W0402" "a var is not used";
+    UNUSED_NAME "W0402" "a var or a texture is not used";
     /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0. Or the camera
     /// has a `shutter`, and no expression asks for `time`, so that nothing is blurred by motion.
     ///
@@ -180,6 +181,10 @@ codes! {
     /// A mesh has a material with a picture, or a pattern, that lies by texture coordinates, and its file none: every
     /// point of it has the colour of one corner. A pattern with `mapping: Object()` needs none.
     NO_COORDINATES "W0521" "a texture on a mesh without texture coordinates";
+    /// Texels of an HDR or EXR picture on a surface are above 1 or below 0, and are clipped, or are no numbers, and are
+    /// black: a surface reflects no more than it gets. Divide by the largest, or take the picture as an `Environment`
+    /// if it is one.
+    TEXTURE_CLIPPED "W0522" "texels beyond 0 to 1";
     /// Pixels of an `Environment` are below zero or not numbers: these are taken as black. Infinite ones are taken as
     /// the largest number of a half, 65504.
     ENVIRONMENT_PIXELS "W0552" "pixels of an environment that no light can have";

@@ -1,6 +1,6 @@
 //! What is seen where no object is: the background, which is light, too.
 
-use super::{Color, Vec3};
+use super::{Color, LightGroup, Vec3};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
@@ -74,6 +74,9 @@ scene_struct! {
         up: Spanned<Vec3> = [0.0, 1.0, 0.0] => Rule::direction();
         /// Whether the camera sees it; what it lights, and mirrors and glass show it in any case.
         camera_visible: bool = true;
+        /// The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told
+        /// apart. Several may have one.
+        group: LightGroup = LightGroup::default();
     }
 }
 

@@ -239,7 +239,8 @@ pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
         Emission::Power(color) => Amount::Power(color.map(|power| 2.0 * power)),
         Emission::Intensity(color) => Amount::Power(color.map(|intensity| 8.0 * std::f64::consts::PI * intensity)),
     };
-    let emissive = Emissive { amount: Spanned { value: amount, span: light.emission.span }, two_sided: true };
+    let emissive =
+        Emissive { amount: Spanned { value: amount, span: light.emission.span }, two_sided: true, group: light.group };
     let material = Spanned { value: Material::Emissive(Box::new(emissive)), span };
     let sphere = Sphere {
         center: light.center,

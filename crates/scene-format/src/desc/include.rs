@@ -10,9 +10,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 scene_struct! {
-    /// The objects and lights of another scene, moved and copied as one. Its names are its own: materials and `vars` of
-    /// this scene are not seen there, nor its own here. Its camera, picture, background and how it is rendered are not
-    /// taken.
+    /// The objects and lights of another scene, moved and copied as one. Its names are its own: materials, textures
+    /// and `vars` of this scene are not seen there, nor its own here. Its camera, picture, background and how it is
+    /// rendered are not taken.
     pub(crate) struct IncludeWords as "Include", "an included scene" {
         /// The scene file, in any syntax. Paths in it start from its own folder.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Scene);

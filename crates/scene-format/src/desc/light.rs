@@ -1,6 +1,6 @@
 //! Lights.
 
-use super::{Color, Name, Vec3};
+use super::{Color, LightGroup, Name, Vec3};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -21,6 +21,13 @@ impl Light {
     pub fn name(&self) -> &Name {
         match self {
             Light::SphereLight(light) => &light.name,
+        }
+    }
+
+    /// The group that it is of.
+    pub fn group(&self) -> &LightGroup {
+        match self {
+            Light::SphereLight(light) => &light.group,
         }
     }
 
@@ -52,6 +59,8 @@ pub struct SphereLight {
     pub camera_visible: bool,
     /// What it is called.
     pub name: Name,
+    /// The group that it is of.
+    pub group: LightGroup,
 }
 
 /// How much light a luminous sphere gives, per channel.
@@ -84,6 +93,9 @@ scene_struct! {
         camera_visible: bool = true;
         /// What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
         name: Name = Name::default();
+        /// The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told
+        /// apart. Several may have one.
+        group: LightGroup = LightGroup::default();
     }
 }
 
@@ -99,8 +111,8 @@ impl Words for SphereLight {
             // None was written, or what was written could not be read: reported.
             _ => return None,
         };
-        let SphereLightWords { center, radius, camera_visible, name, .. } = words;
-        Some(SphereLight { center, radius, emission, camera_visible, name })
+        let SphereLightWords { center, radius, camera_visible, name, group, .. } = words;
+        Some(SphereLight { center, radius, emission, camera_visible, name, group })
     }
 
     fn form(&self, _all: bool) -> Form {
@@ -112,6 +124,7 @@ impl Words for SphereLight {
             power: None,
             camera_visible: self.camera_visible,
             name: self.name.clone(),
+            group: self.group.clone(),
         };
         match self.emission.value {
             Emission::Intensity(color) => words.intensity = Some(color.into()),

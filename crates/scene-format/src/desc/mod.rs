@@ -17,6 +17,7 @@ pub(crate) mod group;
 mod include;
 mod lens;
 mod light;
+mod light_group;
 mod materials;
 pub(crate) mod matrix;
 mod moments;
@@ -44,6 +45,7 @@ pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;
 pub use lens::{Focus, ThinLens};
 pub use light::{Emission, Light, SphereLight};
+pub use light_group::LightGroup;
 pub use materials::{
     Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
     Transparent,
@@ -65,8 +67,9 @@ pub(crate) use stereo::Stereoscopy;
 pub use stereo::{Stereo, StereoLayout};
 pub use textures::{
     Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
-    Noise, NoiseKind, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
-    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, Voronoi, VoronoiFeature, Wood,
+    NamedTexture, Noise, NoiseKind, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, VertexColor, VertexColorSpace,
+    Voronoi, VoronoiFeature, Wood,
 };
 pub(crate) use textures::{MappingWords, Nested, PatternWords, is_texture};
 pub(crate) use transform::TransformWords;
@@ -115,6 +118,8 @@ pub struct SceneDesc {
     pub background: Background,
     /// Lights.
     pub lights: Vec<Spanned<Light>>,
+    /// Named textures in order of writing. Whoever uses one holds it, too: [`Albedo::Named`].
+    pub textures: Vec<Arc<NamedTexture>>,
     /// Named materials in order of writing.
     pub materials: Vec<NamedMaterial>,
     /// Objects.
@@ -134,8 +139,8 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
-        /// Files whose `vars`, `materials` and `cameras` are taken as if they stood here, but that names of this file
-        /// win, and of two files those of the later. Paths in a file start from its folder.
+        /// Files whose `vars`, `textures`, `materials` and `cameras` are taken as if they stood here, but that names of
+        /// this file win, and of two files those of the later. Paths in a file start from its folder.
         include: Includes = Includes => Rule::file(FileKind::Scene);
         /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour
         /// or truth value.
@@ -159,6 +164,9 @@ scene_struct! {
         background: Background = Background::default() => Rule::light("in W/(sr m^2)");
         /// Lights. A scene needs one, or a background.
         lights: Vec<Spanned<Light>> = Vec::new();
+        /// Textures by name, for colours of materials and of other textures: `albedo: "bricks"`. A text that begins
+        /// with `#` is a colour there, and one that begins with `=` an expression; any other is a name.
+        textures: Vec<Arc<NamedTexture>> = Vec::new() => Rule::share();
         /// Materials by name, for objects to use.
         materials: Vec<NamedMaterial> = Vec::new();
         /// What is to be seen; at least one.
@@ -180,6 +188,7 @@ impl Default for SceneDesc {
             output: Output::default(),
             background: Background::default(),
             lights: Vec::new(),
+            textures: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
             base_dir: PathBuf::new(),

@@ -26,6 +26,10 @@ scene_struct! {
         /// Masks that EXR files get beside the picture: for each of these names the share of every pixel that the
         /// objects and lights of that name cover, as `mask.NAME.Y`.
         masks: Vec<Spanned<MaskName>> = Vec::new();
+        /// Tells apart what each group of lights brings: EXR files get `light.GROUP.R`, `.G`, `.B` for every `group`
+        /// that lights, shining objects and the background have, and `light.rest.R`, `.G`, `.B` for those that have
+        /// none. They sum to the picture. Each sample is traced once for every group.
+        light_groups: bool = false;
         /// Points by names: `{ "A": (0, 1, 0) }`. The report (`--report`) tells for each the pixel that shows it, how
         /// far away it is, and whether something hides it: for labels that are laid over the picture.
         marks: Vec<Mark> = Vec::new();
@@ -127,6 +131,7 @@ impl Default for Output {
             backdrop: None,
             cryptomatte: Vec::new(),
             masks: Vec::new(),
+            light_groups: false,
             marks: Vec::new(),
         }
     }

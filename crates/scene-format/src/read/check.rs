@@ -50,6 +50,8 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         root.fields().take(super::LOOK_AT).any(|(key, value)| unread(key, value, field)) || root.is_damaged()
     };
     (reader.materials.damaged, reader.cameras.damaged) = (damaged("materials"), damaged("cameras"));
+    reader.named.damaged = damaged("textures");
+    reader.foretell_textures(root);
     let scene = Scene::read(&mut reader, root, &ROOT);
     reader.several_cameras(root);
     reader.pending_vars(root);
@@ -112,6 +114,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         }
     }
     reader.all_copies(&scene.objects.0);
+    scene.textures = reader.take_textures();
     scene.materials = reader.materials.take();
     scene.cameras = reader.cameras.take();
     reader.shapes(&scene);

@@ -104,6 +104,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("ColorRamp", &["colorramp", "color_ramp", "color_map", "colormap", "colour_map", "valtorgb", "maprange"]),
         ("Mix", &["mix", "mixrgb", "mix_rgb", "mixture", "lerp", "interpolate"]),
         ("Multiply", &["multiply", "scale", "math", "product", "modulate", "tint"]),
+        ("VertexColor", &["vertexcolor", "vertexcolors", "vertex_color", "vertex_colors", "attribute", "color_0"]),
+        ("VertexColor", &["mesh_attribute", "meshattribute", "colorattribute", "vertexcolour"]),
         ("Planar", &["planar", "flat", "plane", "projection", "projected", "decal"]),
         ("Spherical", &["spherical", "sphere", "latlong", "longlat", "equirectangular"]),
         ("Triplanar", &["triplanar", "box", "boxmapping", "cubic", "cube", "cubemap"]),
@@ -230,7 +232,6 @@ const TEXTURES: Hints = &[
         "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, \
          along: V)",
     ),
-    (&["vertexcolor", "vertexcolors", "attribute"], "colours of vertices are not read: use a Texture(file: ..)"),
     (
         &["add", "subtract", "sum", "screen", "invert", "difference", "gamma", "mapping"],
         "textures are reckoned with by Mix(a: .., b: .., weight: ..), Multiply(a: .., b: ..) and ColorRamp(input: .., \
@@ -243,6 +244,10 @@ const LAYERS: Hints = &[
     (
         &["cryptomatte", "crypto", "cryptoobject", "crypto_object", "cryptomaterial", "crypto_material", "cryptoasset"],
         "Cryptomatte has a field of its own beside `layers`: `cryptomatte: [Objects, Materials]`",
+    ),
+    (
+        &["lightgroup", "light_group", "light_groups", "lightgroups", "lights", "lpe"],
+        "groups of lights have a field of their own beside `layers`: `light_groups: true`",
     ),
     (&["mask", "matte", "object_mask", "objectmask"], "masks have a field of their own beside `layers`: masks: [..]"),
 ];

@@ -1,9 +1,9 @@
-//! Other files in a scene: libraries of values, materials and cameras (`include`), and scenes among its objects
-//! (`Include`).
+//! Other files in a scene: libraries of values, textures, materials and cameras (`include`), and scenes among its
+//! objects (`Include`).
 
 use super::check::ROOT;
 use super::materials::Materials;
-use super::{MOST_ITEMS, Reader, shortened, vars};
+use super::{MOST_ITEMS, Reader, shortened, textures, vars};
 use crate::codes;
 use crate::desc::{IncludeWords, Light, MaterialRef, NamedMaterial, Object, Scene, group};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
@@ -18,7 +18,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Files within each other, at most.
-const MOST_DEEP: usize = 8;
+pub(super) const MOST_DEEP: usize = 8;
 
 /// The field `include`: what it brings stays with the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -37,7 +37,7 @@ pub(crate) struct GivenMaterials(pub Vec<(Spanned<Arc<str>>, MaterialRef)>);
 pub(super) struct Open {
     /// Where its tree begins.
     root: u32,
-    name: String,
+    pub name: String,
     /// Where it is named.
     from: Span,
 }
@@ -60,6 +60,7 @@ impl Words for Includes {
         });
         // Names may be missing that they would have brought.
         reader.materials.damaged |= read.is_none();
+        reader.named.damaged |= read.is_none();
         reader.cameras.damaged |= read.is_none();
         reader.vars.damaged |= read.is_none();
         read.map(|()| Includes)
@@ -133,6 +134,7 @@ impl Reader<'_> {
         // Names may be missing that it would have brought.
         let opened = self.opened(name, text);
         self.materials.damaged |= opened.is_none();
+        self.named.damaged |= opened.is_none();
         self.cameras.damaged |= opened.is_none();
         self.vars.damaged |= opened.is_none();
         opened
@@ -197,7 +199,7 @@ impl Reader<'_> {
         value
     }
 
-    /// Takes values, materials and cameras of a file.
+    /// Takes values, textures, materials and cameras of a file.
     fn library(&mut self, name: Item<'_, '_>, file: &Root, root: Item<'_, '_>) {
         let objects = root
             .fields()
@@ -205,11 +207,12 @@ impl Reader<'_> {
         if let Some((key, _)) = objects {
             let message = format!("an included file has `{}`, which are not taken", key.text());
             let fault = Diagnostic::error(codes::INCLUDE, name.span(), message)
-                .expected("a file with `vars`, `materials` and `cameras`")
+                .expected("a file with `vars`, `textures`, `materials` and `cameras`")
                 .hint(format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme())))
                 .label(key.span(), "they are here");
             // What it would have brought is missing for that reason.
-            (self.materials.damaged, self.cameras.damaged, self.vars.damaged) = (true, true, true);
+            (self.materials.damaged, self.cameras.damaged) = (true, true);
+            (self.named.damaged, self.vars.damaged) = (true, true);
             return self.report(fault);
         }
         self.within(name, file, |reader| {
@@ -227,6 +230,7 @@ impl Reader<'_> {
         // Its own names.
         let materials = std::mem::take(&mut self.materials);
         let cameras = std::mem::take(&mut self.cameras);
+        let named = std::mem::replace(&mut self.named, textures::Scope::of_file(&file.name));
         let given = words.vars.0.iter().map(|(name, value)| (Arc::clone(&name.value), value.clone())).collect();
         let vars = std::mem::replace(&mut self.vars, vars::Table::with(given));
         let scene = self.within(name, file, |reader| {
@@ -238,11 +242,11 @@ impl Reader<'_> {
             scene
         });
         let inner = std::mem::replace(&mut self.materials, materials);
-        self.cameras = cameras;
+        (self.cameras, self.named) = (cameras, named);
         let table = std::mem::replace(&mut self.vars, vars);
         let mut objects = scene.map(|scene| of_scene(scene.objects.0, scene.lights))?;
         for (name, _) in words.vars.0.iter().filter(|(name, _)| table.is_left(&name.value)) {
-            self.unknown_name(codes::UNKNOWN_VAR, "var", &file.name, name, &table.names());
+            self.unknown_name(codes::UNKNOWN_NAME, "var", &file.name, name, &table.names());
         }
         self.take_materials(&mut objects, inner, words.materials, &file.name);
         group::hide(words.camera_visible, &mut objects);

@@ -3,7 +3,7 @@
 use super::{Reader, Step, make_room, shortened};
 use crate::codes;
 use crate::desc::{Material, NamedMaterial};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::schema::FieldDef;
 use crate::suggest;
 use crate::syntax::Syntax;
@@ -285,7 +285,14 @@ impl Reader<'_> {
         };
         let nearest = suggest::nearest(name, known.iter().copied());
         fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
-        if nearest.is_none() {
+        if nearest.is_none() && self.knows_texture(name) {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Diffuse(albedo: {})", item.lexeme()),
+                syntax => syntax.of_toml(format!("{{ Diffuse = {{ albedo = {} }} }}", item.lexeme())).into_owned(),
+            };
+            fault.hint = format!("it is a texture, and a material has one: {}", shortened(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if nearest.is_none() {
             fault.hint = match (kind, item.syntax()) {
                 (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {name}(..)"),
                 (Some(_), syntax) => {

@@ -20,6 +20,7 @@ mod pick;
 mod repeat;
 mod shape_fields;
 mod synonyms;
+mod textures;
 mod together;
 mod told;
 mod typed;
@@ -73,6 +74,8 @@ pub(crate) struct Reader<'r> {
     path: Vec<Step>,
     materials: Materials,
     cameras: camera::Cameras,
+    named: textures::Scope,
+    kept: textures::Kept,
     vars: vars::Table,
     clock: clock::Clock,
     /// The item whose kind was told to be another.
@@ -156,6 +159,8 @@ impl<'r> Reader<'r> {
             path: Vec::new(),
             materials: Materials::default(),
             cameras: camera::Cameras::default(),
+            named: textures::Scope::default(),
+            kept: textures::Kept::default(),
             vars: vars::Table::default(),
             clock: clock::Clock::default(),
             renamed: NOWHERE,

@@ -162,7 +162,7 @@ impl Reader<'_> {
         }
         let message = format!("`{}` cannot stand in an expression", super::shortened(&name));
         let expected = "a name of letters, digits and `_` without a meaning of its own";
-        self.report(Diagnostic::error(codes::BAD_VAR_NAME, item.span(), message).expected(expected));
+        self.report(Diagnostic::error(codes::BAD_NAME, item.span(), message).expected(expected));
         None
     }
 

@@ -75,6 +75,11 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("cryptomatte", &["crypto", "crypto_object", "crypto_material", "mattes", "matte", "cryptomattes"]),
     ("layers", &["aovs", "aov", "passes", "render_passes", "channels"]),
     ("masks", &["mask", "object_masks", "holdouts"]),
+    (
+        "light_groups",
+        &["light_group", "lightgroups", "lightgroup", "light_layers", "light_passes", "lpe", "light_aovs"],
+    ),
+    ("group", &["lightgroup", "light_group", "light_layer", "aov_group"]),
     ("marks", &["labels", "points", "anchors", "annotations"]),
 ];
 

@@ -1,4 +1,4 @@
-//! Names that nothing uses, of materials and of vars.
+//! Names that nothing uses, of materials, of textures and of vars.
 
 use super::{Reader, Step, shortened};
 use crate::codes;
@@ -19,12 +19,16 @@ impl Reader<'_> {
         let mut materials: Vec<u32> = self.materials.unused().filter(own).collect();
         let vars = self.vars.list.iter().filter(|var| !var.used && !self.is_included(var.span));
         let mut vars: Vec<Unused> = vars.map(|var| (Arc::clone(&var.name), var.span)).collect();
+        let textures = self.named.unused().into_iter().filter(|(_, span)| !self.is_included(*span));
+        let mut textures: Vec<Unused> = textures.collect();
         // What was passed over may be taken at another frame, or when a number is changed.
-        if self.chosen && !(materials.is_empty() && vars.is_empty()) {
+        if self.chosen && !(materials.is_empty() && textures.is_empty() && vars.is_empty()) {
             let of_materials = materials.iter().map(|number| Arc::clone(&self.materials.name(*number).value));
             let of_vars = vars.iter().map(|(name, _)| Arc::clone(name));
-            let (texts, words) = mentioned(tree, of_materials.collect(), of_vars.collect());
+            let of_textures = textures.iter().map(|(name, _)| Arc::clone(name));
+            let (texts, words) = mentioned(tree, of_materials.chain(of_textures).collect(), of_vars.collect());
             materials.retain(|number| !texts.contains(&self.materials.name(*number).value));
+            textures.retain(|(name, _)| !texts.contains(name));
             vars.retain(|(name, _)| !words.contains(name));
         }
         for number in materials {
@@ -37,11 +41,20 @@ impl Reader<'_> {
             self.path = vec![Step::Field("materials"), Step::Key((*name).to_owned())];
             self.report(fault.hint("remove it, or give its name to an object"));
         }
+        for (name, span) in textures {
+            if self.sink.is_full() {
+                break;
+            }
+            let message = format!("nothing uses the texture \"{}\"", shortened(&name));
+            self.path = vec![Step::Field("textures"), Step::Key((*name).to_owned())];
+            let fault = Diagnostic::warning(codes::UNUSED_NAME, span, message);
+            self.report(fault.hint("remove it, or write its name where a colour is due"));
+        }
         for (name, span) in vars {
             let message = format!("nothing uses the var \"{}\"", shortened(&name));
             let hint = format!("remove it, or write \"={name}\" where its value is due");
             self.path = vec![Step::Field("vars"), Step::Key((*name).to_owned())];
-            self.report(Diagnostic::warning(codes::UNUSED_VAR, span, message).hint(hint));
+            self.report(Diagnostic::warning(codes::UNUSED_NAME, span, message).hint(hint));
         }
         self.path.clear();
     }

@@ -72,15 +72,16 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             return format!("{}, or None", with_unit(format!("{what} {words}"), at));
         }
         (Type::Value, _) => "a number, a vector, a colour, true or false, or a list of these".to_owned(),
-        (Type::Map(_), _) => "names with their values: { \"name\": .. }".to_owned(),
+        (Type::Map(_), _) => return "names with their values: { \"name\": .. }".to_owned(),
         (Type::Struct(def), _) => def.noun.to_owned(),
         (Type::Enum(def), _) => super::variant::choices(def, Syntax::Ron),
         (Type::Optional(&Type::Enum(def)), _) => super::variant::choices(def, Syntax::Ron),
         (Type::OneOf([Type::Color, choice]) | Type::Optional(Type::OneOf([Type::Color, choice])), _) => {
             let Type::Enum(def) = choice.resolved() else { return "a colour".to_owned() };
             let choices = super::variant::choices(def, Syntax::Ron);
+            let named = if at.kind.is_texture() { ", or a name from `textures`" } else { "" };
             return format!(
-                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or {choices}"
+                "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or {choices}{named}"
             );
         }
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
@@ -408,7 +409,7 @@ pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
 /// Whether a text looks like the path of a picture.
 fn is_picture(text: &str) -> bool {
     let (_, suffix) = text.rsplit_once('.').unwrap_or_default();
-    ["png", "jpg", "jpeg"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
+    ["png", "jpg", "jpeg", "hdr", "exr"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
 }
 
 /// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.
@@ -427,6 +428,15 @@ impl Reader<'_> {
         fault.edit = Some(Edit { span: item.span(), replacement: mended });
         self.report(fault);
         None
+    }
+
+    /// Whether a text that is no colour here is one elsewhere, or a number, a var or a picture: no name of a texture.
+    pub(super) fn is_another_color(&self, text: &str) -> bool {
+        let word = text.trim();
+        let digits = word.trim_start_matches('#');
+        let hex = matches!(digits.len(), 3 | 6) && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        let known = self.knows_var(word) || elsewhere::named_color(text).is_some();
+        known || hex || word.is_empty() || decode::number(text).is_finite() || is_picture(text)
     }
 
     pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {

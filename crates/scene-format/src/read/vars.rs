@@ -157,7 +157,7 @@ impl Reader<'_> {
                     if known { "has a meaning of its own in expressions" } else { "cannot stand in an expression" };
                 self.path.push(Step::Key(name.clone().into_owned()));
                 self.report(
-                    Diagnostic::error(codes::BAD_VAR_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
+                    Diagnostic::error(codes::BAD_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
                         .expected("a name of letters, digits and `_` without a meaning of its own"),
                 );
                 self.path.pop();

@@ -2,7 +2,7 @@
 
 use super::Random;
 use super::solid::solid;
-use super::textures::albedo;
+use super::textures::{albedo, named_textures};
 use scene_format::SceneDesc;
 use scene_format::desc::*;
 use scene_format::diagnostic::{Span, Spanned};
@@ -52,7 +52,8 @@ fn material(random: &mut Random) -> Material {
         4 => {
             let color = share(random).map(|channel| channel * 1e3);
             let amount = if random.below(2) == 0 { Amount::Radiance(color) } else { Amount::Power(color) };
-            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided: random.below(2) == 0 }))
+            let (two_sided, group) = (random.below(2) == 0, light_group(random));
+            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group }))
         }
         1 => Material::Mirror(Mirror { reflectance: share(random).into() }),
         2 => Material::Transparent(Box::new(Transparent {
@@ -108,7 +109,9 @@ fn inline_mesh(random: &mut Random) -> MeshSource {
         let corners: Vec<u32> = (0..3 + random.below(3)).map(|_| random.below(points.len()) as u32).collect();
         faces.push(&corners);
     }
-    MeshSource::Inline(Arc::new(InlineMesh { points, faces }.into()))
+    let count = if random.below(2) == 0 { points.len() } else { 0 };
+    let colors = (0..count).map(|_| share(random)).collect();
+    MeshSource::Inline(Arc::new(InlineMesh { points, faces, colors }.into()))
 }
 
 pub(super) fn transforms(random: &mut Random) -> Vec<scene_format::diagnostic::Spanned<Transform>> {
@@ -489,6 +492,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             emission: emission.into(),
             camera_visible: random.below(4) != 0,
             name: name(random),
+            group: light_group(random),
         })
     };
     let defaults = SceneDesc::default();
@@ -501,7 +505,11 @@ pub fn scene(random: &mut Random) -> SceneDesc {
     let named = NamedCamera { name: "front".to_owned().into(), camera: camera.clone() };
     let cameras = if random.below(3) == 0 { vec![named] } else { Vec::new() };
     let camera_name = cameras.first().map(|named| std::sync::Arc::clone(&named.name.value));
+    let mut materials: Vec<NamedMaterial> =
+        names.iter().map(|name| NamedMaterial { name: name.clone().into(), material: material(random) }).collect();
+    let textures = named_textures(random, &mut materials, &mut objects);
     SceneDesc {
+        textures,
         camera,
         camera_name,
         cameras,
@@ -537,6 +545,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             backdrop: if random.below(2) == 0 { None } else { Some([random.unit(), 0.25, 1.0].into()) },
             cryptomatte: (0..random.below(3)).map(|_| *random.pick(&[Matte::Objects, Matte::Materials])).collect(),
             masks: objects.iter().filter_map(|object| object.value.name().as_str()).take(2).map(mask).collect(),
+            light_groups: random.below(2) == 0,
             marks: (0..random.below(3)).map(|k| mark(k, random)).collect(),
         },
         background: match random.below(3) {
@@ -546,17 +555,19 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 rotation: number(random, -400.0, 400.0),
                 up: [1.0, number(random, -1.0, 1.0), 0.0].into(),
                 camera_visible: random.below(2) == 0,
+                group: light_group(random),
             })),
             _ => share(random).into(),
         },
         lights: (0..random.below(3)).map(|_| light(random).into()).collect(),
-        materials: names
-            .iter()
-            .map(|name| NamedMaterial { name: name.clone().into(), material: material(random) })
-            .collect(),
+        materials,
         objects,
         ..defaults
     }
+}
+
+fn light_group(random: &mut Random) -> LightGroup {
+    LightGroup::from((random.below(3) == 0).then(|| format!("of {}", text(random))))
 }
 
 fn mask(name: &str) -> Spanned<MaskName> {
@@ -571,9 +582,11 @@ fn mark(k: usize, random: &mut Random) -> Mark {
 pub fn plain(scene: SceneDesc) -> SceneDesc {
     let mut materials = scene.materials;
     materials.sort_by(|a, b| a.name.value.cmp(&b.name.value));
+    let mut textures = scene.textures;
+    textures.sort_by(|a, b| a.name.value.cmp(&b.name.value));
     let mut cameras = scene.cameras;
     cameras.sort_by(|a, b| a.name.value.cmp(&b.name.value));
     // Who reads only what stands there knows of no other time.
     let moments = Default::default();
-    SceneDesc { cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, moments, ..scene }
+    SceneDesc { textures, cameras, sources: Vec::new(), base_dir: PathBuf::new(), materials, moments, ..scene }
 }

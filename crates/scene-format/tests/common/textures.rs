@@ -3,7 +3,9 @@
 use super::Random;
 use super::generated::{number, share, text, vector};
 use scene_format::desc::*;
+use scene_format::diagnostic::Spanned;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 fn mapping(random: &mut Random) -> Mapping {
     if random.below(2) == 0 {
@@ -53,7 +55,7 @@ fn solid_mapping(random: &mut Random) -> SolidMapping {
 
 fn reckoned(random: &mut Random) -> Albedo {
     let (a, b, solid) = (part(random), part(random), solid_mapping(random));
-    match random.below(11) {
+    match random.below(12) {
         0 => Albedo::Checkerboard(Box::new(Checkerboard { a, b, mapping: solid })),
         1 => {
             let along = *random.pick(&[LinesAlong::Both, LinesAlong::U, LinesAlong::V]);
@@ -72,6 +74,10 @@ fn reckoned(random: &mut Random) -> Albedo {
         5 => Albedo::Wood(Box::new(Wood { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
         8 => Albedo::Mix(Box::new(Mix { a, b, weight: part(random) })),
         9 => Albedo::Multiply(Box::new(Multiply { a, b })),
+        11 => {
+            let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
+            Albedo::VertexColor(Box::new(VertexColor { color_space: *random.pick(&spaces) }))
+        }
         10 => {
             let [low, high] = [0.5 * random.unit(), 0.5 + 0.5 * random.unit()];
             let stops = [low, low, high].map(|at| Stop { at: at.into(), color: share(random).into() });
@@ -108,4 +114,36 @@ pub fn albedo(random: &mut Random) -> Albedo {
         1 | 2 => reckoned(random),
         _ => Albedo::Color(share(random).into()),
     }
+}
+
+/// Gives names to some of the textures, and has some of them made of these.
+pub fn named_textures(
+    random: &mut Random,
+    materials: &mut [NamedMaterial],
+    objects: &mut [Spanned<Object>],
+) -> Vec<Arc<NamedTexture>> {
+    let mut textures: Vec<Arc<NamedTexture>> = Vec::new();
+    let inline = objects.iter_mut().filter_map(|object| match object.value.material_mut() {
+        MaterialRef::Inline(material) => Some(&mut material.value),
+        MaterialRef::Named { .. } | MaterialRef::Default => None,
+    });
+    for material in materials.iter_mut().map(|named| &mut named.material).chain(inline) {
+        let color = match material {
+            Material::Diffuse(words) => &mut words.albedo,
+            Material::BlinnPhong(words) => &mut words.albedo,
+            _ => continue,
+        };
+        if random.below(3) > 0 {
+            continue;
+        }
+        let (k, mut texture) = (textures.len(), color.clone());
+        if let Some(last) = textures.last().filter(|_| k % 8 > 0 && random.below(2) == 0) {
+            let b = Albedo::Named(Arc::clone(last));
+            texture = Albedo::Mix(Box::new(Mix { a: texture, b, weight: part(random) }));
+        }
+        let name: Arc<str> = format!("{}{k}", text(random)).into();
+        textures.push(Arc::new(NamedTexture { name: name.into(), texture }));
+        *color = Albedo::Named(Arc::clone(&textures[k]));
+    }
+    textures
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use tracer_mesh::placements::{PlacementsError, load_placements, parse_placements};
-use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, plain};
+use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, Wanted, plain};
 
 /// Something that a scene names as a file and that is in memory.
 #[derive(Clone, Debug)]
@@ -142,7 +142,7 @@ impl<'a> Sources<'a> {
         Sources { kept: Some(kept), store, ..self.in_memory() }
     }
 
-    pub fn mesh(&self, path: &Path) -> Result<Arc<MeshData>, MeshError> {
+    pub fn mesh(&self, path: &Path, wanted: Wanted) -> Result<Arc<MeshData>, MeshError> {
         if let Some(arrays) = self.meshes.get(&plain(path)) {
             return arrays.mesh(path).map(Arc::new);
         }
@@ -151,11 +151,11 @@ impl<'a> Sources<'a> {
             return Err(MeshError::Arrays { path: path.to_owned(), message, expected });
         }
         let read = || match self.store {
-            Some(store) if self.files.get(path).is_none() => stored::load_mesh(store, path),
-            _ => mesh::load_from(path, &self.files).map(Arc::new),
+            Some(store) if self.files.get(path).is_none() => stored::load_mesh(store, path, wanted),
+            _ => mesh::load_as(path, &self.files, wanted).map(Arc::new),
         };
         match self.kept {
-            Some(kept) => kept::load_mesh(kept, path, read),
+            Some(kept) => kept::load_mesh(kept, path, wanted, read),
             None => read(),
         }
     }

@@ -36,11 +36,13 @@ struct Loud<'d> {
 /// The largest channel that a colour or a texture may have anywhere.
 fn brightest<'t>(albedo: &Albedo, texture: &impl Fn(&desc::Texture) -> Option<&'t Texture>) -> f64 {
     let most = |color: desc::Color| color.into_iter().fold(0.0, f64::max);
-    match albedo {
+    match albedo.resolved() {
         Albedo::Color(color) => most(color.value),
         Albedo::Texture(words) => texture(words).map_or(1.0, Texture::brightest),
         Albedo::ColorRamp(ramp) => ramp.stops.0.iter().map(|stop| most(stop.color.value)).fold(0.0, f64::max),
         Albedo::Multiply(words) => brightest(&words.a, texture) * brightest(&words.b, texture),
+        // No vertex is brighter.
+        Albedo::VertexColor(_) => 1.0,
         // Between the first two; what may follow says how much of either.
         pattern => {
             let parts = pattern.pattern().map_or_else(Vec::new, |pattern| pattern.parts());

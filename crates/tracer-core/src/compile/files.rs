@@ -9,6 +9,7 @@ use scene_format::diagnostic::{Source, Span};
 use scene_format::{Diagnostics, FileKind, NamedFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use tracer_mesh::Wanted;
 
 /// Looks at files that a scene names, without the scene: each is read as [`compile`](crate::compile) would read it,
 /// and its faults come back in order of their places in the scene. Warnings are left out, as the scene is going to be
@@ -49,7 +50,7 @@ fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
         FileKind::Placements => {
             from.placements(path).err().map(|error| error.to_diagnostic(file.span)).into_iter().collect()
         }
-        FileKind::Mesh => match from.mesh(path) {
+        FileKind::Mesh => match from.mesh(path, Wanted::default()) {
             Err(error) => vec![error.to_diagnostic(file.span)],
             Ok(data) => {
                 let mut textures: Vec<PathBuf> =

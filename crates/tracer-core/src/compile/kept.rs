@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use tracer_kernels::bvh::{Accel, Acceleration, BuildError, Geometry, Ranks};
-use tracer_mesh::{MeshData, MeshError};
+use tracer_mesh::{MeshData, MeshError, Wanted};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Meshes and textures as they were read, and trees as they were built, of the last scene that was compiled with it
@@ -16,7 +16,7 @@ use xxhash_rust::xxh3::Xxh3;
 /// again when anything that it is built of is another: bytes of the picture do not depend on what was kept.
 #[derive(Default)]
 pub struct Kept {
-    meshes: Mutex<BTreeMap<PathBuf, Entry<MeshData>>>,
+    meshes: Mutex<BTreeMap<(PathBuf, Wanted), Entry<MeshData>>>,
     textures: Mutex<BTreeMap<(PathBuf, Reading), Entry<Texture>>>,
     heights: Mutex<BTreeMap<PathBuf, Entry<Landscape>>>,
     environments: Mutex<BTreeMap<PathBuf, Entry<Panorama>>>,
@@ -87,6 +87,7 @@ fn file<K: Ord, T, E>(
 pub(super) fn load_mesh(
     kept: &Kept,
     path: &Path,
+    wanted: Wanted,
     read: impl FnOnce() -> Result<Arc<MeshData>, MeshError>,
 ) -> Result<Arc<MeshData>, MeshError> {
     // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read
@@ -95,7 +96,7 @@ pub(super) fn load_mesh(
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()
     };
-    file(kept.is_frozen, &kept.meshes, path.to_owned(), path, read, others)
+    file(kept.is_frozen, &kept.meshes, (path.to_owned(), wanted), path, read, others)
 }
 
 /// A texture, read or kept.
@@ -262,10 +263,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mesh = folder.path().join("t.off");
         fs::write(&mesh, OFF).expect("a file");
+        let key = (mesh.clone(), Wanted::default());
         let kept = Kept::default();
         let compiled = |albedo, x| compile_keeping(&scene(folder.path(), albedo, x), &kept).expect("it compiles");
         let first = compiled("0.5", 0.0);
-        let read = Arc::downgrade(&lock(&kept.meshes)[&mesh].value);
+        let read = Arc::downgrade(&lock(&kept.meshes)[&key].value);
         // A material leaves mesh and tree as they are.
         let second = compiled("0.2", 0.0);
         assert_eq!(tree(&first), tree(&second));
@@ -273,7 +275,7 @@ mod tests {
         // Another place is another tree of the same mesh; the old one is let go.
         let third = compiled("0.2", 3.0);
         assert_ne!(tree(&second), tree(&third));
-        assert!(std::ptr::eq(read.as_ptr(), Arc::as_ptr(&lock(&kept.meshes)[&mesh].value)));
+        assert!(std::ptr::eq(read.as_ptr(), Arc::as_ptr(&lock(&kept.meshes)[&key].value)));
         assert_eq!(lock(&kept.trees).len(), 1);
         // Another file is another mesh.
         fs::write(&mesh, OFF.replace("1 1 -1", "1 1 -1.5")).expect("a file");

@@ -3,6 +3,7 @@
 
 use super::assets::Sources;
 use super::polygonal::{Geometry, UnitShape, polygonal};
+use super::vertex_colors::Readers;
 use rayon::prelude::*;
 use scene_format::codes;
 use scene_format::desc::{HeightField, MaterialRef};
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use tracer_mesh::shapes::{Triangulated, height_field};
-use tracer_mesh::{MeshData, mesh_of};
+use tracer_mesh::{MeshData, Wanted, mesh_of};
 
 /// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
 pub struct Loaded {
@@ -47,6 +48,7 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     let mut geometry_of_object: Vec<Geometry<usize, usize, usize, usize>> = Vec::new();
     // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
+    let (readers, mut wanted) = (Readers::of(desc), Vec::new());
     for object in polygonal(desc) {
         geometry_of_object.push(match object.geometry {
             Geometry::File(file) => {
@@ -54,9 +56,11 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
                 let index = *index_of_path.entry(path).or_insert_with_key(|path| {
                     paths.push((path.clone(), file.span));
                     own_materials.push(false);
+                    wanted.push(Wanted::default());
                     paths.len() - 1
                 });
                 own_materials[index] |= *object.material == MaterialRef::Default;
+                wanted[index].colors |= readers.place_of(object.material).is_some();
                 Geometry::File(index)
             }
             Geometry::Inline(mesh) => {
@@ -79,7 +83,8 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
             }
         });
     }
-    let results: Vec<_> = paths.par_iter().map(|(path, _)| sources.mesh(path)).collect();
+    let read = |((path, _), wanted): (&(PathBuf, Span), &Wanted)| sources.mesh(path, *wanted);
+    let results: Vec<_> = paths.par_iter().zip(&wanted).map(read).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
     for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {

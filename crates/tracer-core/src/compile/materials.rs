@@ -107,7 +107,8 @@ fn squares(colors: [desc::Color; 2]) -> Texture {
 
 /// The two colours of a pattern that has no other parts than these.
 pub(super) fn constants(words: &desc::Albedo) -> Option<[desc::Color; 2]> {
-    match words.pattern()?.parts()[..] {
+    let parts: Vec<&desc::Albedo> = words.pattern()?.parts().into_iter().map(desc::Albedo::resolved).collect();
+    match parts[..] {
         [desc::Albedo::Color(a), desc::Albedo::Color(b)] => Some([a.value, b.value]),
         _ => None,
     }
@@ -241,6 +242,7 @@ impl<'a> MaterialBuilder<'a> {
 
     fn albedo(&mut self, albedo: &desc::Albedo, base: Option<&Path>) -> Albedo {
         let by_uv = |mapping: &SolidMapping| if let SolidMapping::Uv(uv) = mapping { Some(uv.rows()) } else { None };
+        let albedo = albedo.resolved();
         let constants = constants(albedo);
         match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),

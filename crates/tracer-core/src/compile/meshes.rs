@@ -183,6 +183,8 @@ pub struct Built {
     pub instances: Vec<Instance>,
     /// Per copy which of the coordinates that [`build`] was given it is written in; empty where nobody asks.
     pub coordinates: Vec<u32>,
+    /// Per mesh the file that it is of, and its first vertex.
+    pub vertices_of: Vec<(usize, u32)>,
 }
 
 /// A mesh as it enters the scene: a file, smooth or flat.
@@ -270,6 +272,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
         let emissive = assigned.emissive[object].as_ref();
         if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
             for (copy, world) in worlds.enumerate() {
+                built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
                 built.instances.push(Instance { mesh, material: whole, object: polygonal.number, placement: None });
                 if let Some(emissive) = emissive {
@@ -289,6 +292,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             let exponent = if size > 0.0 { libm::ilogb(size) } else { 0 };
             let scale = libm::scalbn(1.0, -exponent);
             let to_object = DAffine3::from_translation(-centre);
+            built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
             let mesh = built.add_mesh(data, variant.smooth, &to_object, scale, NONE, own_materials);
             (mesh, DAffine3 { translation: centre, ..DAffine3::from_scale(DVec3::splat(1.0 / scale)) })
         });

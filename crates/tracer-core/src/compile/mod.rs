@@ -12,6 +12,7 @@ mod frames;
 mod hidden_flat;
 mod in_one_place;
 mod kept;
+mod light_groups;
 mod loading;
 mod materials;
 mod meshes;
@@ -27,6 +28,7 @@ mod stored;
 mod textures;
 mod trees;
 mod unmeant;
+mod vertex_colors;
 
 use crate::develop::{Backdrop, Look};
 use crate::mattes::Mattes;
@@ -38,6 +40,7 @@ pub use files::{check_files, check_files_from};
 pub use frames::{LookedAt, Looking, ToldFrame, check_frames};
 use glam::{DAffine3, DVec3};
 pub use kept::Kept;
+pub use light_groups::most_light_groups;
 use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
@@ -45,6 +48,7 @@ use scene_format::diagnostic::{Span, keep_first};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 pub use stored::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told, is_kept_file};
 use tracer_kernels::scene::{
@@ -53,6 +57,9 @@ use tracer_kernels::scene::{
 };
 use tracer_kernels::{bvh, scene};
 use trees::Hung;
+
+/// Of so many triangles at most a scene has a table of what can hide points from each other.
+const OCCLUDERS: usize = 256;
 
 /// Why a scene could not be compiled: everything that was found, errors and warnings.
 #[derive(Debug, thiserror::Error)]
@@ -153,6 +160,7 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
     let mut diagnostics = Diagnostics::new();
     let mut builder = MaterialBuilder::new(desc);
     let loaded = meshes::load(desc, sources, &mut diagnostics);
+    vertex_colors::check(desc, &loaded, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
     let curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
     let solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
@@ -230,11 +238,12 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     };
     let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
+    let color_table = vertex_colors::table(&programs, &loaded, &built);
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
-    let light_table = LightTable::new(&lights, &spheres, environment);
+    let light_table = LightTable::new(&lights, &spheres, environment.map(Arc::new));
     let instance_table = InstanceTable::new(&built.instances);
     let written = written.map_or_else(Written::default, |maps| {
         Written::new(maps, &spheres, &shapes, &built.coordinates, &solids.operands)
@@ -288,33 +297,36 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         backdrop: backdrop(&desc.output) != Backdrop::Background,
         radiance_unit,
         background,
-        spheres,
+        spheres: spheres.into(),
         tables: Tables {
-            spheres: sphere_table,
-            shapes: ShapeTable::new(&shapes, &solids, first_body),
-            planes: plane_table,
-            materials: material_table,
+            spheres: sphere_table.into(),
+            shapes: ShapeTable::new(&shapes, &solids, first_body).into(),
+            planes: plane_table.into(),
+            materials: material_table.into(),
             lights: light_table,
-            textures: TextureTable::new(pictures, &uses),
-            patterns: pattern_table,
-            instances: instance_table,
+            textures: TextureTable::new(pictures, &uses).into(),
+            patterns: pattern_table.into(),
+            colors: color_table.into(),
+            instances: instance_table.into(),
         },
-        shapes,
-        solids,
-        materials,
+        shapes: shapes.into(),
+        solids: solids.into(),
+        materials: materials.into(),
         lights,
-        meshes: built.meshes,
-        triangles: built.triangles,
-        instances: built.instances,
+        meshes: built.meshes.into(),
+        triangles: built.triangles.into(),
+        instances: built.instances.into(),
         accel,
         camera_sees,
         top_boxes: hierarchy.map(|accel| *accel.top_boxes()),
         second_boxes: hierarchy.map(|accel| *accel.second_boxes()),
-        occluders: hierarchy.filter(|_| full).and_then(OccluderTable::new),
+        occluders: hierarchy.filter(|_| full).and_then(|accel| OccluderTable::new(accel, OCCLUDERS)).map(Arc::new),
         acceleration: way,
     };
+    let light_groups = desc.output.light_groups.then(|| light_groups::of(desc, &rendered));
     Ok(Scene {
         rendered,
+        light_groups,
         look: Look {
             exposure: desc.effects.exposure.value,
             tone_map: desc.effects.tone_map,

@@ -18,6 +18,8 @@ struct OfTexts {
     frame: Frame,
     radiance_unit: f64,
     mattes: Mattes,
+    /// The names of the light groups, where they are told apart.
+    light_groups: Option<Vec<String>>,
 }
 
 /// Compiles a scene in which something moves: as it is when the shutter opens, with what it is compiled of again.
@@ -37,6 +39,7 @@ pub(super) fn compile(desc: &SceneDesc, sources: &Sources<'_>) -> Result<Scene, 
         frame: scene.frame,
         radiance_unit: scene.radiance_unit,
         mattes: scene.mattes.clone(),
+        light_groups: scene.light_groups.as_ref().map(|groups| groups.names.clone()),
     };
     // The film's unit is that of the brightest light of all times, as far as these tell.
     for share in [0.5, 1.0].map(|part| part * desc.camera.shutter.value) {
@@ -77,6 +80,13 @@ impl OfTexts {
             let message = "objects or materials come and go while the shutter is open, and the picture has mattes";
             let fault = Diagnostic::error(codes::OUT_OF_RANGE, shutter.span, message).at_path("camera.shutter");
             let hint = "leave out `masks` and `cryptomatte`, or let counts, names and `Pick`s go by `frame`";
+            return Err(CompileError { diagnostics: vec![fault.hint(hint)] });
+        }
+        if scene.light_groups.as_ref().map(|groups| &groups.names) != self.light_groups.as_ref() {
+            let shutter = &self.desc.camera.shutter;
+            let message = "groups of lights come and go while the shutter is open, and the picture tells them apart";
+            let fault = Diagnostic::error(codes::OUT_OF_RANGE, shutter.span, message).at_path("camera.shutter");
+            let hint = "leave out `light_groups`, or let counts and `Pick`s go by `frame`";
             return Err(CompileError { diagnostics: vec![fault.hint(hint)] });
         }
         Ok(scene)

@@ -143,7 +143,7 @@ fn kind(file: &Path) -> String {
     let extension = file.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
         _ if MeshFormat::of(file).is_some() => "mesh".to_owned(),
-        "png" | "jpg" | "jpeg" => "picture".to_owned(),
+        "png" | "jpg" | "jpeg" | "hdr" | "exr" => "picture".to_owned(),
         _ => extension,
     }
 }

@@ -2,16 +2,16 @@
 
 use super::materials::{MaterialBuilder, constants};
 use super::textures::{Lies, Lying, lying};
-use scene_format::desc::{self, RampInterpolation, SolidMapping};
+use scene_format::desc::{self, RampInterpolation, SolidMapping, VertexColorSpace};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, codes};
 use std::path::Path;
-use tracer_kernels::scene::{Albedo, Between, Made, Op, PLACES, Program, Space};
+use tracer_kernels::scene::{Albedo, Between, Made, Op, PLACES, Program, Space, VertexSpace};
 
 /// What a step works on.
 #[derive(Clone, Copy)]
 enum Operand<'w> {
-    /// A colour or a texture, where a number is wanted or where a colour is.
+    /// A colour or a texture, no name of one, where a number is wanted or where a colour is.
     Of(&'w desc::Albedo, bool),
     /// How far a pattern is from its first part to its second.
     Between(&'w desc::Albedo),
@@ -20,6 +20,7 @@ enum Operand<'w> {
 /// What the texture of these words is made of; nothing where it is one step.
 fn operands(words: &desc::Albedo, number: bool) -> Vec<Operand<'_>> {
     let parts = words.pattern().map_or_else(Vec::new, |pattern| pattern.parts());
+    let parts: Vec<&desc::Albedo> = parts.into_iter().map(desc::Albedo::resolved).collect();
     match (words, &parts[..]) {
         (desc::Albedo::ColorRamp(_), [input]) => vec![Operand::Of(input, true)],
         (desc::Albedo::Mix(_), [a, b, weight]) => {
@@ -95,6 +96,11 @@ impl MaterialBuilder<'_> {
         let made = match words {
             desc::Albedo::Color(color) => Made::Color(color.value),
             desc::Albedo::Texture(texture) => return self.lying_picture(program, texture, number, to, base),
+            desc::Albedo::VertexColor(colors) => Made::VertexColor(match colors.color_space {
+                VertexColorSpace::Auto => VertexSpace::AsFile,
+                VertexColorSpace::Srgb => VertexSpace::Srgb,
+                VertexColorSpace::Linear => VertexSpace::Linear,
+            }),
             desc::Albedo::ColorRamp(ramp) => ramp_of(program, ramp, first),
             desc::Albedo::Multiply(_) => Made::Multiply([first, second]),
             _ => match constants(words) {

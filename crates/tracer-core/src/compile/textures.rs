@@ -80,8 +80,8 @@ fn scaled_and_moved([x, y, z]: [f64; 3], [dx, dy, dz]: [f64; 3]) -> [[f64; 4]; 3
 
 fn kind(words: &Albedo) -> Option<PatternKind> {
     Some(match words {
-        Albedo::Color(_) | Albedo::Texture(_) => return None,
-        Albedo::ColorRamp(_) | Albedo::Mix(_) | Albedo::Multiply(_) => return None,
+        Albedo::Color(_) | Albedo::Texture(_) | Albedo::Named(_) => return None,
+        Albedo::ColorRamp(_) | Albedo::Mix(_) | Albedo::Multiply(_) | Albedo::VertexColor(_) => return None,
         Albedo::Checkerboard(_) => PatternKind::Checkerboard,
         Albedo::Lines(lines) => PatternKind::Lines {
             at_u: lines.along != LinesAlong::U,

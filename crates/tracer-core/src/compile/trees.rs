@@ -67,7 +67,7 @@ impl Hung<'_> {
         hidden: Vec<bool>,
         spheres: &SphereTable,
         planes: &PlaneTable,
-    ) -> Result<Option<Box<CameraSees>>, CompileError> {
+    ) -> Result<Option<Arc<CameraSees>>, CompileError> {
         if hidden.is_empty() {
             return Ok(None);
         }
@@ -76,6 +76,6 @@ impl Hung<'_> {
         let of_shapes: Vec<bool> = self.shapes.iter().map(|shape| is_hidden(shape.object)).collect();
         let accel = self.tree(acceleration, &hidden)?;
         let (spheres, planes) = (spheres.seen(&of_spheres), planes.seen(&of_shapes, self.spheres.len() as u32));
-        Ok(Some(Box::new(CameraSees { hidden, spheres, planes, accel })))
+        Ok(Some(Arc::new(CameraSees { hidden, spheres, planes, accel })))
     }
 }

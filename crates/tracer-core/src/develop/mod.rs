@@ -59,6 +59,9 @@ pub struct Image {
     pub layers: Vec<LayerImage>,
     /// Mattes; [`crate::Mattes::develop`] makes them.
     pub mattes: MatteImage,
+    /// Channels of the film's light groups, `light.key.R`, and their pixels: linear and exposed as `linear` is, and
+    /// without what is seen behind everything where that is.
+    pub light_groups: Vec<(String, Vec<f32>)>,
 }
 
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
@@ -95,11 +98,11 @@ pub fn develop_radiance([width, height]: [u32; 2], look: &Look, radiance: &[[f64
         alpha: None,
         layers: Vec::new(),
         mattes: MatteImage::default(),
+        light_groups: Vec::new(),
     };
     for pixel in radiance {
         let exposed = pixel.map(|x| x * gain);
-        let finite = exposed.map(|x| x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32);
-        image.linear.extend(finite);
+        image.linear.extend(exposed.map(finite));
         image.display.extend(mapped(look.tone_map, exposed).map(|x| encoder.encode(x.clamp(0.0, 1.0))));
     }
     image
@@ -146,8 +149,7 @@ fn developed(
                 }
             };
             for (to, from) in linear.iter_mut().zip(exposed) {
-                // What is beyond the range of f32 is its largest number: files and what reads them want finite ones.
-                *to = from.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+                *to = finite(from);
             }
             for (to, from) in display.iter_mut().zip(shown) {
                 *to = encoder.encode(from.clamp(0.0, 1.0));
@@ -157,7 +159,30 @@ fn developed(
     let layers = film.layers().iter().filter_map(|layer| film.layer(layer)).collect();
     let alpha_of = |k: u32| film.alpha(x + k % width, y + k / width) as f32;
     let alpha = (backdrop == Backdrop::Clear).then(|| (0..width * height).into_par_iter().map(alpha_of).collect());
-    Image { width, height, linear, display, alpha, layers, mattes: MatteImage::default() }
+    let light_groups = light_groups(film, gain, backdrop);
+    Image { width, height, linear, display, alpha, layers, mattes: MatteImage::default(), light_groups }
+}
+
+/// The channels of the film's light groups, exposed by a gain. The background is of one of them, where it is seen.
+fn light_groups(film: &Film, gain: f64, backdrop: Backdrop) -> Vec<(String, Vec<f32>)> {
+    let Crop { x, y, width, height } = film.crop();
+    let hides = |group: usize| backdrop != Backdrop::Background && film.group_of_background() == Some(group);
+    let channel = |(group, name, c): (usize, &String, usize)| {
+        let value = |k: u32| {
+            let (px, py) = (x + k % width, y + k / width);
+            let behind = if hides(group) { film.background(px, py)[c] } else { 0.0 };
+            finite((film.radiance_of_group(group, px, py)[c] - behind) * gain)
+        };
+        let name = format!("light.{name}.{}", ["R", "G", "B"][c]);
+        (name, (0..width * height).into_par_iter().map(value).collect())
+    };
+    let groups = film.light_groups().iter().enumerate();
+    groups.flat_map(|(group, name)| [0, 1, 2].map(|c| (group, name, c))).map(channel).collect()
+}
+
+/// In single precision; what is beyond its range is its largest number: files and what reads them want finite ones.
+fn finite(x: f64) -> f32 {
+    x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }
 
 /// The display's linear colour of exposed radiance.

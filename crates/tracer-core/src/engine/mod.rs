@@ -7,6 +7,7 @@
 mod counting;
 mod grid;
 mod inspect;
+mod lighting;
 mod moments;
 mod observer;
 mod options;
@@ -23,9 +24,10 @@ pub use inspect::{
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
-use crate::film::{Crop, Film, Keeper};
+use crate::film::{Crop, Film, FilmGroups, Keeper};
 use crate::scene::Scene;
 use grid::Grid;
+use lighting::Lighting;
 use passes::{Painter, Passes, SAMPLES, is_looked_at};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -60,7 +62,7 @@ pub enum Misfit {
 /// something moves while the shutter is open, each sample index sees a scene of its own ([`Scene::at_sample`]), and
 /// what is wrong with one of these ends it early, too ([`Film::fault`]).
 pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
-    let film = new_film(scene, options);
+    let film = new_film_of(scene, options);
     go_on(scene, options, film, observer).unwrap_or_else(|misfit| unreachable!("a new film: {misfit}"))
 }
 
@@ -71,7 +73,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -
 /// When the film is not one of this scene with these options, as far as the film tells: what is in the scene is for the
 /// caller to compare. When it has more samples than are asked for.
 pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn Observer) -> Result<Film, Misfit> {
-    let fresh = new_film(scene, options);
+    let fresh = new_film_of(scene, options);
     fits("set of samples", !film.has_gaps())?;
     fits("size", film.size() == fresh.size())?;
     fits("crop", film.crop() == fresh.crop())?;
@@ -81,6 +83,7 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     // Both need layers of their own, so they come before those.
     fits("backdrop", film.has_backdrop() == fresh.has_backdrop())?;
     fits("choice of mattes", film.mattes() == fresh.mattes())?;
+    fits("set of light groups", film.light_groups() == fresh.light_groups())?;
     fits("set of layers", film.has_layers_of(&fresh))?;
     fits("choice of halves", film.has_halves() == fresh.has_halves())?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
@@ -94,6 +97,21 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
 
 fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
     if same { Ok(()) } else { Err(Misfit::Setting(what)) }
+}
+
+/// A film without samples, which keeps the scene's light groups apart unless the caller says otherwise.
+fn new_film_of(scene: &Scene, options: &RenderOptions) -> Film {
+    let mut film = new_film(scene, options);
+    if let Some(groups) = scene.light_groups.as_ref().filter(|_| options.light_groups != Some(false)) {
+        film.keep_groups(FilmGroups { names: groups.names.clone(), of_background: groups.of_background });
+    }
+    film
+}
+
+/// The scene once for each light group that a film keeps apart; none where it keeps none.
+fn lit(scene: &Scene, film: &Film) -> Vec<tracer_kernels::scene::Scene> {
+    let groups = scene.light_groups.as_ref().filter(|_| !film.light_groups().is_empty());
+    groups.map(|groups| groups.lit(scene)).unwrap_or_default()
 }
 
 /// A film without samples.
@@ -129,14 +147,15 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     }
     let kernels = Kernels::new(film.level);
     let pool = Pool::new(film.threads, options.statistics);
-    let engine = Engine { scene, kernels: &kernels };
+    let engine = Engine::new(scene, &kernels);
     let before = Counted { counters: film.counters, costs: film.costs, ..Counted::default() };
     let goals = Goals::new(scene, options);
     let mut work = Work { options, observer, pool: &pool, samples, before, goals, keeper: None };
     if scene.moves() {
         return moments::go_on(scene, &kernels, film, work);
     }
-    let mut painter = painter(engine, options, &film, samples, &pool, observer);
+    let lit = lit(scene, &film);
+    let mut painter = painter(engine, &lit, options, &film, samples, &pool, observer);
     take_up(&mut film, &mut painter)?;
     let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(work.goals.noise.is_some());
     while !work.goals.are_met(&film)
@@ -192,9 +211,11 @@ impl Work<'_> {
     }
 }
 
-/// What adds passes to the film, with the techniques that are worth it in this scene.
+/// What adds passes to the film, with the techniques that are worth it in this scene. `lit`: the scene once for each
+/// light group that is kept apart.
 fn painter<'a>(
     engine: Engine<'a>,
+    lit: &'a [tracer_kernels::scene::Scene],
     options: &RenderOptions,
     film: &Film,
     samples: u32,
@@ -207,12 +228,15 @@ fn painter<'a>(
     let task = if engine.scene.integrator == Integrator::Direct { Task::Direct } else { Task::Picture };
     let plain = Pass { task, ..Pass::plain(film.seed(), film.level.lanes()) };
     let has_samples = samples_total > 0;
-    let techniques = techniques::plan(Trial { engine, options, crop, has_samples, pass: plain, pool, plan: None });
+    let lighting = |(k, engine): (usize, Engine<'a>)| {
+        let techniques = techniques::plan(Trial { engine, options, crop, has_samples, pass: plain, pool, plan: None });
+        Lighting { engine, group: (!lit.is_empty()).then_some([k, lit.len()]), techniques }
+    };
+    let lightings = lighting::engines(engine, lit).into_iter().enumerate().map(lighting).collect();
     let mut painter = Painter {
-        engine,
         pool,
         plain,
-        techniques,
+        lightings,
         grid: Grid::new(crop, plain.seed, false),
         observer,
         statistics: options.statistics,
@@ -225,14 +249,13 @@ fn painter<'a>(
         samples_total,
         stopped: AtomicBool::new(false),
     };
-    painter.grid = Grid::new(crop, plain.seed, painter.pass().reuse);
+    painter.grid = Grid::new(crop, plain.seed, painter.reuses());
     painter
 }
 
 /// Takes up a film where it was left, if it fits.
 fn take_up(film: &mut Film, painter: &mut Painter<'_>) -> Result<(), Misfit> {
-    let pass = painter.pass();
-    let (reuse, caustics) = (pass.reuse, pass.guide.is_some());
+    let (reuse, caustics) = (painter.reuses(), painter.aims());
     if film.is_begun() {
         fits("reuse", film.reuse == reuse)?;
         fits("caustics", film.caustics == caustics)?;

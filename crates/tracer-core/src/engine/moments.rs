@@ -6,7 +6,7 @@
 
 use super::passes::{Painter, Passes};
 use super::technique::Engine;
-use super::{Misfit, Work, fits, has_places, painter};
+use super::{Misfit, Work, fits, has_places, lit, painter};
 use crate::film::Film;
 use crate::scene::Scene;
 use scene_format::Diagnostics;
@@ -14,24 +14,24 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use tracer_kernels::engine::kernels::Kernels;
 
-/// What techniques hand on, by their names.
+/// What techniques hand on, by the light group that they are of and by their names.
 #[derive(Default)]
-pub(super) struct Handed(BTreeMap<&'static str, Box<dyn Any + Send>>);
+pub(super) struct Handed(BTreeMap<(usize, &'static str), Box<dyn Any + Send>>);
 
 impl Handed {
     /// Takes what the techniques have for others.
     fn take(&mut self, painter: &mut Painter<'_>) {
-        for technique in &mut painter.techniques {
+        for (group, technique) in painter.techniques() {
             if let Some(handed) = technique.hand_on() {
-                self.0.insert(technique.name(), handed);
+                self.0.insert((group, technique.name()), handed);
             }
         }
     }
 
     /// Gives it to techniques that are made ready next.
     pub fn give(&mut self, painter: &mut Painter<'_>) {
-        for technique in &mut painter.techniques {
-            if let Some(handed) = self.0.remove(technique.name()) {
+        for (group, technique) in painter.techniques() {
+            if let Some(handed) = self.0.remove(&(group, technique.name())) {
                 technique.take_over(handed);
             }
         }
@@ -52,16 +52,19 @@ pub(super) fn handed_before(
     sample: u32,
 ) -> Result<Handed, Diagnostics> {
     let planned = |scene: &Scene| {
-        let asked = painter(Engine { scene, kernels }, work.options, film, work.samples, work.pool, work.observer);
-        asked.techniques.iter().map(|technique| technique.made_at(sample)).find(|&before| before != sample)
+        let lit = lit(scene, film);
+        let engine = Engine::new(scene, kernels);
+        let mut asked = painter(engine, &lit, work.options, film, work.samples, work.pool, work.observer);
+        asked.techniques().map(|(_, technique)| technique.made_at(sample)).find(|&before| before != sample)
     };
     let mut handed = Handed::default();
     let now = seen(scene, film, sample).transpose()?;
     if let Some(before) = planned(now.as_ref().unwrap_or(scene)) {
         drop(now);
         let then = seen(scene, film, before).transpose()?;
-        let engine = Engine { scene: then.as_ref().unwrap_or(scene), kernels };
-        let mut painter = painter(engine, work.options, film, work.samples, work.pool, work.observer);
+        let then = then.as_ref().unwrap_or(scene);
+        let (engine, lit) = (Engine::new(then, kernels), lit(then, film));
+        let mut painter = painter(engine, &lit, work.options, film, work.samples, work.pool, work.observer);
         painter.prepare(&(before..before + 1));
         handed.take(&mut painter);
     }
@@ -72,7 +75,7 @@ pub(super) fn handed_before(
 
 /// Adds the samples that a film lacks.
 pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: Work<'_>) -> Result<Film, Misfit> {
-    take_up(&mut film, &work, Engine { scene, kernels })?;
+    take_up(scene, &mut film, &work, kernels)?;
     film.fault = None;
     let mut handed = match handed_before(scene, kernels, &film, &work, film.whole) {
         Ok(handed) => handed,
@@ -92,8 +95,9 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
                 break;
             }
         };
-        let engine = Engine { scene: now.as_ref().unwrap_or(scene), kernels };
-        let mut painter = painter(engine, work.options, &film, work.samples, work.pool, work.observer);
+        let now = now.as_ref().unwrap_or(scene);
+        let (engine, lit) = (Engine::new(now, kernels), lit(now, &film));
+        let mut painter = painter(engine, &lit, work.options, &film, work.samples, work.pool, work.observer);
         has_places(&film, &painter)?;
         handed.give(&mut painter);
         if film.unfinished.is_some() {
@@ -118,10 +122,10 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
 
 /// Takes up a film where it was left, if it fits. Whether pixels share, and rays are aimed, is told of the scene as it
 /// is when the shutter opens.
-fn take_up(film: &mut Film, work: &Work<'_>, engine: Engine<'_>) -> Result<(), Misfit> {
-    let painter = painter(engine, work.options, film, work.samples, work.pool, work.observer);
-    let pass = painter.pass();
-    let (reuse, caustics) = (pass.reuse, pass.guide.is_some());
+fn take_up(scene: &Scene, film: &mut Film, work: &Work<'_>, kernels: &Kernels) -> Result<(), Misfit> {
+    let (engine, lit) = (Engine::new(scene, kernels), lit(scene, film));
+    let painter = painter(engine, &lit, work.options, film, work.samples, work.pool, work.observer);
+    let (reuse, caustics) = (painter.reuses(), painter.aims());
     if film.is_begun() {
         fits("reuse", film.reuse == reuse)?;
         fits("caustics", film.caustics == caustics)?;

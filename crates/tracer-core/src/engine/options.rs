@@ -41,6 +41,9 @@ pub struct RenderOptions {
     pub halves: bool,
     /// What the film counts for mattes ([`crate::Film::matte`]).
     pub mattes: MattesKept,
+    /// Whether the film keeps apart what each group of lights brings ([`crate::Film::light_groups`]), where the scene
+    /// tells them apart ([`crate::LightGroups`]). Each sample is traced once for each group then.
+    pub light_groups: Option<bool>,
     /// Whether to keep [`crate::Statistics`].
     pub statistics: bool,
     /// Passes are made no longer than this, as far as those before tell, so that [`crate::Observer::state`] comes

@@ -1,19 +1,20 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
 use super::grid::Grid;
+use super::lighting::Lighting;
 use super::observer::{Observer, Progress};
-use super::technique::{Engine, OnFilm, Technique};
+use super::technique::{OnFilm, Technique};
 use super::trace::trace;
 use super::watcher::Unwatched;
-use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Unfinished, half_end, half_of};
+use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Samples, Tile, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use tracer_kernels::engine::batch::{Batch, ITEMS};
+use tracer_kernels::engine::batch::{Batch, ITEMS, PATHS};
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
-use tracer_kernels::layers::LayerSet;
+use tracer_kernels::layers::{LayerSamples, LayerSet};
 use tracer_kernels::report::Stage;
 use tracer_kernels::sampling::blocks::{Item, QUARTERS, slots_of_block};
 
@@ -133,11 +134,11 @@ impl Deal {
 
 /// Adds passes to a film.
 pub struct Painter<'a> {
-    pub engine: Engine<'a>,
     pub pool: &'a Pool,
     /// Plain paths.
     pub plain: Pass<'a>,
-    pub techniques: Vec<Box<dyn Technique>>,
+    /// What lights the picture: all lights at once, or one group after the other.
+    pub lightings: Vec<Lighting<'a>>,
     pub grid: Grid,
     pub observer: &'a dyn Observer,
     /// Statistics are kept.
@@ -160,24 +161,35 @@ pub struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// The pass as the techniques tell it.
-    pub fn pass(&self) -> Pass<'_> {
-        let mut pass = self.plain;
-        self.techniques.iter().for_each(|technique| technique.tell(&mut pass));
-        pass
+    /// The techniques, and the number of the lighting whose they are.
+    pub fn techniques(&mut self) -> impl Iterator<Item = (usize, &mut Box<dyn Technique>)> {
+        self.lightings
+            .iter_mut()
+            .enumerate()
+            .flat_map(|(k, lighting)| lighting.techniques.iter_mut().map(move |technique| (k, technique)))
+    }
+
+    /// Whether pixels share, in any lighting.
+    pub fn reuses(&self) -> bool {
+        self.lightings.iter().any(|lighting| lighting.pass(self.plain).reuse)
+    }
+
+    /// Whether rays are aimed, in any lighting.
+    pub fn aims(&self) -> bool {
+        self.lightings.iter().any(|lighting| lighting.pass(self.plain).guide.is_some())
     }
 
     /// Makes ready for these sample indices.
     pub fn prepare(&mut self, samples: &Range<u32>) {
-        for technique in &mut self.techniques {
-            technique.before_pass(self.engine, samples, self.pool);
+        for Lighting { engine, techniques, .. } in &mut self.lightings {
+            techniques.iter_mut().for_each(|technique| technique.before_pass(*engine, samples, self.pool));
         }
     }
 
     /// Adds the samples of a pass, or what is left of it; gives what is left then. The keeper is told the film as it
     /// was before.
     pub fn paint(&self, film: &mut Film, samples: Range<u32>, keeper: Option<Keeper>) -> Option<Unfinished> {
-        let pass = Pass { layers: film.layers(), ..self.pass() };
+        let plain = Pass { layers: film.layers(), ..self.plain };
         let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: samples.clone() }];
         let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
         // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to
@@ -192,12 +204,13 @@ impl Painter<'_> {
                 let helper = std::thread::Builder::new().spawn_scoped(scope, || cells.keep_all());
                 helper.map(drop).unwrap_or_else(|_| cells.keep_all());
             }
-            light = self.bring(pass, light..samples.end, &cells);
+            light = self.bring(plain, light..samples.end, &cells);
             self.pool.on_all(&|batch: &mut Batch| {
+                let mut totals = self.room_for_totals();
                 while !self.stopped.load(Ordering::Relaxed)
                     && let Some(piece) = deal.take()
                 {
-                    let samples = self.batch(pass, &piece, at_once, &cells, batch);
+                    let samples = self.batch(plain, &piece, at_once, (&cells, &mut totals), batch);
                     if !samples.is_empty() {
                         deal.give_back(Piece { samples, ..piece });
                     }
@@ -210,22 +223,31 @@ impl Painter<'_> {
         drop(cells);
         film.light_samples = light;
         let pieces = deal.left();
-        let brings = self.techniques.iter().any(|technique| technique.at_once().is_some());
+        let brings = self.bringers().next().is_some();
         let is_whole = pieces.is_empty() && (light == samples.end || !brings);
         (!is_whole).then_some(Unfinished { end: samples.end, pieces })
     }
 
+    /// What brings light to the film beside the samples, and for how many sample indices at a time.
+    fn bringers(&self) -> impl Iterator<Item = (&Lighting<'_>, &dyn Technique, u32)> {
+        self.lightings.iter().filter_map(move |lighting| {
+            let bringer = lighting.techniques.iter().find_map(|technique| Some((&**technique, technique.at_once()?)));
+            bringer.map(|(technique, at_once)| (lighting, technique, at_once))
+        })
+    }
+
     /// Has light brought to the film beside the samples of these indices; where it has come to.
-    fn bring(&self, pass: Pass<'_>, samples: Range<u32>, cells: &Cells<'_>) -> u32 {
+    fn bring(&self, plain: Pass<'_>, samples: Range<u32>, cells: &Cells<'_>) -> u32 {
         let mut next = samples.start;
-        let bringer = self.techniques.iter().find_map(|technique| Some((technique, technique.at_once()?)));
-        let Some((technique, at_once)) = bringer else { return next };
+        let Some(at_once) = self.bringers().map(|(.., at_once)| at_once).min() else { return next };
         while next < samples.end && !self.stopped.load(Ordering::Relaxed) {
             // Of one half of the samples only.
             let now = next..samples.end.min(next.saturating_add(at_once)).min(half_end(next));
-            let film = OnFilm { cells, limit: self.limit, half: half_of(next) };
+            for (lighting, technique, _) in self.bringers() {
+                let film = OnFilm { cells, limit: self.limit, half: half_of(next), group: lighting.group };
+                technique.bring(lighting.engine, lighting.pass(plain), now.clone(), film, self.pool);
+            }
             next = now.end;
-            technique.bring(self.engine, pass, now, film, self.pool);
             if next < samples.end {
                 self.tell(0);
             }
@@ -234,7 +256,14 @@ impl Painter<'_> {
     }
 
     /// Adds a batch; gives the samples that it lacks because the rendering was ended.
-    fn batch(&self, pass: Pass<'_>, piece: &Piece, at_once: u32, cells: &Cells<'_>, batch: &mut Batch) -> Range<u32> {
+    fn batch(
+        &self,
+        plain: Pass<'_>,
+        piece: &Piece,
+        at_once: u32,
+        (cells, totals): (&Cells<'_>, &mut Totals),
+        batch: &mut Batch,
+    ) -> Range<u32> {
         let mut sample = piece.samples.start;
         while sample < piece.samples.end {
             let count = (piece.samples.end - sample).min(at_once);
@@ -245,11 +274,17 @@ impl Painter<'_> {
             }
             batch.watch.start(self.statistics);
             let start = Instant::now();
-            trace(self.engine, pass, &self.techniques, batch, &mut Unwatched);
-            if let Some(limit) = self.limit {
-                clamp_samples(limit, cells, batch);
+            for lighting in &self.lightings {
+                lighting.mark(batch);
+                trace(lighting.engine, lighting.pass(plain), &lighting.techniques, batch, &mut Unwatched);
+                if let Some(limit) = self.limit {
+                    clamp_samples(limit, cells, batch);
+                }
+                if let Some(group) = lighting.group {
+                    add_group(group, cells, totals, batch);
+                }
             }
-            let added = self.add_samples(pass.layers, cells, batch);
+            let added = self.add_samples(plain.layers, cells, totals, batch);
             batch.watch.lap(Stage::Film);
             batch.watch.costs.total += start.elapsed().as_secs_f64();
             if !self.tell(added) {
@@ -262,48 +297,71 @@ impl Painter<'_> {
     /// Makes a batch's items those of the blocks at these places and sample indices.
     pub fn fill(&self, places: &Range<u32>, samples: Range<u32>, batch: &mut Batch) {
         batch.items.clear();
-        (batch.glints, batch.shares) = (0, 0);
         for place in places.clone() {
             for sample in samples.clone() {
                 let Some(block) = self.grid.block(place as usize, self.grid.cut(sample)) else { continue };
-                let items = ((1 << QUARTERS) - 1) << batch.items.len();
-                for technique in &self.techniques {
-                    technique.mark(&block, sample, items, batch);
-                }
                 batch.items.extend((0..QUARTERS).map(|quarter| Item { block, quarter, sample }));
             }
         }
     }
 
-    /// Adds the samples of a batch to the film; how many they are.
-    fn add_samples(&self, layers: LayerSet, cells: &Cells<'_>, batch: &mut Batch) -> u64 {
+    /// Room for the totals of a batch's samples over the groups, where there are groups.
+    fn room_for_totals(&self) -> Totals {
+        let has_groups = self.lightings.iter().any(|lighting| lighting.group.is_some());
+        vec![[0; 3]; if has_groups { PATHS } else { 0 }]
+    }
+
+    /// Adds the samples of a batch to the film; how many they are. Those of groups were added before, and are taken
+    /// from `totals`, which are zero afterwards.
+    fn add_samples(&self, layers: LayerSet, cells: &Cells<'_>, totals: &mut Totals, batch: &mut Batch) -> u64 {
         let mut added = 0;
         for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
             let slots = slots_of_block(first);
+            let half = half_of(batch.items[first].sample);
             cells.each(&batch.pixels, slots.start, |tile, common| {
-                let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
-                let left_out = tile.add(samples, common);
-                batch.counters.dropped += left_out.dropped;
-                batch.counters.beyond += left_out.beyond;
+                if totals.is_empty() {
+                    let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+                    let left_out = tile.add(samples, common);
+                    batch.counters.dropped += left_out.dropped;
+                    batch.counters.beyond += left_out.beyond;
+                    self.add_parts(samples, tile, (&batch.layers, half), first, common);
+                } else {
+                    let totals = &totals[slots.clone()];
+                    tile.count_totals(totals, common);
+                    self.add_parts(totals, tile, (&batch.layers, half), first, common);
+                }
                 tile.add_layers(&batch.layers, first, common);
                 if !self.mattes.is_empty() {
                     tile.add_mattes(self.mattes, layers, &batch.layers, first, common);
                 }
-                let half = half_of(batch.items[first].sample);
-                if self.backdrop {
-                    tile.add_missed(samples, &batch.layers, first, common, half);
-                }
-                if half == 1 {
-                    tile.add_half(samples, common);
-                }
-                if let Some(place) = self.lamps {
-                    let lamps = [0, 1, 2].map(|c| &batch.layers.sums[place + c][slots.clone()]);
-                    tile.add_lamps(half, lamps, common, self.limit);
-                }
                 added += common.len() as u64;
             });
         }
+        totals.fill([0; 3]);
         added
+    }
+
+    /// Adds what is summed apart of the samples of the block whose first item this is, which are of this half: the
+    /// background, and halves.
+    fn add_parts(
+        &self,
+        samples: impl Samples + Copy,
+        tile: &mut Tile,
+        (layers, half): (&LayerSamples, usize),
+        first: usize,
+        common: &[[u8; 2]],
+    ) {
+        if self.backdrop {
+            tile.add_missed(samples, layers, first, common, half);
+        }
+        if half == 1 {
+            tile.add_half(samples, common);
+        }
+        if let Some(place) = self.lamps {
+            let slots = slots_of_block(first);
+            let lamps = [0, 1, 2].map(|c| &layers.sums[place + c][slots.clone()]);
+            tile.add_lamps(half, lamps, common, self.limit);
+        }
     }
 
     /// Tells the observer of so many samples more; whether it goes on.
@@ -316,6 +374,22 @@ impl Painter<'_> {
             self.stopped.store(true, Ordering::Relaxed);
         }
         goes_on
+    }
+}
+
+/// Of each slot of a batch what all groups have brought, in the film's least units.
+type Totals = Vec<[i128; 3]>;
+
+/// Adds what a group, of so many, has brought to the samples of a batch.
+fn add_group([group, count]: [usize; 2], cells: &Cells<'_>, totals: &mut Totals, batch: &mut Batch) {
+    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
+        let slots = slots_of_block(first);
+        cells.each(&batch.pixels, slots.start, |tile, common| {
+            let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
+            let left_out = tile.add_group((group, count), samples, common, &mut totals[slots.clone()]);
+            batch.counters.dropped += left_out.dropped;
+            batch.counters.beyond += left_out.beyond;
+        });
     }
 }
 

@@ -19,6 +19,17 @@ use tracer_kernels::scene::Scene;
 pub struct Engine<'a> {
     pub scene: &'a Scene,
     pub kernels: &'a Kernels,
+    /// What layers tell of: the same, with all its lights.
+    pub seen: &'a Scene,
+    /// A batch is not traced with another one before, whose layers it adds to.
+    pub is_first: bool,
+}
+
+impl<'a> Engine<'a> {
+    /// Of a scene with all its lights.
+    pub fn new(scene: &'a Scene, kernels: &'a Kernels) -> Self {
+        Engine { scene, kernels, seen: scene, is_first: true }
+    }
 }
 
 /// The vertex of a batch's paths that was shaded last.
@@ -42,6 +53,8 @@ pub struct OnFilm<'a, 'b> {
     pub limit: Option<f64>,
     /// The half of the samples that it comes with ([`crate::film`]).
     pub half: usize,
+    /// The light group that it is of, and how many there are.
+    pub group: Option<[usize; 2]>,
 }
 
 /// A way to find light. Whether it is at work depends on scene and settings alone, and so does all that it does: the

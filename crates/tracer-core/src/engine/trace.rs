@@ -21,7 +21,7 @@ pub fn trace(
     watcher: &mut impl Watcher,
 ) {
     batch.start();
-    if pass.layers.are_of_hits() {
+    if pass.layers.are_of_hits() && engine.is_first {
         // Here, for a batch may have no path at all: beside a fisheye's circle.
         batch.layers.start(pass.layers.kept());
     }
@@ -67,11 +67,11 @@ fn ambient(engine: Engine<'_>, pass: Pass<'_>, distance: f32, batch: &mut Batch)
 
 /// What the rays of a vertex hit, and what layers want of it.
 fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
-    let for_layers = vertex == 0 && pass.layers.are_of_hits();
+    let for_layers = vertex == 0 && pass.layers.are_of_hits() && engine.is_first;
     counting::paths(engine, pass.layers, vertex == 0, batch);
     closest(engine, vertex == 0, batch);
     if for_layers {
-        engine.kernels.first_hits(engine.scene, pass.seed, pass.layers, batch);
+        engine.kernels.first_hits(engine.seen, pass.seed, pass.layers, batch);
         batch.watch.lap(Stage::Layers);
     }
 }
@@ -86,7 +86,7 @@ fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
 
 /// What the rays of `batch.paths` hit; `camera`: they come from there.
 pub fn closest(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let met = scene.met(camera);
     kernels.closest(met.spheres, batch);
     if !met.planes.is_empty() {
@@ -125,7 +125,7 @@ fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch)
 
 /// Which of the shadow rays something blocks; `camera`: they go there.
 pub fn occluded(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let met = scene.met(camera);
     kernels.occluded(met.spheres, batch);
     if !met.planes.is_empty() {

@@ -72,8 +72,15 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Adds what a light path of a half of the samples brings to a pixel, if it is one of the crop.
-    pub fn splat(&self, [x, y]: [i32; 2], brings: [f32; 3], limit: Option<f64>, half: usize) {
+    /// Adds what a light path of a half of the samples, and of a group of so many, brings to a pixel, if it is one of
+    /// the crop.
+    pub fn splat(
+        &self,
+        [x, y]: [i32; 2],
+        brings: [f32; 3],
+        (limit, half): (Option<f64>, usize),
+        group: Option<[usize; 2]>,
+    ) {
         let Crop { x: left, y: top, width, height } = self.crop;
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x < left || y < top || x - left >= width || y - top >= height {
@@ -82,10 +89,12 @@ impl<'a> Cells<'a> {
         let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
         let pixel = z_order(x % TILE, y % TILE) as usize;
         let tile = &mut self.lock(place as usize).tile;
-        if let Some(added) = tile.splat(pixel, brings, limit)
-            && half == 1
-        {
+        let Some(added) = tile.splat(pixel, brings, limit) else { return };
+        if half == 1 {
             tile.splat_half(pixel, added);
+        }
+        if let Some([group, count]) = group {
+            tile.splat_group((group, count), pixel, added);
         }
     }
 

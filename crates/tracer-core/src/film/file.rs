@@ -15,8 +15,8 @@
 
 use super::layers::SavedLayer;
 use super::mattes::longest_record;
-use super::record::{Records, kept, read_tile, record};
-use super::{Crop, Film, FilmLayer, MattesKept, Part, Piece, TILE, Tile, Unfinished};
+use super::record::{Records, read_tile, record};
+use super::{Crop, Film, FilmGroups, FilmLayer, MattesKept, Part, Piece, TILE, Tile, TileGroups, Unfinished};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use rayon::prelude::*;
@@ -29,7 +29,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
@@ -97,6 +97,7 @@ pub struct FilmHead {
     pub(super) halves: bool,
     pub(super) backdrop: bool,
     pub(super) mattes: MattesKept,
+    pub(super) groups: FilmGroups,
 }
 
 impl FilmHead {
@@ -123,6 +124,7 @@ impl FilmHead {
             halves: film.halves,
             backdrop: film.backdrop,
             mattes: film.mattes,
+            groups: film.groups.clone(),
         }
     }
 
@@ -161,6 +163,8 @@ impl FilmHead {
             text(name, &mut out);
             out.extend(units.iter().flat_map(|x| x.to_bits().to_le_bytes()));
         }
+        out.extend(self.groups.numbers().into_iter().flat_map(u32::to_le_bytes));
+        self.groups.names.iter().for_each(|name| text(name, &mut out));
         let mut head = MAGIC.to_vec();
         head.extend([FORMAT, out.len() as u32].into_iter().flat_map(u32::to_le_bytes));
         head.extend(out);
@@ -205,6 +209,9 @@ impl FilmHead {
             let name = text(from)?;
             layers.push(SavedLayer { name, units: [real(from)?, real(from)?, real(from)?, real(from)?] });
         }
+        let (of_background, count) = (number(from)?, number(from)?);
+        let names = (0..count).map(|_| text(from)).collect::<Option<Vec<_>>>()?;
+        let groups = FilmGroups::from_number(of_background, names);
         let head = FilmHead {
             program,
             notes,
@@ -225,6 +232,7 @@ impl FilmHead {
             halves,
             backdrop,
             mattes,
+            groups,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -263,7 +271,8 @@ impl FilmHead {
     pub fn bytes(&self) -> u64 {
         let layers = self.layers.iter().filter_map(|layer| Some(layer.layer()?.layer)).collect();
         Film::bytes_of(self.crop, self.clamp.is_some(), true, layers, self.halves)
-            + tile_count(self.crop) as u64 * self.mattes.bytes() as u64
+            + tile_count(self.crop) as u64
+                * (self.mattes.bytes() + TileGroups::most_bytes(self.light_groups().len())) as u64
     }
 
     /// The mattes that it holds.
@@ -279,7 +288,8 @@ impl FilmHead {
     /// No tile's record is longer.
     fn longest_tile(&self) -> u32 {
         let mattes = longest_record(self.mattes, *self.samples.end());
-        u32::try_from(mattes.saturating_add(LONGEST_TILE.into())).unwrap_or(u32::MAX)
+        let more = mattes.saturating_add(TileGroups::longest_record(self.light_groups().len()));
+        u32::try_from(more.saturating_add(LONGEST_TILE.into())).unwrap_or(u32::MAX)
     }
 
     /// The names of the layers that it holds, as files have them.
@@ -294,6 +304,7 @@ impl FilmHead {
             && (tile.missed.is_none() || self.backdrop)
             && (tile.layers.is_none() || kept != Kept::default())
             && tile.mattes.as_ref().is_none_or(|_| !self.mattes.is_empty())
+            && (tile.groups.is_none() || !self.light_groups().is_empty())
     }
 
     /// Whether two halves of the samples are kept apart.
@@ -434,9 +445,9 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
         let most = *self.head.samples.end();
-        let kept = (kept(&self.head.film_layers()?), self.head.mattes);
+        let held = self.head.held(&self.head.film_layers()?);
         self.tiles(|records| {
-            let read = |(_, bytes): (usize, &[u8])| read_tile(bytes, most, kept, &mut Tile::zeroed());
+            let read = |(_, bytes): (usize, &[u8])| read_tile(bytes, most, held, &mut Tile::zeroed());
             records.par_iter().try_for_each(read)
         })?;
         Ok(self.head)
@@ -448,14 +459,14 @@ impl<R: Read> SavedFilm<R> {
     /// When it cannot be read, is not as it was written, or takes more memory than there is.
     pub fn film(mut self) -> Result<Film, FilmError> {
         let layers = self.head.film_layers()?;
-        let kept = kept(&layers);
+        let held = self.head.held(&layers);
         let mut tiles: Vec<Tile> =
             try_zeroed_vec(tile_count(self.head.crop)).map_err(|()| FilmError::Memory(self.head.bytes()))?;
         let head = self.head.clone();
         self.tiles(|records| {
             records.beside(&mut tiles, 0)?.into_par_iter().try_for_each(|(tile, bytes)| {
-                read_tile(bytes, *head.samples.end(), (kept, head.mattes), tile)?;
-                head.has(tile, kept).then_some(())
+                read_tile(bytes, *head.samples.end(), held, tile)?;
+                head.has(tile, held.kept).then_some(())
             })
         })?;
         // Without tiles: theirs are at hand.
@@ -467,7 +478,7 @@ impl<R: Read> SavedFilm<R> {
             (*head.samples.start(), head.unfinished, head.light_samples);
         (film.counters, film.costs) = (head.counters, head.costs);
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
-        (film.backdrop, film.mattes) = (head.backdrop, head.mattes);
+        (film.backdrop, film.mattes, film.groups) = (head.backdrop, head.mattes, head.groups);
         Ok(film)
     }
 

@@ -9,7 +9,7 @@
 
 use super::exact::{LEAST, Sums, fixed};
 use super::pack::{pack, unpack};
-use super::{Film, PIXELS, Tile, counts};
+use super::{Film, PIXELS, Samples, Tile, counts};
 use bytemuck::Zeroable;
 use std::ops::Range;
 use tracer_kernels::layers::{Layer, LayerSet};
@@ -122,14 +122,13 @@ impl Tile {
     }
 
     /// Adds samples of the second half, which [`Tile::add`] is given, too; where halves are kept.
-    pub(crate) fn add_half(&mut self, [red, green, blue]: [&[f32]; 3], pixels: &[[u8; 2]]) {
+    pub(crate) fn add_half(&mut self, samples: impl Samples, pixels: &[[u8; 2]]) {
         let Some(half) = &mut self.half else { return };
         for &[k, pixel] in pixels {
             let (k, pixel) = (usize::from(k), usize::from(pixel));
-            let sample = [red[k], green[k], blue[k]];
             half.samples[pixel] += 1;
-            if counts(sample) {
-                half.sums.add(pixel, sample.map(fixed));
+            if let Some(sample) = samples.whole(k) {
+                half.sums.add(pixel, sample);
             }
         }
     }

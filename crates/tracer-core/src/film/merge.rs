@@ -6,7 +6,7 @@
 
 use super::file::PROGRAM;
 use super::layers::SavedLayer;
-use super::record::{kept, read_tile};
+use super::record::read_tile;
 use super::{Crop, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
@@ -128,6 +128,7 @@ impl FilmHead {
             ("range of brightness", self.unit == other.unit),
             ("backdrop", self.backdrop == other.backdrop),
             ("choice of mattes", self.mattes == other.mattes),
+            ("set of light groups", self.groups == other.groups),
             ("set of layers", layers(self) == layers(other)),
             ("reuse", self.reuse == other.reuse),
             ("caustics", self.caustics == other.caustics),
@@ -291,7 +292,7 @@ impl Film {
             return Err(FilmError::Damaged("it has changed since its head was read"));
         }
         let layers = head.film_layers()?;
-        let (kept, most) = ((kept(&layers), head.mattes), *head.samples.end());
+        let (held, most) = (head.held(&layers), *head.samples.end());
         let Crop { x, y, width, .. } = head.crop;
         let columns = ((x + width).div_ceil(TILE) - x / TILE) as usize;
         // In the same columns, but further down.
@@ -299,8 +300,8 @@ impl Film {
         saved.tiles(|records| {
             records.beside(&mut self.tiles, before)?.into_par_iter().try_for_each(|(sum, bytes)| {
                 let mut tile = Tile::zeroed();
-                read_tile(bytes, most, kept, &mut tile)?;
-                head.has(&tile, kept.0).then(|| sum.merge(&tile))
+                read_tile(bytes, most, held, &mut tile)?;
+                head.has(&tile, held.kept).then(|| sum.merge(&tile))
             })
         })?;
         add_counters(&mut self.counters, &head.counters);
@@ -324,6 +325,7 @@ fn empty(head: &FilmHead, of: Crop) -> Result<Film, MergeError> {
     film.keep_halves(head.halves);
     film.keep_backdrop(head.backdrop);
     film.keep_mattes(head.mattes);
+    film.keep_groups(head.groups.clone());
     film.layers = head.film_layers().map_err(|error| MergeError::Part { part: 0, error })?;
     Ok(film)
 }
@@ -391,10 +393,15 @@ impl Tile {
             (Some(mattes), Some(from)) => mattes.merge(from),
             (mattes, from) => mattes.clone_from(from),
         }
+        match (&mut self.groups, &other.groups) {
+            (_, None) => {}
+            (Some(groups), Some(from)) => groups.merge(from),
+            (groups, from) => groups.clone_from(from),
+        }
     }
 }
 
-fn add_sums(to: &mut Sums, from: &Sums) {
+pub(super) fn add_sums(to: &mut Sums, from: &Sums) {
     (0..super::PIXELS).for_each(|pixel| to.add(pixel, [0, 1, 2].map(|c| from.of(c, pixel))));
 }
 

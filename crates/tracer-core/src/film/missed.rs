@@ -1,9 +1,9 @@
 //! What camera rays see behind everything, summed by itself, so that a picture can be laid over another one
 //! ([`crate::Backdrop`]). The layer `alpha` is kept beside it, which tells how much of a pixel that is.
 
-use super::exact::{Sums, fixed};
+use super::exact::Sums;
 use super::layers::is_hit;
-use super::{Film, Tile, counts};
+use super::{Film, Samples, Tile};
 use bytemuck::Zeroable;
 use tracer_kernels::layers::LayerSamples;
 
@@ -13,7 +13,7 @@ impl Tile {
     /// are.
     pub(crate) fn add_missed(
         &mut self,
-        [red, green, blue]: [&[f32]; 3],
+        samples: impl Samples,
         layers: &LayerSamples,
         first: usize,
         pixels: &[[u8; 2]],
@@ -21,11 +21,10 @@ impl Tile {
     ) {
         for &[k, pixel] in pixels {
             let (k, pixel) = (usize::from(k), usize::from(pixel));
-            let sample = [red[k], green[k], blue[k]];
-            if is_hit(layers, first, k) || sample == [0.0; 3] || !counts(sample) {
+            if is_hit(layers, first, k) {
                 continue;
             }
-            let sample = sample.map(fixed);
+            let Some(sample) = samples.whole(k).filter(|&sample| sample != [0; 3]) else { continue };
             self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample);
             self.add_to_lamps(half, pixel, sample);
         }

@@ -1,7 +1,7 @@
 //! A tile of a film as it stands in a file ([`super::file`]).
 
 use super::pack::{pack, pack_wide, unpack, unpack_wide};
-use super::{FilmLayer, MattesKept, Splats, Squares, Sums, Taken, Tile, TileHalf, TileLayers, TileMattes};
+use super::{FilmLayer, MattesKept, Splats, Squares, Sums, Taken, Tile, TileGroups, TileHalf, TileLayers, TileMattes};
 use bytemuck::Zeroable;
 use rayon::prelude::*;
 use std::io::{self, Read};
@@ -70,14 +70,25 @@ pub(super) fn kept(layers: &[FilmLayer]) -> Kept {
     layers.iter().map(|of| of.layer).collect::<LayerSet>().kept()
 }
 
+/// What tiles hold beside the picture.
+#[derive(Clone, Copy)]
+pub(super) struct Held {
+    /// For layers.
+    pub kept: Kept,
+    /// For mattes.
+    pub mattes: MattesKept,
+    /// So many light groups.
+    pub groups: usize,
+}
+
 /// A tile as it stands in the file, its number and length included.
 pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     let mut out = Vec::with_capacity(8192);
     out.extend((place as u32).to_le_bytes());
     out.extend([0; 4]);
     let [taken, splats] = [tile.taken.is_some(), tile.splats.is_some()];
-    let parts =
-        [taken, splats, tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some(), tile.mattes.is_some()];
+    let [layers, half, missed] = [tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some()];
+    let parts = [taken, splats, layers, half, missed, tile.mattes.is_some(), tile.groups.is_some()];
     out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
     let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
     sums(&tile.sums, &mut out);
@@ -103,14 +114,17 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     if let Some(mattes) = &tile.mattes {
         mattes.record(&mut out);
     }
+    if let Some(groups) = &tile.groups {
+        groups.record(&mut out);
+    }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
     out
 }
 
 /// The tile of a record, without its number and length, into one that is zero. No pixel has more samples than so many;
-/// this is kept for layers and mattes.
-pub(super) fn read_tile(mut from: &[u8], most: u32, (kept, mattes): (Kept, MattesKept), tile: &mut Tile) -> Option<()> {
+/// this is held beside the picture.
+pub(super) fn read_tile(mut from: &[u8], most: u32, held: Held, tile: &mut Tile) -> Option<()> {
     let from = &mut from;
     let sums = |sums: &mut Sums, from: &mut &[u8]| (0..3).try_for_each(|c| unpack(from, |k, x| sums.set(c, k, x)));
     let squares = |squares: &mut Squares, from: &mut &[u8]| unpack_wide(from, |k, words| squares.set(k, words));
@@ -140,7 +154,7 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, (kept, mattes): (Kept, Matte
         tile.splats = Some(splats);
     }
     if flags & 4 != 0 {
-        tile.layers = Some(Box::new(TileLayers::read(from, most, kept)?));
+        tile.layers = Some(Box::new(TileLayers::read(from, most, held.kept)?));
     }
     if flags & 8 != 0 {
         tile.half = Some(TileHalf::read(from, &tile.samples)?);
@@ -151,7 +165,10 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, (kept, mattes): (Kept, Matte
         tile.missed = Some(missed);
     }
     if flags & 32 != 0 {
-        tile.mattes = Some(Box::new(TileMattes::read(from, &tile.samples, mattes)?));
+        tile.mattes = Some(Box::new(TileMattes::read(from, &tile.samples, held.mattes)?));
     }
-    (flags < 64 && from.is_empty()).then_some(())
+    if flags & 64 != 0 {
+        tile.groups = Some(Box::new(TileGroups::read(from, held.groups)?));
+    }
+    (flags < 128 && from.is_empty()).then_some(())
 }

@@ -77,7 +77,10 @@ pub enum TextureError {
     },
 }
 
-/// "PNG or JPEG".
+/// What the decoder says of an EXR file without a layer of colours.
+const NO_RGB: &str = "rgb channels";
+
+/// "PNG, JPEG, HDR or EXR".
 fn names(formats: &[ImageFormat]) -> String {
     let name = |format: &ImageFormat| match format {
         ImageFormat::OpenExr => "EXR".to_owned(),
@@ -145,8 +148,16 @@ impl TextureError {
                     TextureError::Broken { source, .. } => format!("{self}: {source}"),
                     _ => self.to_string(),
                 };
-                Diagnostic::error(codes::BROKEN_TEXTURE, span, message)
-                    .expected("a whole PNG or JPEG file")
+                let fault = Diagnostic::error(codes::BROKEN_TEXTURE, span, message);
+                if fault.message.contains(NO_RGB) {
+                    return fault
+                        .expected(
+                            "an EXR file with the channels R, G and B, not deep: the first part that has them is taken",
+                        )
+                        .hint("save the layer that is meant as a picture of its own");
+                }
+                fault
+                    .expected("a whole PNG, JPEG, HDR or EXR file")
                     .hint("open it in an image program and save it again")
             }
             TextureError::Size { .. } => Diagnostic::error(codes::BROKEN_TEXTURE, span, self.to_string())

@@ -1,4 +1,4 @@
-//! Pictures laid over surfaces: PNG and JPEG files, decoded.
+//! Pictures laid over surfaces: PNG, JPEG, HDR and EXR files, decoded.
 
 // As in `mesh`: what a file says must not end the program.
 #![cfg_attr(
@@ -18,6 +18,7 @@
 mod environment;
 mod error;
 mod extent;
+mod floats;
 mod heights;
 mod pixels;
 mod reading;
@@ -58,7 +59,7 @@ pub struct Texture {
     pub height: u32,
     /// `width * height` texels, row by row.
     pub texels: Texels,
-    /// At most one `W0520`: what of the file was ignored. It has no span.
+    /// At most one `W0520` and one `W0522`: what of the file was ignored, or clipped. They have no span.
     pub warnings: Diagnostics,
 }
 
@@ -76,13 +77,14 @@ impl Texture {
     }
 }
 
-/// Reads the PNG or JPEG picture in `path`; its content decides which, not its extension.
+/// Reads the PNG, JPEG, HDR or EXR picture in `path`; its content decides which, not its extension.
 ///
 /// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours
-/// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied.
+/// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied. HDR
+/// and EXR are linear, and clipped to 0 to 1 (with a warning); of an EXR file the first part with R, G and B is taken.
 ///
 /// # Errors
-/// When there is no such file, it cannot be read, it is no PNG or JPEG or a broken one, or it has more than
+/// When there is no such file, it cannot be read, it is of another format or broken, or it has more than
 /// [`MAX_SIDE`] pixels along a side or out of all proportion to its size.
 pub fn load(path: &Path) -> Result<Texture, TextureError> {
     load_as(path, Reading::default())
@@ -109,7 +111,7 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Texture, TextureError> {
 /// # Errors
 /// As [`load`].
 pub fn decode_as(bytes: &[u8], path: &Path, reading: Reading) -> Result<Texture, TextureError> {
-    let format = format_of(bytes, path, &[ImageFormat::Png, ImageFormat::Jpeg])?;
+    let format = format_of(bytes, path, &TEXTURES)?;
     Ok(from_picture(checked(bytes, path, format)?, path, reading))
 }
 
@@ -120,6 +122,9 @@ fn format_of(bytes: &[u8], path: &Path, formats: &'static [ImageFormat]) -> Resu
         other => Err(TextureError::Format { path: path.to_owned(), found: other.ok(), formats }),
     }
 }
+
+/// Formats of textures.
+const TEXTURES: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::OpenExr];
 
 /// Formats of pictures of numbers: of light, of heights.
 const ENVIRONMENTS: [ImageFormat; 4] = [ImageFormat::Hdr, ImageFormat::OpenExr, ImageFormat::Png, ImageFormat::Jpeg];
@@ -162,6 +167,11 @@ fn checked_up_to(bytes: &[u8], path: &Path, format: ImageFormat, most: u64) -> R
 
 fn from_picture(picture: DynamicImage, path: &Path, reading: Reading) -> Texture {
     let (width, height) = (picture.width(), picture.height());
+    let picture = match picture {
+        DynamicImage::ImageRgb32F(p) => return floats::texture::<3>(p.into_raw(), [width, height], path, reading),
+        DynamicImage::ImageRgba32F(p) => return floats::texture::<4>(p.into_raw(), [width, height], path, reading),
+        whole => whole,
+    };
     let warnings = warning_of_alpha(&picture, path, reading.channel).into_iter().collect();
     Texture { width, height, texels: reading.texels(picture), warnings }
 }
@@ -181,9 +191,13 @@ fn warning_of_alpha(picture: &DynamicImage, path: &Path, channel: Channel) -> Op
         DynamicImage::ImageRgba16(p) => p.pixels().any(|p| p.0[3] != u16::MAX),
         _ => false,
     };
+    transparent.then(|| alpha_is_ignored(path))
+}
+
+/// The warning that a picture is not opaque everywhere.
+fn alpha_is_ignored(path: &Path) -> Diagnostic {
     let message = "the picture has an alpha channel, which is ignored";
-    let warning = Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, message);
-    transparent.then(|| warning.expected("an opaque picture").at_line(path, 0))
+    Diagnostic::warning(codes::TEXTURE_ALPHA, Span::NONE, message).expected("an opaque picture").at_line(path, 0)
 }
 
 /// The warning that what counts of a picture is not there.

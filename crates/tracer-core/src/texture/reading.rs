@@ -4,6 +4,7 @@ use crate::texture::SRGB_TO_LINEAR;
 use image::DynamicImage;
 use rayon::prelude::*;
 use tracer_kernels::scene::Texels;
+use tracer_kernels::srgb::linear_of_srgb;
 
 /// What of a picture counts, and what its numbers mean. The default is the colours as files have them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,7 +84,7 @@ impl Reading {
     /// A texel of floats.
     pub(super) fn texel(self, color: [f32; 3], alpha: f32) -> [f32; 3] {
         let linear = match self.space {
-            ColorSpace::Srgb => color.map(|x| decoded(f64::from(x)) as f32),
+            ColorSpace::Srgb => color.map(|x| linear_of_srgb(f64::from(x)) as f32),
             ColorSpace::Auto | ColorSpace::Linear => color,
         };
         self.counts(linear, alpha)
@@ -105,9 +106,4 @@ impl Reading {
             }
         }
     }
-}
-
-/// The decoding of IEC 61966-2-1.
-fn decoded(code: f64) -> f64 {
-    if code <= 0.04045 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) }
 }

@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::{DMat3, DVec3};
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Instances, Name, Object, Placements, Shading, SphereLight, Transform};
+use scene_format::desc::{Emission, Instances, LightGroup, Name, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -60,6 +60,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 emission: emission.clone().into(),
                 camera_visible: true,
                 name: Name::default(),
+                group: LightGroup::default(),
             };
             let floor = mesh(&square(1.0).obj("square-1"), diffuse([albedo; 3]), Shading::Flat, vec![]);
             let desc = scene(8, vec![lamp], vec![floor]).camera([-0.3, 0.4, 0.0], [0.0, 0.0, 0.0], 0.01).bounces(0);
@@ -212,7 +213,7 @@ fn copies_are_flattened_as_the_scene_says() {
     // 80 triangles each.
     assert_eq!(always.triangles.vertices.len(), 80);
     assert_eq!(never.triangles.vertices.len(), 4 * 80);
-    for (ours, theirs) in always.instances.iter().zip(&never.instances) {
+    for (ours, theirs) in always.instances.iter().zip(never.instances.iter()) {
         let rows = ours.placement.expect("an instance").map(|row| row.map(f64::from));
         let moved = |p: DVec3| DVec3::from(rows.map(|[x, y, z, w]| DVec3::new(x, y, z).dot(p) + w));
         let [x, y, z] = rows.map(|[x, y, z, _]| DVec3::new(x, y, z));

@@ -7,8 +7,8 @@ use crate::support::meshes::square;
 use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
 use scene_format::desc::{
-    Amount, Camera, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
-    RectBox, Rectangle, Shading, Transform,
+    Amount, Camera, Cylinder, Disk, Emissive, LightGroup, Material, MaterialRef, Name, Object, PerAxis, PixelFilter,
+    Placements, RectBox, Rectangle, Shading, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{SceneDesc, codes};
@@ -146,8 +146,11 @@ fn the_first_is_seen_wherever_it_is() {
 /// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole.
 #[test]
 fn a_lamp_let_into_the_ceiling_shines() {
-    let emissive =
-        Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([3.0; 3]).into(), two_sided: false }));
+    let emissive = Material::Emissive(Box::new(Emissive {
+        amount: Amount::Radiance([3.0; 3]).into(),
+        two_sided: false,
+        group: LightGroup::default(),
+    }));
     for turn in [0.0, 33.0] {
         let attitude = Attitude { axis: DVec3::new(0.6, 0.0, 0.8), degrees: turn, place: DVec3::new(0.1, 0.2, 0.3) };
         let down = |mut steps: Vec<Transform>| {

@@ -4,8 +4,8 @@
 use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;
 use scene_format::desc::{
-    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Name, Object, PerAxis, PlacementList, Placements,
-    Rectangle, Transform, Transparent, Vec3,
+    Capsule, Cone, Cylinder, Disk, Emissive, LightGroup, Material, MaterialRef, Name, Object, PerAxis, PlacementList,
+    Placements, Rectangle, Transform, Transparent, Vec3,
 };
 use scene_format::{SceneDesc, desc::Amount};
 use tracer_core::compile;
@@ -155,7 +155,7 @@ fn placed_spheres_are_spheres() {
     assert!(moved.shapes.is_empty());
 
     let power = Amount::Power([50.0; 3]).into();
-    let lamp = Material::Emissive(Box::new(Emissive { amount: power, two_sided: false }));
+    let lamp = Material::Emissive(Box::new(Emissive { amount: power, two_sided: false, group: LightGroup::default() }));
     let mut copied = turned(sphere([0.0; 3], 1.0, lamp.clone()), vec![rotate([1.0, 2.0, 0.5], 70.0)]);
     let copy = |x: f64, size: f64| {
         vec![Transform::Scale { factor: [size; 3], about: None }.into(), Transform::Translate([x, 2.5, 0.0]).into()]
@@ -180,8 +180,13 @@ fn faults_of_curved_shapes() {
         Err(error) => error.diagnostics.iter().map(|d| format!("{}: {}", d.code, d.message)).collect::<Vec<_>>(),
         Ok(scene) => scene.warnings.iter().map(|d| format!("{}: {}", d.code, d.message)).collect(),
     };
-    let lamp =
-        || Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([1.0; 3]).into(), two_sided: false }));
+    let lamp = || {
+        Material::Emissive(Box::new(Emissive {
+            amount: Amount::Radiance([1.0; 3]).into(),
+            two_sided: false,
+            group: LightGroup::default(),
+        }))
+    };
     let glass = || Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [1.0; 3].into() }));
     let matt = || diffuse([0.5; 3]);
     let up = [0.0, 1.0, 0.0];

@@ -7,7 +7,7 @@ use crate::support::{compiled, film};
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
 use scene_format::SceneDesc;
 use scene_format::codes;
-use scene_format::desc::{Background, Environment, PixelFilter, Shading, Vec3};
+use scene_format::desc::{Background, Environment, LightGroup, PixelFilter, Shading, Vec3};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -29,6 +29,7 @@ fn environment(file: PathBuf) -> Environment {
         rotation: 0.0,
         up: [0.0, 1.0, 0.0].into(),
         camera_visible: true,
+        group: LightGroup::default(),
     }
 }
 

@@ -80,6 +80,11 @@ fn loaded(text: &str) -> Scene {
 /// A ball, an ellipsoid, a leaning cylinder, a turned and stretched box, and two copies of a box that differ, kept
 /// apart or as instances, far from the world's origin.
 fn scene(pattern: &str) -> Scene {
+    with_names("", pattern)
+}
+
+/// The same with textures by name.
+fn with_names(textures: &str, albedo: &str) -> Scene {
     loaded(&format!(
         r#"Scene(
             camera: Camera(position: (100.3, 51.1, 6), look_at: (100, 50, 0), fov: 40),
@@ -87,7 +92,8 @@ fn scene(pattern: &str) -> Scene {
             render: Render(samples: 1, max_bounces: 0),
             effects: Effects(antialiasing: None),
             background: 1,
-            materials: {{ "it": Diffuse(albedo: {pattern}) }},
+            textures: {{ {textures} }},
+            materials: {{ "it": Diffuse(albedo: {albedo}) }},
             objects: [
                 Sphere(center: (98.9, 50.7, 0), radius: 0.9, material: "it"),
                 Sphere(
@@ -174,6 +180,27 @@ fn every_pattern_is_that_of_the_reference_at_every_level() {
                 |colors: &[[f32; 3]]| -> Vec<u32> { colors.as_flattened().iter().map(|x| x.to_bits()).collect() };
             assert_eq!(bits(&seen(&scene, level)), bits(&ours), "{pattern}: {}", level.name());
         }
+    }
+}
+
+/// A name is what stands at it: the same bytes, and what many name is in memory once.
+#[test]
+fn names_of_textures_change_nothing() {
+    let bits = |scene: &Scene| -> Vec<u32> {
+        seen(scene, Level::PORTABLE).as_flattened().iter().map(|x| x.to_bits()).collect()
+    };
+    for pattern in PATTERNS.into_iter().chain(MADE) {
+        let inline = scene(pattern);
+        let named = with_names(&format!("\"it\": \"that\", \"that\": {pattern}"), "\"it\"");
+        assert_eq!(bits(&named), bits(&inline), "{pattern}");
+        // Twice the same, as a part of another one: by name, and written twice.
+        let [by_name, written] = [
+            with_names(&format!("\"it\": {pattern}"), "Mix(a: \"it\", b: \"it\", weight: \"it\")"),
+            scene(&format!("Mix(a: {pattern}, b: {pattern}, weight: {pattern})")),
+        ];
+        assert_eq!(bits(&by_name), bits(&written), "{pattern}");
+        let (one, other) = (by_name.statistics(), written.statistics());
+        assert_eq!((one.textures, one.texture_bytes), (other.textures, other.texture_bytes), "{pattern}");
     }
 }
 

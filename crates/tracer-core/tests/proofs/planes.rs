@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::{compiled, film};
 use glam::{DQuat, DVec3};
 use scene_format::desc::{
-    Amount, Emissive, Extent, Material, Name, Object, PerAxis, PixelFilter, Placements, Plane, RectBox, Rectangle,
-    Transform, Vec3,
+    Amount, Emissive, Extent, LightGroup, Material, Name, Object, PerAxis, PixelFilter, Placements, Plane, RectBox,
+    Rectangle, Transform, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{SceneDesc, Syntax};
@@ -351,8 +351,11 @@ fn what_lies_in_it_does_not_speckle() {
 /// A lamp in the plane of the ceiling lights the floor as one without a ceiling.
 #[test]
 fn a_lamp_let_into_it_shines() {
-    let emissive =
-        Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([3.0; 3]).into(), two_sided: false }));
+    let emissive = Material::Emissive(Box::new(Emissive {
+        amount: Amount::Radiance([3.0; 3]).into(),
+        two_sided: false,
+        group: LightGroup::default(),
+    }));
     let attitude = Attitude { axis: DVec3::new(0.6, 0.0, 0.8), degrees: 33.0, place: DVec3::new(0.1, 0.2, 0.3) };
     let up = [0.0, 2.0, 0.0];
     let mut steps = attitude.steps(25.0, up);
@@ -406,7 +409,11 @@ fn faults_of_planes() {
         Err(error) => error.diagnostics.iter().map(|d| format!("{}: {}", d.code, d.message)).collect::<Vec<_>>(),
         Ok(scene) => scene.warnings.iter().map(|d| format!("{}: {}", d.code, d.message)).collect(),
     };
-    let lamp = Material::Emissive(Box::new(Emissive { amount: Amount::Radiance([1.0; 3]).into(), two_sided: false }));
+    let lamp = Material::Emissive(Box::new(Emissive {
+        amount: Amount::Radiance([1.0; 3]).into(),
+        two_sided: false,
+        group: LightGroup::default(),
+    }));
     assert_eq!(told(plane([0.0; 3], UP, lamp, vec![])), ["E0544: a plane cannot shine"]);
     assert_eq!(told(plane([0.0; 3], UP, glass(1.5), vec![])), ["W0310: glass of an open plane has no inside"]);
     let drop = Transform::DropTo { y: 1.0 };

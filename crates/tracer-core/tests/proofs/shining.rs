@@ -7,19 +7,27 @@ use crate::support::meshes::{icosphere, square, torus};
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Amount, Emissive, Light, Material, MaterialRef, Name, Object, PerAxis, Placements, RectBox, Rectangle, Shading,
-    SphereLight, Transform, Vec3,
+    Amount, Emissive, Light, LightGroup, Material, MaterialRef, Name, Object, PerAxis, Placements, RectBox, Rectangle,
+    Shading, SphereLight, Transform, Vec3,
 };
 
 /// All whose guides are compared here, for the strictness of the tests.
 const GUIDED: usize = 5;
 
 pub fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
-    Material::Emissive(Box::new(Emissive { amount: Amount::Radiance(radiance).into(), two_sided }))
+    Material::Emissive(Box::new(Emissive {
+        amount: Amount::Radiance(radiance).into(),
+        two_sided,
+        group: LightGroup::default(),
+    }))
 }
 
 pub fn powered(power: [f64; 3], two_sided: bool) -> Material {
-    Material::Emissive(Box::new(Emissive { amount: Amount::Power(power).into(), two_sided }))
+    Material::Emissive(Box::new(Emissive {
+        amount: Amount::Power(power).into(),
+        two_sided,
+        group: LightGroup::default(),
+    }))
 }
 
 pub fn inline(material: Material) -> MaterialRef {

@@ -51,9 +51,13 @@ pub fn notes(desc: &mut SceneDesc, mattes: &Mattes, files: &[PathBuf], set: &[St
     let mut lent = SceneDesc { lights: take(&mut desc.lights), ..blank() };
     part("lights", &lent);
     swap(&mut lent.lights, &mut desc.lights);
-    swap(&mut lent.materials, &mut desc.materials);
+    let swap_materials = |lent: &mut SceneDesc, desc: &mut SceneDesc| {
+        swap(&mut lent.textures, &mut desc.textures);
+        swap(&mut lent.materials, &mut desc.materials);
+    };
+    swap_materials(&mut lent, desc);
     part("materials", &lent);
-    swap(&mut lent.materials, &mut desc.materials);
+    swap_materials(&mut lent, desc);
     swap(&mut lent.objects, &mut desc.objects);
     part("objects", &lent);
     swap(&mut lent.objects, &mut desc.objects);
@@ -127,6 +131,8 @@ pub struct Asked<'a> {
     pub backdrop: bool,
     /// What is counted for mattes.
     pub mattes: MattesKept,
+    /// The names of the light groups that are kept apart.
+    pub light_groups: &'a [String],
     /// As [`notes`] gives them.
     pub notes: &'a [Note],
 }
@@ -152,6 +158,7 @@ impl<'a> Asked<'a> {
             layers: told::layers(head),
             backdrop: head.has_backdrop(),
             mattes: head.mattes(),
+            light_groups: head.light_groups(),
             notes: &head.notes,
         }
     }
@@ -193,6 +200,8 @@ pub fn differences(head: &FilmHead, asked: &Asked<'_>) -> Vec<String> {
     if is_part || head.mattes() != asked.mattes {
         compare("the choice of mattes", mattes_told(&head.notes), mattes_told(asked.notes));
     }
+    let groups = told::light_groups;
+    compare("the set of light groups", groups(head.light_groups()), groups(asked.light_groups));
     let layers = told::layers(head);
     if layers != asked.layers {
         let there = told::asked_layers(&layers, &head.notes, head.has_backdrop(), head.mattes());

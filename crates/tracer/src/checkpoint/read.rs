@@ -51,8 +51,9 @@ pub fn look_for(
 ) -> Result<Found, Failure> {
     let layers = layers_of(scene.layers.names(), halves);
     let (backdrop, mattes) = (scene.backdrop, scene.mattes.kept());
-    let asked =
-        Asked { size: scene.size, extent, seed: scene.seed, clamp: scene.clamp, layers, backdrop, mattes, notes };
+    let light_groups = scene.light_groups.as_ref().map_or(&[][..], |groups| &groups.names);
+    let (size, seed, clamp) = (scene.size, scene.seed, scene.clamp);
+    let asked = Asked { size, extent, seed, clamp, layers, backdrop, mattes, light_groups, notes };
     let (name, previous) = (place.name(), format!("{}.previous", place.name()));
     let first = match load(place.file(), &name, &asked) {
         Ok(film) => return Ok(Found { film: Some(film), is_spoilt: false }),

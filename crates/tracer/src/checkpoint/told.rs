@@ -40,6 +40,11 @@ pub fn asked_layers(layers: &str, notes: &[Note], backdrop: bool, mattes: Mattes
     if left.is_empty() { "none".to_owned() } else { left.join(", ") }
 }
 
+/// Light groups by their names; `none` where there is none.
+pub fn light_groups(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
 /// What a film is of its rendering: `samples 3 to 5 of 9, rows 0 to 63`.
 pub fn part_told(part: Option<Part>) -> String {
     part.map_or("the whole".to_owned(), |Part { crop, first, end, of_samples, .. }| {
@@ -73,6 +78,9 @@ pub fn as_text(path: &Path, bytes: u64, head: &FilmHead) -> String {
     if !head.mattes().is_empty() {
         line("mattes", mattes_told(&head.notes));
     }
+    if !head.light_groups().is_empty() {
+        line("lights", light_groups(head.light_groups()));
+    }
     line("written", note(head, "when").to_owned());
     line("program", head.program.clone());
     for (k, file) in files(head).into_iter().enumerate() {
@@ -104,6 +112,7 @@ pub fn as_json(path: &Path, bytes: u64, head: &FilmHead) -> serde_json::Value {
         "samples_min": fewest,
         "samples_max": most,
         "layers": head.layers().collect::<Vec<_>>(),
+        "light_groups": head.light_groups(),
         "mattes": { "objects": head.mattes().objects, "materials": head.mattes().materials },
         "written": note(head, "when"),
         "tracer_version": head.program,

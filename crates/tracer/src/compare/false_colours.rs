@@ -13,6 +13,7 @@ pub fn false_colours(numbers: &[f32], width: u32, height: u32) -> Image {
         alpha: None,
         layers: Vec::new(),
         mattes: Default::default(),
+        light_groups: Vec::new(),
     }
 }
 

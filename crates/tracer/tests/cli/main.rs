@@ -23,6 +23,7 @@ mod interrupt;
 #[cfg(unix)]
 mod kubernetes;
 mod layers;
+mod light_groups;
 mod mattes;
 mod motion;
 mod parts;

@@ -13,6 +13,8 @@ const NORMALS: &str = "crates/mesh/src/normals.rs";
 const POLYGON: &str = "crates/mesh/src/polygon.rs";
 const PLACEMENTS: &str = "crates/mesh/src/placements.rs";
 const MTL: &str = "crates/mesh/src/mtl/library.rs";
+const NAMED: &str = "crates/tracer-core/src/compile/materials.rs";
+const PROGRAMS: &str = "crates/tracer-core/src/compile/programs.rs";
 const SRGB: &str = "crates/kernels/src/srgb.rs";
 const READING: &str = "crates/tracer-core/src/texture/reading.rs";
 
@@ -171,5 +173,19 @@ pub const MUTANTS: &[Mutant] = &[
         find: "linear(f64::from(value) / 65535.0)",
         replace: "linear(f64::from(value) / 65536.0)",
         caught_by: kernel_units(&["srgb"]),
+    },
+    Mutant {
+        name: "texture-name-for-a-pattern",
+        file: NAMED,
+        find: "let albedo = albedo.resolved();",
+        replace: "",
+        caught_by: suite("proofs", &["names_of_textures_change_nothing"]),
+    },
+    Mutant {
+        name: "texture-name-within-a-texture",
+        file: PROGRAMS,
+        find: "parts.into_iter().map(desc::Albedo::resolved).collect();",
+        replace: "parts.into_iter().collect();",
+        caught_by: suite("proofs", &["names_of_textures_change_nothing"]),
     },
 ];

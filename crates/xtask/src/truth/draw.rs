@@ -6,8 +6,9 @@ use super::world::{World, diffuse, glossy, inline, tinted};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Background, Color, Conductor, Diffuse, Emission, Environment, Extent, Instances, Light, Material, MaterialRef,
-    Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap, Transform,
+    Background, Color, Conductor, Diffuse, Emission, Emissive, Environment, Extent, Instances, Light, LightGroup,
+    Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap,
+    Transform,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -45,6 +46,25 @@ pub fn color(random: &mut Random) -> Color {
     if once_in(random, 2) { [brightness; 3] } else { [0; 3].map(|_| random.between(0.05, 0.9)) }
 }
 
+/// Names groups of some of the lights. They show in no picture, as no scene has `light_groups`.
+pub fn light_groups(world: &mut World, random: &mut Random) {
+    let mut group = || LightGroup::from(once_in(random, 3).then(|| ["key", "fill"][random.below(2)]));
+    for light in &mut world.desc.lights {
+        let Light::SphereLight(lamp) = &mut light.value;
+        lamp.group = group();
+    }
+    if let Background::Environment(environment) = &mut world.desc.background {
+        environment.group = group();
+    }
+    for object in &mut world.desc.objects {
+        let MaterialRef::Inline(material) = object.value.material() else { continue };
+        if let Material::Emissive(emissive) = &material.value {
+            let grouped = Emissive { group: group(), ..(**emissive).clone() };
+            set_material(&mut object.value, Material::Emissive(Box::new(grouped)));
+        }
+    }
+}
+
 /// Light from where no object is: a colour, or a coarse picture of it with a bright patch.
 pub fn background(world: &mut World, random: &mut Random) -> Background {
     let sky = color(random);
@@ -65,7 +85,8 @@ pub fn background(world: &mut World, random: &mut Random) -> Background {
     let rotation = if once_in(random, 2) { 0.0 } else { random.between(-180.0, 180.0) };
     let scale = if once_in(random, 2) { [times; 3] } else { color(random).map(|c| times * c) };
     let camera_visible = !once_in(random, 3);
-    Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible }))
+    let group = LightGroup::default();
+    Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible, group }))
 }
 
 /// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.
@@ -134,7 +155,7 @@ pub fn clear(random: &mut Random) -> Material {
 }
 
 /// Adds a thing of a material: a sphere, or a mesh placed by every kind of step.
-pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+pub fn thing(world: &mut World, center: Point, radius: f64, mut material: Material, random: &mut Random) {
     if once_in(random, 2) {
         return world.sphere(center, radius, material);
     }
@@ -170,7 +191,8 @@ pub fn thing(world: &mut World, center: Point, radius: f64, material: Material, 
         steps.push(Transform::FitTo { extent, length: 0.8 * size, about: None });
     }
     if form == 0 {
-        return world.written_out(&shape, material, steps);
+        let colors = super::textures::of_vertices(&mut material, shape.positions.len(), random);
+        return world.written_out((&shape, colors), material, steps);
     }
     let file = match form {
         1 => world.file(name, "off", shape.off().into_bytes()),

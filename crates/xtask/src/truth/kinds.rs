@@ -478,7 +478,7 @@ fn without_what_has_no_image(world: &mut World) {
         .iter()
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
-            let plain = |material: &Material| material.color().is_none_or(|color| matches!(color, Albedo::Color(_)));
+            let plain = |material: &Material| material.color().is_none_or(Albedo::is_color);
             let in_world = |material: &Material| material.color().is_some_and(lies_in_the_world);
             let material = draw::material_of(world, &object.value);
             sphere && !material.is_none_or(plain) || material.is_some_and(in_world)
@@ -530,6 +530,8 @@ pub fn case(seed: u64, size: u32) -> Case {
     if matches!(relation, Relation::Flipped | Relation::Unfolded) {
         without_what_has_no_image(&mut world);
     }
+    // Names change no picture: they are drawn aside, so that all else stays as it is without them.
+    super::textures::name_textures(&mut world, &mut random.clone());
     // Up along the view is refused; drawn so with probability zero. A drop is the last kind of step to be told apart.
     if let Some(Object::Mesh(mesh)) = world.desc.objects.last_mut().map(|object| &mut object.value)
         && mesh.transform.len() == 1
@@ -539,5 +541,6 @@ pub fn case(seed: u64, size: u32) -> Case {
     if relation == Relation::Path && once_in(random, 2) {
         draw::hide(&mut world, random);
     }
+    draw::light_groups(&mut world, random);
     Case { seed, kind, world, relation, hard }
 }

@@ -76,7 +76,8 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         } else {
             Amount::Radiance(color.map(|c| c * strength))
         };
-        let material = Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided }));
+        let material =
+            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group: lamp.group.clone() }));
         match random.below(8) {
             5 | 6 => super::curved::shape(world, center, radius, material, random),
             7 => super::curved::ball(world, center, radius, material, random),

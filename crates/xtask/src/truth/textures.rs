@@ -5,10 +5,12 @@ use super::world::World;
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
-    Noise, NoiseKind, PerAxis, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
-    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Voronoi, VoronoiFeature, Wood,
+    Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material,
+    MaterialRef, Mix, Multiply, NamedTexture, Noise, NoiseKind, PerAxis, Planar, RampInterpolation, Reflectance,
+    SolidMapping, Spherical, Stop, Stops, Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap,
+    Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
+use std::sync::Arc;
 use tracer_reference::Random;
 
 /// A small picture, coarse enough that its texels show.
@@ -160,11 +162,73 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
     }
 }
 
+/// The colours of so many vertices, by which what a matt or glossy material reflects is multiplied; else none.
+pub fn of_vertices(material: &mut Material, vertices: usize, random: &mut Random) -> Vec<Color> {
+    let albedo = match material {
+        Material::Diffuse(words) => &mut words.albedo,
+        Material::BlinnPhong(words) => &mut words.albedo,
+        _ => return Vec::new(),
+    };
+    let spaces = [VertexColorSpace::Auto, VertexColorSpace::Srgb, VertexColorSpace::Linear];
+    let b = Albedo::VertexColor(Box::new(VertexColor { color_space: one_of(random, &spaces) }));
+    let a = std::mem::take(albedo);
+    *albedo = Albedo::Multiply(Box::new(Multiply { a, b }));
+    (0..vertices).map(|_| color(random)).collect()
+}
+
 /// A colour or a texture.
 pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
     match random.below(8) {
         0 => texture(world, random),
         1 => pattern(world, random, 2),
         _ => Albedo::Color(color(random).into()),
+    }
+}
+
+/// The colour of a material, to be written anew.
+fn color_of(material: &mut Material) -> Option<&mut Albedo> {
+    match material {
+        Material::Diffuse(words) => Some(&mut words.albedo),
+        Material::BlinnPhong(words) => Some(&mut words.albedo),
+        Material::Conductor(words) => match &mut words.reflectance {
+            Reflectance::Tinted { reflectance, .. } => Some(reflectance),
+            Reflectance::Metal(_) | Reflectance::Complex { .. } => None,
+        },
+        _ => None,
+    }
+}
+
+/// Gives names to textures, as a person would who uses one twice, and has some named that others are made of.
+pub fn name_textures(world: &mut World, random: &mut Random) {
+    let textures = &mut world.desc.textures;
+    let inline = world.desc.objects.iter_mut().filter_map(|object| match object.value.material_mut() {
+        MaterialRef::Inline(inner) => Some(&mut inner.value),
+        MaterialRef::Named { .. } | MaterialRef::Default => None,
+    });
+    for material in world.desc.materials.iter_mut().map(|named| &mut named.material).chain(inline) {
+        if let Some(color) = color_of(material) {
+            name_texture(textures, color, random);
+        }
+    }
+}
+
+fn name_texture(textures: &mut Vec<Arc<NamedTexture>>, color: &mut Albedo, random: &mut Random) {
+    let parts = match color {
+        Albedo::Color(_) | Albedo::Named(_) => return,
+        Albedo::Mix(mix) => vec![&mut mix.a, &mut mix.b, &mut mix.weight],
+        Albedo::ColorRamp(ramp) => vec![&mut ramp.input],
+        _ => Vec::new(),
+    };
+    parts.into_iter().for_each(|part| name_texture(textures, part, random));
+    if once_in(random, 2) {
+        // The same one has one name.
+        let known = textures.iter().find(|named| named.texture == *color).map(Arc::clone);
+        let named = known.unwrap_or_else(|| {
+            let name: Arc<str> = format!("t{}", textures.len()).into();
+            let named = Arc::new(NamedTexture { name: name.into(), texture: color.clone() });
+            textures.push(Arc::clone(&named));
+            named
+        });
+        *color = Albedo::Named(named);
     }
 }

@@ -3,8 +3,9 @@
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
+    Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material,
+    MaterialRef, Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform,
+    Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
@@ -64,11 +65,17 @@ impl World {
         self.place(MeshSource::File(file.into()), material, transform);
     }
 
-    /// Adds a mesh that the scene writes out, without normals and texture coordinates.
-    pub fn written_out(&mut self, shape: &Shape, material: Material, transform: Vec<Transform>) {
+    /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points
+    /// or none.
+    pub fn written_out(
+        &mut self,
+        (shape, colors): (&Shape, Vec<Color>),
+        material: Material,
+        transform: Vec<Transform>,
+    ) {
         let mut faces = Faces::default();
         shape.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
-        let mesh = InlineMesh { points: shape.positions.clone(), faces };
+        let mesh = InlineMesh { points: shape.positions.clone(), faces, colors };
         self.place(MeshSource::Inline(Arc::new(mesh.into())), material, transform);
     }
 
@@ -95,6 +102,7 @@ impl World {
             emission,
             camera_visible: true,
             name: Name::default(),
+            group: LightGroup::default(),
         };
         self.desc.lights.push(Light::SphereLight(light).into());
     }

@@ -355,6 +355,7 @@ mod tests {
             material: none,
             light: none,
             body: none,
+            primitive: none,
         }
     }
 

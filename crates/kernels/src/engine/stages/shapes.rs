@@ -58,6 +58,7 @@ pub fn on_shapes<F: Lanes>(
         material: F::U::load(&found.material),
         light,
         body: F::U::load(&found.body),
+        primitive: index,
     }
 }
 

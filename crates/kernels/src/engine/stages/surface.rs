@@ -36,6 +36,8 @@ pub struct Surface<F: Lanes> {
     /// What it is of: the number of the sphere, behind the spheres that of the shape, behind those that of the
     /// instance, behind those that of a solid's operand.
     pub body: F::U,
+    /// The primitive that was hit.
+    pub primitive: F::U,
 }
 
 /// The surface at the hits; lanes outside `valid` hold anything. Without textures there are no texture coordinates.
@@ -71,6 +73,7 @@ pub fn surface_and_uv<F: Lanes>(
     let on_sphere = primitive.lt(spheres);
     let on_triangle = valid & !primitive.lt(first_triangle);
     let mut s = on_spheres(scene, origin, direction, t, F::U::select(on_sphere, primitive, F::U::splat(0)), wants_uv);
+    s.primitive = primitive;
     if on_triangle.any() {
         let triangle = F::U::select(on_triangle, primitive - first_triangle, F::U::splat(0));
         let m = on_triangles(scene, origin, direction, triangle, instance, on_triangle, wants_uv);
@@ -100,6 +103,7 @@ fn chosen<F: Lanes>(pick: F::M, m: Surface<F>, s: Surface<F>) -> Surface<F> {
         material: F::U::select(pick, m.material, s.material),
         light: F::U::select(pick, m.light, s.light),
         body: F::U::select(pick, m.body, s.body),
+        primitive: s.primitive,
     }
 }
 
@@ -139,12 +143,13 @@ fn on_spheres<F: Lanes>(scene: &Scene, origin: V3<F>, direction: V3<F>, t: F, id
         material: material.to_bits(),
         light: light.to_bits(),
         body: id,
+        primitive: id,
     }
 }
 
 /// Three indices of a triangle.
 #[inline(always)]
-fn gather_indices<F: Lanes>(indices: &[[u32; 3]], triangle: F::U) -> [F::U; 3] {
+pub fn gather_indices<F: Lanes>(indices: &[[u32; 3]], triangle: F::U) -> [F::U; 3] {
     F::U::gather3(indices.as_flattened(), triangle * F::U::splat(3))
 }
 
@@ -306,11 +311,12 @@ fn on_triangles<F: Lanes>(
         light = F::U::gather(&triangles.light, triangle) + F::U::splat(1);
     }
     let body = instance + F::U::splat(scene.tables.loose());
-    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light, body }
+    let primitive = triangle;
+    Surface { p, start, ng, ns, outside, smooth, offset, u, v, material, light, body, primitive }
 }
 
 /// The matrix of an instance: rows of its linear part, and the translation.
-struct Placement<F: Lanes> {
+pub struct Placement<F: Lanes> {
     rows: [V3<F>; 3],
     translation: V3<F>,
 }
@@ -318,7 +324,7 @@ struct Placement<F: Lanes> {
 impl<F: Lanes> Placement<F> {
     /// Gathers the matrices; anything when `wanted` is false.
     #[inline(always)]
-    fn gather(matrices: &[f32], instance: F::U, wanted: bool) -> Self {
+    pub fn gather(matrices: &[f32], instance: F::U, wanted: bool) -> Self {
         let zero = V3::zero();
         if !wanted {
             return Placement { rows: [zero, zero, zero], translation: zero };
@@ -329,8 +335,9 @@ impl<F: Lanes> Placement<F> {
         let [cx, cy, cz, tz] = F::gather4(matrices, i + four + four);
         Placement { rows: [V3(ax, ay, az), V3(bx, by, bz), V3(cx, cy, cz)], translation: V3(tx, ty, tz) }
     }
+    /// Where it puts a point.
     #[inline(always)]
-    fn point(&self, p: V3<F>) -> V3<F> {
+    pub fn point(&self, p: V3<F>) -> V3<F> {
         let [a, b, c] = self.rows;
         let t = self.translation;
         V3(

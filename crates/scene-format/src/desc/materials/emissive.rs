@@ -1,7 +1,7 @@
 //! Surfaces that shine.
 
 use super::MaterialWords;
-use crate::desc::Color;
+use crate::desc::{Color, LightGroup};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -25,6 +25,8 @@ pub struct Emissive {
     pub amount: Spanned<Amount>,
     /// Whether it shines to both sides, not only outwards.
     pub two_sided: bool,
+    /// The group of lights that what shines so is of.
+    pub group: LightGroup,
 }
 
 scene_struct! {
@@ -37,6 +39,9 @@ scene_struct! {
         power: Option<Spanned<Color>> = None => Rule::light("in W");
         /// Whether it shines to both sides; else only to the normal's: outwards.
         two_sided: bool = false;
+        /// The group of lights that what shines so is of: with `output.light_groups`, what each group
+        /// brings to the picture is told apart.
+        group: LightGroup = LightGroup::default();
     }
 }
 
@@ -51,11 +56,12 @@ impl Words for Emissive {
             // None was written, or what was written could not be read: reported.
             _ => return None,
         };
-        Some(Emissive { amount, two_sided: words.two_sided })
+        Some(Emissive { amount, two_sided: words.two_sided, group: words.group })
     }
 
     fn form(&self, all: bool) -> Form {
-        let mut words = EmissiveWords { radiance: None, power: None, two_sided: self.two_sided };
+        let (two_sided, group) = (self.two_sided, self.group.clone());
+        let mut words = EmissiveWords { radiance: None, power: None, two_sided, group };
         match self.amount.value {
             Amount::Power(color) => words.power = Some(color.into()),
             Amount::Radiance(color) => words.radiance = Some(color.into()),
@@ -63,7 +69,9 @@ impl Words for Emissive {
         let mut form = words.form(all);
         // Of the amounts the one that is not written has no default to show: only one may be there.
         if let Form::Struct { fields, .. } = &mut form {
-            fields.retain(|field| !matches!(field.value, Form::Variant { name: "None", .. }));
+            let amounts = ["radiance", "power"];
+            let is_none = |form: &Form| matches!(form, Form::Variant { name: "None", .. });
+            fields.retain(|field| !amounts.contains(&&*field.name) || !is_none(&field.value));
         }
         form
     }

@@ -1,7 +1,7 @@
 //! Meshes that stand in the scene itself: points, and faces that name them.
 
 use crate::codes;
-use crate::desc::Vec3;
+use crate::desc::{Color, Vec3};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
 use crate::read::{Reader, make_room};
@@ -16,6 +16,8 @@ pub struct InlineMesh {
     pub points: Vec<Vec3>,
     /// Its faces.
     pub faces: Faces,
+    /// The colours of its points, linear; as many as those, or none.
+    pub colors: Vec<Color>,
 }
 
 /// Faces, each by the numbers of its corners' points. The corners of all of them stand in one list: a scene may have
@@ -78,9 +80,17 @@ pub(crate) struct Points(pub Written<Vec<Vec3>>);
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct WrittenFaces(pub Written<Faces>);
 
+/// What `colors` holds.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Colors(pub Written<Vec<Color>>);
+
 /// A point among `points`.
 static POINT: FieldDef =
     FieldDef { name: "", noun: "a point of a mesh", doc: &[], kind: Type::Vector, rule: Rule::point(), default: None };
+
+/// A colour among `colors`.
+static COLOR: FieldDef =
+    FieldDef { name: "", noun: "a colour of a point", doc: &[], kind: Type::Color, rule: Rule::share(), default: None };
 
 /// A corner of a face.
 static CORNER: FieldDef = FieldDef {
@@ -155,6 +165,44 @@ impl Words for WrittenFaces {
     fn form(&self, _all: bool) -> Form {
         let face = |corners: &[u32]| Form::Vector(corners.iter().map(|&k| Form::Integer(u64::from(k))).collect());
         self.0.form(|faces| Form::list(faces.iter().map(face)))
+    }
+}
+
+impl Words for Colors {
+    const TYPE: Type = Type::List(&Type::Color);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let (mut colors, mut whole, mut count) = (Vec::new(), true, 0);
+        // Points come first, so that there is never room for more colours than those.
+        let most = reader.points.unwrap_or(0);
+        reader.passed_over = false;
+        let read = reader.items(item, at, |reader, child| {
+            let color = Color::read(reader, child, &COLOR);
+            whole &= color.is_some();
+            if let (true, Some(color)) = (count < most, color) {
+                make_room(&mut colors, item, child);
+                colors.push(color);
+            }
+            count += 1;
+        });
+        if read.is_none() {
+            return Some(Colors(Written::Wrong));
+        }
+        whole &= !reader.passed_over && !item.is_damaged();
+        if let (true, Some(points)) = (whole, reader.points)
+            && count != points
+        {
+            let (number, what) = (count.min(points), if count < points { "has no colour" } else { "is not there" });
+            let message = format!("a mesh of {points} points has {count} colours: point {number} {what}");
+            let fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message);
+            reader.report(fault.expected("a colour for each of the `points`, in their order"));
+            whole = false;
+        }
+        Some(Colors(written(whole, colors, item)))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        self.0.form(|colors| Form::list(colors.iter().map(|&color| Form::vector(color))))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Triangle meshes, from files or written out.
 
 use super::Placements;
-use super::inline_mesh::{InlineMesh, Points, Written, WrittenFaces};
+use super::inline_mesh::{Colors, InlineMesh, Points, Written, WrittenFaces};
 use crate::codes;
 use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Spanned};
@@ -58,14 +58,16 @@ scene_struct! {
     /// A triangle mesh, from a file or written out as `points` and `faces`.
     pub(crate) struct MeshWords as "Mesh", "a mesh", exactly one of [file, points] {
         /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene
-        /// are taken, where its nodes place them; its materials, vertex colours, lights, cameras, skins, morph targets
-        /// and animations are not.
+        /// are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its
+        /// materials, lights, cameras, skins, morph targets and animations are not.
         file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
         /// Instead of a file: the points of the mesh, three or more.
         points: Points = Points::default() => Rule::point();
         /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen
         /// from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
         faces: WrittenFaces = WrittenFaces::default();
+        /// With `points`: a colour for each of them, which a `VertexColor` of the material shows.
+        colors: Colors = Colors::default();
         /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
@@ -125,8 +127,21 @@ impl Words for Mesh {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         reader.points = None;
         let words = MeshWords::read(reader, item, at)?;
-        let MeshWords { file, points, faces, material, transform, placements, .. } = words;
+        let MeshWords { file, points, faces, colors, material, transform, placements, .. } = words;
         let MeshWords { instances, shading, camera_visible, name, .. } = words;
+        let colors = match colors.0 {
+            Written::Not => Vec::new(),
+            Written::Wrong => return None,
+            Written::As(colors) if file.0.is_some() => {
+                let message = "a mesh has both `file` and `colors`";
+                reader.report(
+                    Diagnostic::error(codes::EXACTLY_ONE, colors.span, message)
+                        .expected("`colors` with `points` and `faces`; a file has its own"),
+                );
+                return None;
+            }
+            Written::As(colors) => colors.value,
+        };
         let source = match (file.0, points.0, faces.0) {
             (Some(file), Written::Not, Written::Not) => MeshSource::File(file),
             (Some(_), Written::Not, Written::As(faces)) => {
@@ -139,7 +154,7 @@ impl Words for Mesh {
             }
             (None, Written::As(points), Written::As(faces)) => {
                 let span = points.span;
-                let value = InlineMesh { points: points.value, faces: faces.value };
+                let value = InlineMesh { points: points.value, faces: faces.value, colors };
                 MeshSource::Inline(Arc::new(Spanned { value, span }))
             }
             (None, Written::As(points), Written::Not) => {
@@ -156,18 +171,11 @@ impl Words for Mesh {
     }
 
     fn form(&self, all: bool) -> Form {
-        let (file, points, faces) = match &self.source {
-            MeshSource::File(file) => (WrittenFile(Some(file.clone())), Points::default(), WrittenFaces::default()),
-            MeshSource::Inline(mesh) => (
-                WrittenFile::default(),
-                Points(Written::As(mesh.value.points.clone().into())),
-                WrittenFaces(Written::As(mesh.value.faces.clone().into())),
-            ),
-        };
-        let words = MeshWords {
-            file,
-            points,
-            faces,
+        let mut words = MeshWords {
+            file: WrittenFile::default(),
+            points: Points::default(),
+            faces: WrittenFaces::default(),
+            colors: Colors::default(),
             material: self.material.clone(),
             transform: self.transform.clone(),
             placements: self.placements.clone(),
@@ -176,6 +184,17 @@ impl Words for Mesh {
             camera_visible: self.camera_visible,
             name: self.name.clone(),
         };
+        match &self.source {
+            MeshSource::File(file) => words.file = WrittenFile(Some(file.clone())),
+            MeshSource::Inline(mesh) => {
+                let InlineMesh { points, faces, colors } = &mesh.value;
+                words.points = Points(Written::As(points.clone().into()));
+                words.faces = WrittenFaces(Written::As(faces.clone().into()));
+                if !colors.is_empty() {
+                    words.colors = Colors(Written::As(colors.clone().into()));
+                }
+            }
+        }
         words.form(all)
     }
 }

@@ -11,7 +11,9 @@ use std::sync::Arc;
 scene_struct! {
     /// A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
     pub struct Texture as "Texture", "a texture" {
-        /// PNG or JPEG, relative to the scene file.
+        /// PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped,
+        /// and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a
+        /// texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Texture);
         /// Between texels.
         filter: TextureFilter = TextureFilter::Bilinear;
@@ -66,7 +68,7 @@ scene_words! {
     /// What the numbers of a picture mean. Alpha is linear whatever is said here.
     pub enum TextureColorSpace, "colour space of a texture" {
         /// `Srgb` where a colour is wanted, `Linear` where a number is: the `weight` of a `Mix`, the `input` of a
-        /// `ColorRamp`.
+        /// `ColorRamp`. HDR and EXR: `Linear`.
         Auto,
         /// Encoded as screens want it: photographs, and what is painted to look right.
         Srgb,

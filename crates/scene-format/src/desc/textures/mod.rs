@@ -10,7 +10,10 @@ mod mapping;
 mod marble;
 mod mix;
 mod multiply;
+mod named;
+mod nested;
 mod noise;
+mod vertex_color;
 mod voronoi;
 mod wood;
 
@@ -25,7 +28,10 @@ pub use mapping::{Mapping, Planar, SolidMapping, Spherical, Triplanar, Uv};
 pub use marble::Marble;
 pub use mix::Mix;
 pub use multiply::Multiply;
+pub use named::NamedTexture;
+pub(crate) use nested::Nested;
 pub use noise::{Noise, NoiseKind};
+pub use vertex_color::{VertexColor, VertexColorSpace};
 pub use voronoi::{Voronoi, VoronoiFeature};
 pub use wood::Wood;
 
@@ -37,6 +43,7 @@ use crate::read::Reader;
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum};
+use std::sync::Arc;
 
 /// A texture that is reckoned: of most kinds the colour at a point is mix(a, b, t), with t from 0 to 1 by the kind of
 /// pattern.
@@ -63,6 +70,8 @@ macro_rules! textures {
             $(#[doc = $image_doc])+
             $Image($Image),
             $( $(#[doc = $doc])+ $Name(Box<$Name>), )*
+            /// One of the scene's `textures`, by its name.
+            Named(Arc<NamedTexture>),
         }
 
         scene_enum! {
@@ -77,8 +86,8 @@ macro_rules! textures {
         impl Albedo {
             /// The pattern, if it is one.
             pub fn pattern(&self) -> Option<&dyn Pattern> {
-                match self {
-                    Albedo::Color(_) | Albedo::$Image(_) => None,
+                match self.resolved() {
+                    Albedo::Color(_) | Albedo::$Image(_) | Albedo::Named(_) => None,
                     $( Albedo::$Name(pattern) => Some(&**pattern), )*
                 }
             }
@@ -95,6 +104,7 @@ macro_rules! textures {
                     Albedo::Color(color) => color.form(all),
                     Albedo::$Image(image) => PatternWords::$Image(image.clone()).form(all),
                     $( Albedo::$Name(pattern) => PatternWords::$Name(pattern.clone()).form(all), )*
+                    Albedo::Named(named) => Form::Text(named.name.value.to_string()),
                 }
             }
         }
@@ -130,12 +140,23 @@ textures! {
     pattern Mix;
     /// The product of two colours or textures, channel by channel.
     pattern Multiply;
+    /// The colours that the vertices of a mesh have.
+    pattern VertexColor;
 }
 
 impl Albedo {
+    /// What its name stands for, where it is written as a name; else itself. Never [`Albedo::Named`].
+    pub fn resolved(&self) -> &Albedo {
+        let mut albedo = self;
+        while let Albedo::Named(named) = albedo {
+            albedo = &named.texture;
+        }
+        albedo
+    }
+
     /// Its texture file's words, if it is a picture.
     pub fn image(&self) -> Option<&Texture> {
-        match self {
+        match self.resolved() {
             Albedo::Texture(texture) => Some(texture),
             _ => None,
         }
@@ -150,6 +171,12 @@ impl Albedo {
         found
     }
 
+    /// Whether it, or a part of it, is the colours of vertices.
+    pub fn reads_vertex_colors(&self) -> bool {
+        matches!(self, Albedo::VertexColor(_))
+            || self.pattern().is_some_and(|pattern| pattern.parts().iter().any(|part| part.reads_vertex_colors()))
+    }
+
     /// Whether it goes by a surface's texture coordinates.
     pub fn wants_uv(&self) -> bool {
         let image = self.image().is_some_and(|image| image.mapping.by_uv().is_some());
@@ -162,7 +189,7 @@ impl Albedo {
 
     /// Whether it is the same everywhere.
     pub fn is_color(&self) -> bool {
-        matches!(self, Albedo::Color(_))
+        matches!(self.resolved(), Albedo::Color(_))
     }
 }
 
@@ -188,53 +215,31 @@ fn is_color(name: &str) -> bool {
     ["rgb", "srgb", "color", "colour", "vec3", "float3"].iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
-/// Textures within each other, at most.
-const MOST_NESTED: usize = 16;
-/// Textures in one, at most: with so many no program needs more places than the engine has.
-const MOST_TEXTURES: usize = 1024;
-
 impl Albedo {
     /// Reads a texture, within those that are being read.
     fn texture(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        let nested = &mut reader.textures;
-        if nested.depth == 0 {
-            nested.count = 0;
-        }
-        nested.count += 1;
-        let fault = if nested.depth >= MOST_NESTED {
-            Some(format!("textures stand more than {MOST_NESTED} deep"))
-        } else {
-            (nested.count == MOST_TEXTURES + 1)
-                .then(|| format!("a texture is made of more than {MOST_TEXTURES} others"))
-        };
-        if let Some(message) = fault {
+        if let Some(message) = reader.textures.add(Nested::ONE) {
             reader.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
             return None;
         }
-        nested.depth += 1;
+        reader.textures.enter();
         let words = PatternWords::read(reader, item, at);
-        reader.textures.depth -= 1;
+        reader.textures.leave();
         words.map(Albedo::of)
     }
 }
 
-/// Textures that are being read, one within the other.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Nested {
-    depth: usize,
-    /// How many of the outermost were read so far.
-    count: usize,
-}
-
 impl Words for Albedo {
-    // Textures hold textures.
+    // Textures hold textures; a text that is no colour is the name of one.
     const TYPE: Type = Type::OneOf(&[Type::Color, Type::Later(|| PatternWords::TYPE)]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.kind() == Kind::Text && !item.text().starts_with(['#', '=']) {
+            return reader.texture_by_name(item, at).map(Albedo::Named);
+        }
         // `rgb(..)` and `red`: a colour, if not ours; `wood` may be a texture.
         let bare = item.kind() == Kind::Word && item.lexeme().starts_with(char::is_lowercase);
-        let named = item.kind() == Kind::Text && !item.text().starts_with(['#', '=']);
-        if (bare || named) && reader.texture_elsewhere(item, &PatternWords::DEF) {
+        if reader.name_without_quotes(item) || bare && reader.texture_elsewhere(item, &PatternWords::DEF) {
             return None;
         }
         if bare || item.name().is_some_and(|name| !is_texture(name) && is_color(name)) {

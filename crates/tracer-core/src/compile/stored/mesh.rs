@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 use tracer_mesh::{self as mesh, Files, MAX_COORDINATE, MeshData, MeshError, MeshFormat, MtlNames, NO_INDEX};
+use tracer_mesh::{ColorValues, VertexColors, Wanted};
 
 /// Smaller files are read as fast.
 const LEAST_BYTES: u64 = 1 << 16;
@@ -26,16 +27,17 @@ const CODES: [Code; 3] = [codes::MESH_ODDITIES, codes::MTL_UNSUPPORTED, codes::G
 ///
 /// # Errors
 /// As [`mesh::load`].
-pub fn load_mesh(store: &dyn Store, path: &Path) -> Result<Arc<MeshData>, MeshError> {
+pub fn load_mesh(store: &dyn Store, path: &Path, wanted: Wanted) -> Result<Arc<MeshData>, MeshError> {
     let (stamp, format) = (Stamp::of(path).ok(), MeshFormat::of(path));
     // What a glTF file holds lies beside it.
     let is_large = |stamp: &Stamp| stamp.bytes >= LEAST_BYTES || format == Some(MeshFormat::Gltf);
     let (Some(stamp), Some(format)) = (stamp.filter(is_large), format) else {
-        return mesh::load(path).map(Arc::new);
+        return mesh::load_as(path, &Files::default(), wanted).map(Arc::new);
     };
     let began = SystemTime::now();
     let what = path.display().to_string();
-    let of = |hash: &ContentHash| Key::new(KeptKind::Mesh, &[format.extension().as_bytes(), hash]);
+    let with: &[u8] = if wanted.colors { b"colors" } else { b"" };
+    let of = |hash: &ContentHash| Key::new(KeptKind::Mesh, &[format.extension().as_bytes(), with, hash]);
     let known = store.recorded(path);
     if let Some(mesh) = known.and_then(|hash| taken(store, &of(&hash), path, &what)) {
         return Ok(mesh);
@@ -50,7 +52,7 @@ pub fn load_mesh(store: &dyn Store, path: &Path) -> Result<Arc<MeshData>, MeshEr
         return Ok(mesh);
     }
     store.told(Told::Missing { what: &what });
-    let mesh = Arc::new(mesh::parse(&bytes, format, path)?);
+    let mesh = Arc::new(mesh::parse_as(&bytes, format, path, wanted)?);
     drop(bytes);
     if let Some(meta) = Meta::of(&mesh, path, store, began) {
         keep(store, of(&hash), Arc::clone(&mesh), meta.bytes());
@@ -76,8 +78,13 @@ fn taken(store: &dyn Store, key: &Key, path: &Path, what: &str) -> Option<Arc<Me
 }
 
 /// The arrays of a mesh, in the order of a file; `meta` comes first.
-fn sections<'a>(mesh: &'a MeshData, meta: &'a [u8]) -> [&'a [u8]; 8] {
+fn sections<'a>(mesh: &'a MeshData, meta: &'a [u8]) -> [&'a [u8]; 9] {
     let corners = |corners: &'a Option<Vec<[u32; 3]>>| corners.as_deref().map_or(&[][..], bytemuck::cast_slice);
+    let colors = match mesh.colors.as_ref().map(|colors| &colors.values) {
+        Some(ColorValues::Bytes(bytes)) => bytemuck::cast_slice(bytes),
+        Some(ColorValues::Numbers(numbers)) => bytemuck::cast_slice(numbers),
+        None => &[],
+    };
     [
         meta,
         bytemuck::cast_slice(&mesh.positions),
@@ -87,6 +94,7 @@ fn sections<'a>(mesh: &'a MeshData, meta: &'a [u8]) -> [&'a [u8]; 8] {
         bytemuck::cast_slice(&mesh.uvs),
         corners(&mesh.uv_triangles),
         bytemuck::cast_slice(&mesh.triangle_material),
+        colors,
     ]
 }
 
@@ -106,6 +114,14 @@ fn read(file: KeptFile, path: &Path, store: &dyn Store) -> Result<Option<MeshDat
         return Ok(None);
     }
     let corners = |k: usize, is_there: bool| is_there.then(|| file.array::<[u32; 3]>(k)).transpose();
+    let colors = |coded: u64| -> Result<Option<VertexColors>, KeptError> {
+        let values = match coded {
+            0 => return Ok(None),
+            1 | 3 => ColorValues::Bytes(file.array(8)?),
+            _ => ColorValues::Numbers(file.array(8)?),
+        };
+        Ok(Some(VertexColors { values, is_srgb: coded >= 3 }))
+    };
     let mut mesh = MeshData {
         positions: file.array(1)?,
         triangles: file.array(2)?,
@@ -114,6 +130,7 @@ fn read(file: KeptFile, path: &Path, store: &dyn Store) -> Result<Option<MeshDat
         uvs: file.array(5)?,
         uv_triangles: corners(6, meta.has_uv_triangles)?,
         triangle_material: file.array(7)?,
+        colors: colors(meta.colors)?,
         materials: Vec::new(),
         libraries: meta.files.iter().map(|(name, _)| folder.join(name)).collect(),
         warnings: meta.warnings.iter().map(|warning| warning.told(path)).collect(),
@@ -142,11 +159,21 @@ fn sound(mesh: &MeshData, materials: usize) -> Result<(), KeptError> {
         && within(&mesh.triangles, mesh.positions.len(), None)
         && attribute(mesh.normals.len(), &mesh.normal_triangles)
         && attribute(mesh.uvs.len(), &mesh.uv_triangles)
+        && mesh.colors.as_ref().is_none_or(|colors| are_colors(colors, mesh.positions.len()))
         && (mesh.triangle_material.is_empty() || mesh.triangle_material.len() == mesh.triangles.len())
         && mesh.triangle_material.par_iter().all(|&k| (k as usize) < materials || k == NO_INDEX)
         && mesh.normals.par_iter().all(|n| n.iter().all(|x| x.abs() <= 2.0))
         && mesh.uvs.par_iter().all(|uv| uv.iter().all(|x| x.is_finite()));
     if is_sound { Ok(()) } else { Err(KeptError::Unfit("its numbers are none of a mesh")) }
+}
+
+/// Whether there is a colour for each vertex.
+fn are_colors(colors: &VertexColors, vertices: usize) -> bool {
+    let are_within = match &colors.values {
+        ColorValues::Bytes(bytes) => bytes.par_iter().all(|word| word >> 24 == 0),
+        ColorValues::Numbers(numbers) => numbers.par_iter().all(|color| color.iter().all(|x| (0.0..=1.0).contains(x))),
+    };
+    colors.len() == vertices && are_within
 }
 
 /// The hash of a file's contents, recorded or made.
@@ -164,6 +191,8 @@ fn hash_of(path: &Path, store: &dyn Store) -> Option<ContentHash> {
 struct Meta {
     has_normal_triangles: bool,
     has_uv_triangles: bool,
+    /// 0: none; 1: bytes, 2: numbers, both linear; 3, 4: in sRGB.
+    colors: u64,
     mtl: MtlNames,
     /// Other files, from the folder of the mesh's, and the hashes of what they hold.
     files: Vec<(String, ContentHash)>,
@@ -221,6 +250,10 @@ impl Meta {
         Some(Meta {
             has_normal_triangles: mesh.normal_triangles.is_some(),
             has_uv_triangles: mesh.uv_triangles.is_some(),
+            colors: mesh.colors.as_ref().map_or(0, |colors| {
+                let numbers = matches!(colors.values, ColorValues::Numbers(_));
+                1 + u64::from(numbers) + 2 * u64::from(colors.is_srgb)
+            }),
             mtl: mesh.mtl.clone(),
             files: files?,
             warnings: told.map(|warning| Warning::of(warning, path)).collect::<Option<_>>()?,
@@ -231,6 +264,7 @@ impl Meta {
         let mut to = Vec::new();
         number(&mut to, u64::from(self.has_normal_triangles));
         number(&mut to, u64::from(self.has_uv_triangles));
+        number(&mut to, self.colors);
         number(&mut to, self.mtl.libraries.len() as u64);
         self.mtl.libraries.iter().for_each(|name| text(&mut to, name));
         number(&mut to, self.mtl.used.len() as u64);
@@ -257,6 +291,7 @@ impl Meta {
         let from = &mut from;
         let has_normal_triangles = taken_flag(from)?;
         let has_uv_triangles = taken_flag(from)?;
+        let colors = taken_number(from).filter(|coded| *coded <= 4)?;
         let libraries = list(from, taken_text)?;
         let used = list(from, |from| Some((taken_text(from)?, taken_flag(from)?)))?;
         let files = list(from, |from| Some((taken_text(from)?, *from.split_off(..32)?.first_chunk::<32>()?)))?;
@@ -266,7 +301,7 @@ impl Meta {
             Some(Warning { code, message, expected, hint, line: taken_number(from)?.checked_sub(1) })
         })?;
         let mtl = MtlNames { libraries, used };
-        from.is_empty().then_some(Meta { has_normal_triangles, has_uv_triangles, mtl, files, warnings })
+        from.is_empty().then_some(Meta { has_normal_triangles, has_uv_triangles, colors, mtl, files, warnings })
     }
 }
 

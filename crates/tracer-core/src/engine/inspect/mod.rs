@@ -26,9 +26,9 @@ use tracer_kernels::level::Level;
 use tracer_kernels::sampling::blocks::ITEM_PIXELS;
 use tracer_kernels::scene::Integrator;
 
-/// Explains a sample of a pixel; `None` where the picture has no such pixel or is of no light
-/// (`render.integrator: AmbientOcclusion`), or something is wrong with the scene as the sample sees it
-/// ([`Scene::at_sample`]).
+/// Explains a sample of a pixel, lit by all lights at once also where the picture tells light groups apart; `None`
+/// where the picture has no such pixel or is of no light (`render.integrator: AmbientOcclusion`), or something is
+/// wrong with the scene as the sample sees it ([`Scene::at_sample`]).
 ///
 /// # Examples
 ///
@@ -61,7 +61,7 @@ pub fn inspect(scene: &Scene, options: &RenderOptions, pixel: [u32; 2], sample: 
     let part = Part { crop, first: sample, end: sample + 1, of_crop: crop, of_samples: sample + 1 };
     let kernels = Kernels::new(options.level.unwrap_or_else(Level::best));
     let now = scene.at_sample(sample, options.seed.unwrap_or(scene.seed)).transpose().ok()?;
-    let engine = Engine { scene: now.as_ref().unwrap_or(scene), kernels: &kernels };
+    let engine = Engine::new(now.as_ref().unwrap_or(scene), &kernels);
     let all = RenderOptions { part: Some(part), layers: Some(LayerSet::default()), ..*options };
     let plain = RenderOptions { reuse: Some(false), caustics: Some(false), ..all };
     let path = path::follow(engine, &plain, pixel, sample)?;
@@ -73,6 +73,7 @@ pub fn inspect(scene: &Scene, options: &RenderOptions, pixel: [u32; 2], sample: 
 fn fill(painter: &Painter<'_>, pixel: [u32; 2], sample: u32, batch: &mut Batch) -> Option<usize> {
     for place in 0..painter.grid.len() as u32 {
         painter.fill(&(place..place + 1), sample..sample + 1, batch);
+        painter.lightings[0].mark(batch);
         batch.pixels.find(&batch.items);
         let at = pixel.map(|k| k as f32);
         let slots = batch.items.len() * ITEM_PIXELS;

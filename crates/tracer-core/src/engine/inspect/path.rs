@@ -96,8 +96,8 @@ pub fn follow(engine: Engine<'_>, options: &RenderOptions, pixel: [u32; 2], samp
     let scene = engine.scene;
     let film = new_film(scene, options);
     let pool = Pool::new(1, false);
-    let painter = painter(engine, options, &film, sample + 1, &pool, &Unobserved);
-    let pass = painter.pass();
+    let painter = painter(engine, &[], options, &film, sample + 1, &pool, &Unobserved);
+    let pass = painter.lightings[0].pass(painter.plain);
     let mut batch = Batch::new();
     let slot = fill(&painter, pixel, sample, &mut batch)?;
     trace(engine, pass, &[], &mut batch, &mut Unwatched);
@@ -166,7 +166,7 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     fn vertex(&mut self, alive: &Alive, depth: u32) -> Made {
-        let Engine { scene, kernels } = self.engine;
+        let Engine { scene, kernels, .. } = self.engine;
         let (row, batch) = (&alive.row, &mut self.batch);
         row.write(&mut batch.paths);
         (0..3).for_each(|c| batch.radiance[c][self.slot] = 0.0);

@@ -86,8 +86,8 @@ pub fn explain(
     let threads = if options.threads == 0 { super::super::available_threads() } else { options.threads };
     let pool = Pool::new(threads, false);
     let mut film = new_film(scene, options);
-    let mut painter = painter(engine, options, &film, sample + 1, &pool, &Unobserved);
-    if painter.techniques.is_empty() {
+    let mut painter = painter(engine, &[], options, &film, sample + 1, &pool, &Unobserved);
+    if painter.lightings[0].techniques.is_empty() {
         return Some(None);
     }
     if whole.moves() {
@@ -104,10 +104,11 @@ pub fn explain(
     }
     painter.prepare(&(sample..sample + 1));
     film.unfinished = painter.paint(&mut film, sample..sample + 1, None);
-    let pass = painter.pass();
+    let lighting = &painter.lightings[0];
+    let pass = lighting.pass(painter.plain);
     let mut batch = Batch::new();
     let slot = fill(&painter, pixel, sample, &mut batch)?;
-    trace(engine, pass, &painter.techniques, &mut batch, &mut Unwatched);
+    trace(engine, pass, &lighting.techniques, &mut batch, &mut Unwatched);
     let of_batch = radiance(&batch, slot);
 
     fill(&painter, pixel, sample, &mut batch)?;
@@ -122,7 +123,7 @@ pub fn explain(
         brought: Vec::new(),
         shared: None,
     };
-    trace(engine, pass, &painter.techniques, &mut batch, &mut tagger);
+    trace(engine, pass, &lighting.techniques, &mut batch, &mut tagger);
 
     let unit = scene.radiance_unit;
     let rows = tagger.brought.iter().map(|(by, from, to)| Brought {

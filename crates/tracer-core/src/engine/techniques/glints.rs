@@ -137,7 +137,7 @@ fn chains(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
 
 /// Follows a chain from every pixel of these items, a bit each, to so many hits at most.
 fn follow(engine: Engine<'_>, pass: Pass<'_>, items: u32, hits: u32, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let Counters { camera_rays, scattered_rays, .. } = batch.counters;
     kernels.camera(scene, pass.seed, items, batch);
     batch.watch.lap(Stage::Camera);

@@ -67,7 +67,7 @@ impl Technique for OfRendering {
 
 /// Follows a batch of light paths.
 fn follow(engine: Engine<'_>, pass: LightPass<'_>, shares: &[Share], film: OnFilm<'_, '_>, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let count = load(shares, batch);
     debug_assert!(count <= PATHS);
     let photons = PhotonPass { seed: pass.seed, count, light_paths: Some(pass.light_paths) };
@@ -110,7 +110,7 @@ fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
                 let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
                 if scale > 0.0 && scale.is_finite() && is_of_eye([column, row]) {
                     let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
-                    film.cells.splat([column, row], brings, film.limit, film.half);
+                    film.cells.splat([column, row], brings, (film.limit, film.half), film.group);
                 }
             }
         }

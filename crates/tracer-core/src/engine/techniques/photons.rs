@@ -41,7 +41,7 @@ pub fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
 
 /// One batch.
 fn trace(engine: Engine<'_>, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let count = load(shares, batch);
     batch.watch.resume();
     let start = Instant::now();

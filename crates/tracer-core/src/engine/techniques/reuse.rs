@@ -90,7 +90,7 @@ fn shares(seed: u32, tile: [i32; 2], sample: u32, share: f32) -> bool {
 
 /// The share of a trial's paths that have a second vertex. It depends on scene and seed alone.
 fn second_vertices(trial: &Trial<'_>) -> f32 {
-    let Engine { scene, kernels } = trial.engine;
+    let Engine { scene, kernels, .. } = trial.engine;
     // Choices of its own: whether pixels share must not depend on the very paths that do.
     let pass = Pass { reuse: true, seed: hash3(trial.pass.seed, 0, 0x001d_17ee) as u32, ..trial.pass };
     let [across, down] = scene.size.map(|size| size.div_ceil(TILE));
@@ -142,7 +142,7 @@ fn group(first: usize, batch: &mut Batch) {
 
 /// Gives the members of each group the light of its suffixes.
 fn share(engine: Engine<'_>, batch: &mut Batch) {
-    let Engine { scene, kernels } = engine;
+    let Engine { scene, kernels, .. } = engine;
     let obstacles = Obstacles::new(scene);
     let mut next = 0;
     while next < batch.suffixes.len {

@@ -2,8 +2,8 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, Material, MaterialRef, Mesh,
-    MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
+    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, LightGroup, Material, MaterialRef,
+    Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
     TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
@@ -60,6 +60,7 @@ pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
         emission: Emission::Radiance(radiance).into(),
         camera_visible: true,
         name: Name::default(),
+        group: LightGroup::default(),
     }
 }
 

@@ -167,7 +167,7 @@ impl Mesh {
     pub fn written_out(&self) -> MeshSource {
         let mut faces = Faces::default();
         self.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
-        MeshSource::Inline(Arc::new(InlineMesh { points: self.positions.clone(), faces }.into()))
+        MeshSource::Inline(Arc::new(InlineMesh { points: self.positions.clone(), faces, colors: Vec::new() }.into()))
     }
 
     /// With its vertices in the order in which the triangles name them, without those that none names.

@@ -91,6 +91,7 @@ fn settings(
         ("render.clamp", clamp.map_or("None".to_owned(), |limit| limit.to_string())),
         ("the set of layers", layers),
         ("the choice of mattes", mattes_told(notes)),
+        ("light groups", if desc.output.light_groups { "on" } else { "off" }.to_owned()),
         ("--denoise", args.denoise.how().name().to_owned()),
         ("--no-metadata", if args.no_metadata { "on" } else { "off" }.to_owned()),
         ("the exposure", desc.effects.exposure.value.to_string()),

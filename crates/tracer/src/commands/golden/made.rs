@@ -127,6 +127,7 @@ fn png(picture: &Rgb8, name: &str) -> Result<Vec<u8>, WriteError> {
         alpha: None,
         layers: Vec::new(),
         mattes: Default::default(),
+        light_groups: Vec::new(),
     };
     let settings = vec![Setting { name: "golden", value: name.to_owned() }];
     encode(&image, Encoding::Png(Bits::Eight), &Provenance { settings, ..Provenance::default() })

@@ -183,7 +183,16 @@ impl Facts {
         for named in &self.desc.materials {
             line("", format!("{:?}", named.name.value));
         }
-        line("textures", s.textures.to_string());
+        line(
+            "textures",
+            match self.desc.textures.len() {
+                0 => s.textures.to_string(),
+                named => format!("{} ({named} by name)", s.textures),
+            },
+        );
+        for named in &self.desc.textures {
+            line("", format!("{:?}", named.name.value));
+        }
         for (k, file) in asset_files(&self.desc).iter().enumerate() {
             line(if k == 0 { "files" } else { "" }, file.display().to_string());
         }
@@ -240,6 +249,7 @@ impl Facts {
             "materials": s.materials,
             "material_names": self.desc.materials.iter().map(|named| &*named.name.value).collect::<Vec<_>>(),
             "textures": s.textures,
+            "texture_names": self.desc.textures.iter().map(|named| &*named.name.value).collect::<Vec<_>>(),
             "bounds": s.bounds.map(|bounds| json!({ "min": bounds.min, "max": bounds.max })),
             "tree": s.tree.map(|tree| json!({
                 "nodes": tree.nodes,

@@ -131,7 +131,7 @@ fn flat(view: &View, point: [f64; 3]) -> [f64; 2] {
 fn things(scene: &Scene, frame: &Frame<'_>, out: &mut String) -> std::fmt::Result {
     let to_world = |p: [f64; 3]| [0, 1, 2].map(|c| p[c] / scene.frame.scale + scene.frame.centre.to_array()[c]);
     if scene.spheres.len() <= MOST_SPHERES {
-        for sphere in &scene.spheres {
+        for sphere in scene.spheres.iter() {
             let [x, y] = frame.at(to_world(sphere.center.to_array()));
             let radius = sphere.radius / scene.frame.scale * frame.scale;
             // Circles of a million pixels are no circles to those who draw them.

@@ -204,7 +204,9 @@ fn one(
         report.cache = cache.map(Cache::report);
         report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
         let layers = written_layers.names().map(str::to_owned);
-        (report.picture.layers, report.denoise) = (layers.chain(scene.mattes.names()).collect(), denoised.clone());
+        let groups = film.light_groups().iter().map(|group| format!("light.{group}"));
+        report.picture.layers = layers.chain(scene.mattes.names()).chain(groups).collect();
+        report.denoise = denoised.clone();
     }
     let written = clock.lap();
     let seconds = Seconds {
@@ -225,7 +227,9 @@ fn one(
     if let Some(part) = part.filter(|_| shell.is_told()) {
         shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
     } else if shell.is_told() {
-        let samples = film.counters.camera_rays - before.counters.camera_rays;
+        // Each group has camera rays of its own.
+        let groups = film.light_groups().len().max(1) as u64;
+        let samples = (film.counters.camera_rays - before.counters.camera_rays) / groups;
         let speed = match samples {
             0 => "all samples were there".to_owned(),
             samples => rate(samples as f64 / seconds.render),
@@ -378,9 +382,12 @@ pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: DenoiseName) -
     // As numbers, as channels and as bytes.
     let of_denoising = denoising::bytes_per_pixel(denoise);
     let mattes = Mattes::asked(&desc.output);
-    let channels = (layers.channels() + mattes.channels()) as u64;
+    let groups = tracer_core::most_light_groups(desc);
+    let channels = (layers.channels() + mattes.channels() + 3 * groups) as u64;
     let of_pixel = BYTES_PER_PIXEL + 12 * channels + of_denoising + mattes.kept().bytes_of_pixel();
-    let needed = memory::of_film(crop, &desc.render, layers, denoise.is_on()) + pixels * of_pixel;
+    let needed = memory::of_film(crop, &desc.render, layers, denoise.is_on())
+        + Film::bytes_of_groups(crop, groups)
+        + pixels * of_pixel;
     match memory::available() {
         Some(available) if needed > available => Err(Failure::could_not(format!(
             "a picture of {}x{} pixels takes {} of memory, and {} are free; lower --size, or render parts of it by \

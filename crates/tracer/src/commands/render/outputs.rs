@@ -178,6 +178,13 @@ pub(super) fn tell_of_layers(outputs: &[Output], args: &RenderArgs, desc: &Scene
             exr_beside(outputs, args)
         ));
     }
+    if desc.output.light_groups && !has_exr(outputs) {
+        shell.warn(&format!(
+            "the scene's light groups are written into EXR only, and each takes as long as a picture; add -o {}, or \
+             --set output.light_groups=false",
+            exr_beside(outputs, args)
+        ));
+    }
     if desc.output.alpha {
         tell_of_alpha(outputs, shell);
     }

@@ -85,7 +85,7 @@ fn compare<F: Lanes>(seed: u64, rounds: usize, seen: &mut Seen) -> Vec<u64> {
         let count = 1 + round % 40;
         let all = triangles(&mut random, count);
         let accel = tree(&all);
-        let table = OccluderTable::new(&accel).expect("little");
+        let table = OccluderTable::new(&accel, 64).expect("little");
         let mut fan = Fan::new();
         for _ in 0..20 {
             let on_one = |random: &mut Random| {
@@ -166,7 +166,7 @@ fn what_is_free_the_tree_finds_free() {
 #[test]
 fn what_is_no_number_is_in_doubt() {
     let all = [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]];
-    let table = OccluderTable::new(&tree(&all)).expect("little");
+    let table = OccluderTable::new(&tree(&all), 64).expect("little");
     let mut batch = Batch::new();
     let group = Group { first: 0, len: 1 };
     let doubt = |batch: &Batch, y: [f32; 3]| {

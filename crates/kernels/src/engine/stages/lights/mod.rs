@@ -59,7 +59,7 @@ pub struct LightHit<F: Lanes> {
 pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
     let mut sample = match &lights.environment {
         None => numbered(lights, choice.light, p, u, v, lanes),
-        Some(environment) if lights.len == 0 => environment::sample(environment, u, v),
+        Some(environment) if lights.asked == 0 => environment::sample(environment, u, v),
         Some(environment) => {
             let near = numbered(lights, choice.light, p, u, v, lanes & !choice.environment);
             if choice.environment.any() {
@@ -112,7 +112,7 @@ impl<F: Lanes> LightSample<F> {
 #[inline(always)]
 pub fn beyond<F: Lanes>(lights: &LightTable, environment: &Environment, direction: V3<F>) -> (F, V3<F>) {
     let (pdf, radiance) = environment::pdf_and_radiance(environment, direction);
-    (if lights.len == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) }, radiance)
+    (if lights.asked == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) }, radiance)
 }
 
 /// The row of a flat light; anything for others.

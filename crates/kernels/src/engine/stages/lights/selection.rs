@@ -29,7 +29,7 @@ pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Cho
     let mut environment = F::M::from_bits(0);
     let (mut u, mut chance_of_all) = (u, one);
     if lights.environment.is_some() {
-        if lights.len == 0 {
+        if lights.asked == 0 {
             return Choice { light: F::U::splat(0), probability: one, environment: F::first(F::N) };
         }
         environment = u.lt(F::splat(ENVIRONMENT));

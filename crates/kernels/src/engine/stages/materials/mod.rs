@@ -33,7 +33,7 @@ use crate::bvh::SAME_SIDE;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::warp;
-use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Scene, Tables};
+use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Scene};
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
@@ -117,7 +117,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
 
     /// The material of a surface, its texture looked up.
     #[inline(always)]
-    pub fn at(tables: &'t Tables, s: &Surface<F>, valid: F::M) -> Self {
+    pub fn at(scene: &'t Scene, s: &Surface<F>, valid: F::M) -> Self {
+        let tables = &scene.tables;
         let (mut bsdf, texture) = Bsdf::<'t, F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
             let mut textured = valid & !texture.eq(F::U::splat(0));
@@ -126,7 +127,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
                 let reckoned = textured & pattern.lt(texture);
                 if reckoned.any() {
                     let id = texture - F::U::splat(1) - pattern;
-                    let color = pattern_color(tables, id, s, reckoned);
+                    let color = pattern_color(scene, id, s, reckoned);
                     bsdf.color = V3::select(reckoned, color, bsdf.color);
                 }
                 textured = textured & !reckoned;
@@ -143,7 +144,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     /// bodies touch.
     #[inline(always)]
     pub fn met(scene: &'t Scene, s: &Surface<F>, valid: F::M, behind: &[u32], i: usize) -> Self {
-        let mut bsdf = Self::at(&scene.tables, s, valid);
+        let mut bsdf = Self::at(scene, s, valid);
         if scene.has_touching() {
             bsdf.touch(&scene.tables.materials, F::U::load(&behind[i..]));
         }

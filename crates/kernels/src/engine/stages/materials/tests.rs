@@ -340,6 +340,7 @@ fn surface(ng: DVec3, ns: DVec3, outside: bool) -> Surface<S> {
         material: <S as Lanes>::U::splat(0),
         light: <S as Lanes>::U::splat(0),
         body: <S as Lanes>::U::splat(0),
+        primitive: <S as Lanes>::U::splat(0),
     }
 }
 

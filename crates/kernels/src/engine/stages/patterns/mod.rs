@@ -8,6 +8,7 @@ mod lines;
 mod marble;
 mod noise;
 mod program;
+mod vertex_color;
 mod voronoi;
 mod wood;
 
@@ -15,18 +16,18 @@ use super::surface::Surface;
 use super::textures::floor;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::{V3, acos, atan2_turns};
-use crate::scene::{PatternTable, STRIDE, Tables, pattern_kind as kind};
+use crate::scene::{PatternTable, STRIDE, Scene, pattern_kind as kind};
 
 /// The colour of pattern `id`, or of a program numbered behind the patterns, at a surface, in the lanes of the mask;
 /// anything elsewhere. A call, since all stages that meet materials look up their colours.
 #[inline(always)]
-pub fn pattern_color<F: Lanes>(tables: &Tables, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
-    let table = &tables.patterns;
-    let at = At { p: s.p, u: s.u, v: s.v, body: s.body };
+pub fn pattern_color<F: Lanes>(scene: &Scene, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
+    let table = &scene.tables.patterns;
+    let at = At { p: s.p, u: s.u, v: s.v, body: s.body, primitive: s.primitive };
     if table.programs.is_empty() {
         return F::apart(Lookup { table, id, at, mask });
     }
-    F::apart(program::Mixed { tables, id, at, normal: s.ns, mask })
+    F::apart(program::Mixed { scene, id, at, normal: s.ns, mask })
 }
 
 /// Where a surface is met.
@@ -36,6 +37,7 @@ struct At<F: Lanes> {
     u: F,
     v: F,
     body: F::U,
+    primitive: F::U,
 }
 
 /// What is looked up.

@@ -1,15 +1,15 @@
 //! Textures made of others, step by step. Lanes with one program do its steps together, so that no step has to be
 //! looked up lane by lane: as many rounds as there are programs among the lanes, and hardly ever are there two.
 
-use super::{At, Lookup, mapped, on_sphere};
+use super::{At, Lookup, mapped, on_sphere, vertex_color};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::{V3, exp, ln};
-use crate::scene::{Between, Made, Op, PLACES, PatternTable, Space, Tables};
+use crate::scene::{Between, Made, Op, PLACES, PatternTable, Scene, Space};
 
 /// Patterns and programs are looked up.
 pub(super) struct Mixed<'t, F: Lanes> {
-    pub tables: &'t Tables,
+    pub scene: &'t Scene,
     pub id: F::U,
     pub at: At<F>,
     /// The shading normal, on either side.
@@ -42,7 +42,7 @@ impl<F: Lanes> Mixed<'_, F> {
     /// The colour of one pattern or program.
     #[inline(always)]
     fn one(&self, id: u32, on: F::M) -> V3<F> {
-        let table = &self.tables.patterns;
+        let table = &self.scene.tables.patterns;
         let pattern = [Op { to: 0, made: Made::Pattern(id) }];
         let (ops, stops) = match table.programs.get((id as usize).wrapping_sub(table.patterns.len())) {
             Some(program) => (&program.ops[..], &program.stops[..]),
@@ -55,8 +55,9 @@ impl<F: Lanes> Mixed<'_, F> {
                 Made::Pattern(id) => F::apart(Lookup { table, id: F::U::splat(id), at: self.at, mask: on }),
                 Made::Texture { texture, space, ref map } => {
                     let (u, v) = self.coordinates(space, map, on);
-                    texture_color(&self.tables.textures, F::U::splat(texture), u, v, on)
+                    texture_color(&self.scene.tables.textures, F::U::splat(texture), u, v, on)
                 }
+                Made::VertexColor(space) => vertex_color::color(self.scene, space, &self.at, on),
                 Made::Mix([a, b, weight]) => {
                     let (a, b) = (at(&places, a), at(&places, b));
                     b.sub(a).mad(luminance(at(&places, weight)), a)
@@ -82,7 +83,7 @@ impl<F: Lanes> Mixed<'_, F> {
         if space == Space::Uv {
             return (self.at.u, self.at.v);
         }
-        let p = mapped(&self.tables.patterns.to_object, self.entry(space, on), self.at.p);
+        let p = mapped(&self.scene.tables.patterns.to_object, self.entry(space, on), self.at.p);
         let p = V3(along(&map[0], p), along(&map[1], p), along(&map[2], p));
         if space == Space::Spherical { on_sphere(p) } else { (p.0, p.1) }
     }
@@ -94,14 +95,14 @@ impl<F: Lanes> Mixed<'_, F> {
         if space == Space::World {
             return world;
         }
-        let entry = F::U::gather(&self.tables.patterns.entry, F::U::select(on, self.at.body, world));
+        let entry = F::U::gather(&self.scene.tables.patterns.entry, F::U::select(on, self.at.body, world));
         F::U::select(on, entry, world) * F::U::splat(12)
     }
 
     /// |n|^sharpness along each axis of the coordinates that the surface is written in, together 1.
     #[inline(always)]
     fn weights(&self, sharpness: f32, on: F::M) -> V3<F> {
-        let n = normal_of::<F>(&self.tables.patterns, self.entry(Space::Object, on), self.normal).abs();
+        let n = normal_of::<F>(&self.scene.tables.patterns, self.entry(Space::Object, on), self.normal).abs();
         let most = n.max_component();
         let usable = F::splat(0.0).lt(most);
         let n = n.scale(F::splat(1.0) / F::select(usable, most, F::splat(1.0)));
