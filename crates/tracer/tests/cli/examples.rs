@@ -104,5 +104,5 @@ fn every_example_of_the_reference_renders() {
             other => panic!("a block in `{other}`"),
         }
     }
-    assert!(scenes == 6 && parts >= 30, "{scenes} scenes and {parts} parts");
+    assert!(scenes == 7 && parts >= 30, "{scenes} scenes and {parts} parts");
 }
