@@ -1,6 +1,6 @@
 //! What a tree holds, where that is little: its triangles one by one, and boxes around all else.
 
-use super::layout::{Boxes, Kind, Node, Parts4, Ref, SecondBoxes, Triangles4, Unit};
+use super::layout::{Boxes, Kind, Node, Parts4, Ref, SecondBoxes, Triangles4, Unit, around};
 use super::{Accel, NONE};
 
 /// A triangle of render space.
@@ -28,8 +28,7 @@ impl Accel {
         let all = self.stats.triangles.max(self.stats.parts);
         let mut few = Few { triangles: Vec::new(), boxes: Boxes::NONE };
         let mut walk = Walk { units: self.arena.units(), most, few: &mut few };
-        let everything = [0, 1, 2, 3, 4, 5]
-            .map(|k: usize| if k % 2 == 0 { self.bounds.lower[k / 2] } else { self.bounds.upper[k / 2] });
+        let everything = around(&self.bounds);
         (all <= 4 * most as u64 && walk.visit(self.root, everything)).then_some(few)
     }
 

@@ -230,7 +230,7 @@ impl SecondBoxes {
 }
 
 /// Bounds as planes.
-fn around(bounds: &Bounds) -> [f32; 6] {
+pub fn around(bounds: &Bounds) -> [f32; 6] {
     std::array::from_fn(|k| if k % 2 == 0 { bounds.lower[k / 2] } else { bounds.upper[k / 2] })
 }
 
