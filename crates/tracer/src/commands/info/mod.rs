@@ -134,6 +134,7 @@ impl Facts {
         self.desc.objects.iter().filter(|object| is(&object.value)).count()
     }
 
+    // Long: a line of the text for each thing that a scene may have.
     fn as_text(&self) -> String {
         let s = &self.statistics;
         let point = |p: [f64; 3]| format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]));
