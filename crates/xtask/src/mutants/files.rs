@@ -170,8 +170,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "sixteen-bits-by-65536",
         file: SRGB,
-        find: "linear(f64::from(value) / 65535.0)",
-        replace: "linear(f64::from(value) / 65536.0)",
+        find: "linear_of_srgb(f64::from(value) / 65535.0)",
+        replace: "linear_of_srgb(f64::from(value) / 65536.0)",
         caught_by: kernel_units(&["srgb"]),
     },
     Mutant {
