@@ -44,6 +44,7 @@ fn cases() -> Vec<(Scene, Option<Crop>)> {
         (scene(&["render.integrator=Path"]), Some(Crop { x: 0, y: 5, width: 17, height: 1 })),
         (scene(&["background=(0.1, 0.2, 0.3)", "effects.antialiasing=None"]), None),
         (scene(&["output.layers=[Depth, Normal, ObjectId, Variance]", "render.clamp=0.5"]), None),
+        (scene(&["output.light_groups=true"]), None),
     ]
 }
 
@@ -189,12 +190,13 @@ fn the_head_tells_what_there_is() {
 /// in little memory.
 #[test]
 fn mutants_are_refused() {
-    for layers in ["[]", "[Depth, MaterialId]"] {
+    for (layers, groups) in [("[]", false), ("[Depth, MaterialId]", false), ("[]", true)] {
         mutants_of(&scene(&[
             "image.width=20",
             "image.height=20",
             "render.clamp=0.5",
             &format!("output.layers={layers}"),
+            &format!("output.light_groups={groups}"),
         ]));
     }
 }
