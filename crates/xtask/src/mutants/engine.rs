@@ -17,6 +17,7 @@ const PERSPECTIVE: &str = "crates/kernels/src/engine/stages/cameras/perspective.
 const SHADE: &str = "crates/kernels/src/engine/stages/shade.rs";
 const SHARE: &str = "crates/kernels/src/engine/stages/share.rs";
 const SPHERES: &str = "crates/kernels/src/engine/stages/spheres.rs";
+const FAN: &str = "crates/kernels/src/engine/stages/fan.rs";
 const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
 const TEXTURES: &str = "crates/kernels/src/engine/stages/textures.rs";
 const SAMPLER: &str = "crates/kernels/src/sampling/sampler.rs";
@@ -350,6 +351,41 @@ pub const MUTANTS: &[Mutant] = &[
         find: "(cos + self.around).max(F::splat(0.0))",
         replace: "(cos.abs() + self.around)",
         caught_by: kernel_units(&["engine::stages::lights::flat"]),
+    },
+    Mutant {
+        name: "fan-without-margins",
+        file: FAN,
+        find: "const MARGIN: f32 = 1.0 / 131_072.0;",
+        replace: "const MARGIN: f32 = 0.0;",
+        caught_by: kernel_units(&["engine::stages::fan"]),
+    },
+    Mutant {
+        name: "fan-beside-one-edge",
+        file: FAN,
+        find: "let beside = zero.lt(most) & least.lt(zero);",
+        replace: "let beside = zero.lt(most);",
+        caught_by: kernel_units(&["engine::stages::fan"]),
+    },
+    Mutant {
+        name: "fan-always-from-above",
+        file: FAN,
+        find: "let sign = F::select(above, c(1.0), c(-1.0));",
+        replace: "let sign = c(1.0);",
+        caught_by: kernel_units(&["engine::stages::fan"]),
+    },
+    Mutant {
+        name: "fan-without-the-slack-of-t",
+        file: FAN,
+        find: "let slack = reach + F::load(&table.slack[base..]);",
+        replace: "let slack = reach;",
+        caught_by: kernel_units(&["engine::stages::fan"]),
+    },
+    Mutant {
+        name: "fan-hides-by-the-own-triangle",
+        file: FAN,
+        find: "doubt = doubt | !(beside | before | from.eq(F::U::splat(id)));",
+        replace: "doubt = doubt | !(beside | before | from.eq(F::U::splat(u32::MAX - 1)));",
+        caught_by: kernel_units(&["engine::stages::fan"]),
     },
     Mutant {
         name: "light-clusters-without-size",
