@@ -1,6 +1,6 @@
 //! What a tree holds, where that is little: its triangles one by one, and boxes around all else.
 
-use super::layout::{Boxes, Kind, Node, Parts4, Ref, SecondBoxes, Triangles4, Unit, around};
+use super::layout::{Boxes, InstanceRecord, Kind, Node, Parts4, Ref, SecondBoxes, Triangles4, Unit, around};
 use super::{Accel, NONE};
 
 /// A triangle of render space.
@@ -23,13 +23,17 @@ pub struct Few {
 
 impl Accel {
     /// All that is in the tree, where that is no more than so many triangles, and no more leaves of anything else than
-    /// there are boxes.
+    /// there are boxes. `None` too where a mesh is in the tree and placed elsewhere as well: its primitives tell no
+    /// triangle then.
     pub fn few(&self, most: usize) -> Option<Few> {
-        let all = self.stats.triangles.max(self.stats.parts);
+        let is_placed = |record: &InstanceRecord| record.mesh & InstanceRecord::DIRECT == 0;
+        let is_here = |record: &InstanceRecord| self.meshes[record.mesh as usize].direct_instance != NONE;
+        if self.records().iter().any(|record| is_placed(record) && is_here(record)) {
+            return None;
+        }
         let mut few = Few { triangles: Vec::new(), boxes: Boxes::NONE };
         let mut walk = Walk { units: self.arena.units(), most, few: &mut few };
-        let everything = around(&self.bounds);
-        (all <= 4 * most as u64 && walk.visit(self.root, everything)).then_some(few)
+        walk.visit(self.root, around(&self.bounds)).then_some(few)
     }
 
     /// The primitives that lie in one plane with others, rising: what goes to them ends before those, and may find them

@@ -13,15 +13,27 @@ pub struct ArrayU<const N: usize>([u32; N]);
 #[derive(Clone, Copy)]
 pub struct ArrayM<const N: usize>([bool; N]);
 
-/// `[expression in i; N]`, by a loop and not by a closure: the inliner may decline a closure.
+/// Does something for each lane, by a loop and not by a closure: the inliner may decline a closure. One lane has no
+/// loop: shading has thousands of such, and the optimizer visited each of them many times.
+macro_rules! for_each {
+    ($n:ident, |$i:ident| $do:expr) => {
+        if $n == 1 {
+            let $i = 0;
+            $do
+        } else {
+            let mut $i = 0;
+            while $i < $n {
+                $do;
+                $i += 1;
+            }
+        }
+    };
+}
+/// `[expression in i; N]`.
 macro_rules! each {
     ($n:ident, $zero:expr, |$i:ident| $e:expr) => {{
         let mut result = [$zero; $n];
-        let mut $i = 0;
-        while $i < $n {
-            result[$i] = $e;
-            $i += 1;
-        }
+        for_each!($n, |$i| result[$i] = $e);
         result
     }};
 }
@@ -73,11 +85,7 @@ impl<const N: usize> Mask for ArrayM<N> {
     #[inline(always)]
     fn bits(self) -> u32 {
         let mut bits = 0;
-        let mut i = 0;
-        while i < N {
-            bits |= (self.0[i] as u32) << i;
-            i += 1;
-        }
+        for_each!(N, |i| bits |= (self.0[i] as u32) << i);
         bits
     }
     #[inline(always)]
@@ -90,7 +98,7 @@ impl<const N: usize> Bits for ArrayU<N> {
     type M = ArrayM<N>;
     #[inline(always)]
     fn splat(x: u32) -> Self {
-        ArrayU([x; N])
+        ArrayU(each!(N, 0, |i| x))
     }
     #[inline(always)]
     fn load(from: &[u32]) -> Self {
@@ -128,17 +136,15 @@ impl<const N: usize> Bits for ArrayU<N> {
     fn reverse_bits(self) -> Self {
         ArrayU(each!(N, 0, |i| self.0[i].reverse_bits()))
     }
+    // With one lane nothing comes after it.
+    #[allow(unused_assignments)]
     #[inline(always)]
     fn compress(self, mask: Self::M, to: &mut [u32]) {
         let mut next = 0;
-        let mut i = 0;
-        while i < N {
-            if mask.0[i] {
-                to[next] = self.0[i];
-                next += 1;
-            }
-            i += 1;
-        }
+        for_each!(N, |i| if mask.0[i] {
+            to[next] = self.0[i];
+            next += 1;
+        });
     }
 }
 
@@ -148,7 +154,7 @@ impl<const N: usize> Lanes for ArrayF<N> {
     type U = ArrayU<N>;
     #[inline(always)]
     fn splat(x: f32) -> Self {
-        ArrayF([x; N])
+        ArrayF(each!(N, 0f32, |i| x))
     }
     #[inline(always)]
     fn load(from: &[f32]) -> Self {
@@ -220,16 +226,14 @@ impl<const N: usize> Lanes for ArrayF<N> {
     fn apart<P: Part<Self>>(part: P) -> P::Out {
         part.run()
     }
+    // With one lane nothing comes after it.
+    #[allow(unused_assignments)]
     #[inline(always)]
     fn compress(self, mask: Self::M, to: &mut [f32]) {
         let mut next = 0;
-        let mut i = 0;
-        while i < N {
-            if mask.0[i] {
-                to[next] = self.0[i];
-                next += 1;
-            }
-            i += 1;
-        }
+        for_each!(N, |i| if mask.0[i] {
+            to[next] = self.0[i];
+            next += 1;
+        });
     }
 }

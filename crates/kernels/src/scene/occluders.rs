@@ -5,9 +5,6 @@ use crate::bvh::{Accel, SecondBoxes};
 /// Columns are as much longer, so that whole vectors can be loaded.
 const ROOM: usize = 32;
 
-/// By such a part of their size and their distance from the origin triangles are padded: see `stages::fan`.
-const MARGIN: f64 = 1.0 / 131_072.0; // 2^-17
-
 /// The occluders of a scene of few triangles. Render space.
 #[derive(Clone, Debug)]
 pub struct OccluderTable {
@@ -19,7 +16,8 @@ pub struct OccluderTable {
     pub normal: [Vec<f32>; 3],
     /// Along the normal, the triangle's distance from the origin.
     pub height: Vec<f32>,
-    /// Points nearer to the plane than this, and [`MARGIN`] times the sizes of coordinates, may be on either side.
+    /// 1 + 8 L^2 / (2 A), L being the longest side and A the area: so many margins from its plane points may be on
+    /// either side of it (`stages::fan`).
     pub slack: Vec<f32>,
     /// The largest coordinate.
     pub magnitude: Vec<f32>,
@@ -69,15 +67,15 @@ struct TrianglePlane {
     slack: f32,
 }
 
-/// The plane of a triangle. The slack is [`MARGIN`] times L^3 / (2 A), L the sum of two sides, at least the longest,
-/// and A the area.
+/// The plane of a triangle.
 fn plane_of(corners: [[f32; 3]; 3]) -> TrianglePlane {
     let [a, b, c] = corners.map(|corner| glam::DVec3::from(corner.map(f64::from)));
     let across = (b - a).cross(c - a);
-    let (normal, side) = (across / across.length(), (b - a).length() + (c - a).length());
+    let normal = across / across.length();
+    let longest2 = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
     TrianglePlane {
         normal: normal.to_array().map(|x| x as f32),
         height: normal.dot(a) as f32,
-        slack: (MARGIN * side.powi(3) / across.length()) as f32,
+        slack: (1.0 + 8.0 * longest2 / across.length()) as f32,
     }
 }

@@ -376,7 +376,7 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "fan-without-the-slack-of-t",
         file: FAN,
-        find: "let slack = reach + F::load(&table.slack[base..]);",
+        find: "let slack = reach * F::load(&table.slack[base..]);",
         replace: "let slack = reach;",
         caught_by: kernel_units(&["engine::stages::fan"]),
     },

@@ -2,7 +2,7 @@
 //!
 //! In a scene of few triangles most of the work is done once a suffix, over lanes that are triangles: the planes
 //! through y and their edges, and on which sides of them the bounds of the members lie. Few triangles are left, and
-//! each is three inner products a member.
+//! each is four inner products a member.
 //!
 //! With m a member, d = m - y, and p, q the ends of an edge, f = ((p - y) x (q - y)) . d has the sign of the side on
 //! which the line of the segment passes the edge. Where two edges of a triangle are passed on different sides (they are
@@ -11,7 +11,7 @@
 //! # The tree's answers
 //! What is said to be free here, the tree finds free ([`triangle`](crate::bvh::triangle_hit), and parts of triangles),
 //! to the last bit; the rest the tree is asked about. With u = 2^-24 and M the sum of the largest coordinates of the
-//! triangle and of the segments:
+//! triangle and of the segments (render space is about one in size, so no product vanishes):
 //!
 //! The tree's edge functions are those of corners that are off by 5uM, for a line that is off by 8uM, which moves f by
 //! 8 + 14 times uM |d| (|p - y| + |q - y|); their own roundings by 11, those here by 9 times that. 2^-17 = 128u is
@@ -20,8 +20,11 @@
 //! The tree's t is that of a point of the triangle which is off by 10uM from its plane, and by 57u L^3 / (A |n.d|)
 //! along the ray, whose distance from the plane changes by |n.d| for each of its length: L is the longest side, A the
 //! area. (6u m^2 / |det| of the depth for the roundings of the edge functions, and twice 8u m^2 / |det| where a part
-//! takes what lies beside it; m^2 is 3 L^2 at most, |det| at least 2 A |n.d|, the depth times the largest component's
-//! inverse 1.8 L.) The slack here is 128u (M + L^3 / (2 A)), and so less than that is never called one side.
+//! takes what lies beside it; m^2 is 3 L^2 at most, the depth times the largest component's inverse 1.8 L, and |det| 2 A
+//! |n.d| but for 14uM L, which its corners may be off.) Where 14uM L is at most half of that, the distance from the
+//! plane is less than 2 * 57u L^3 / A, which is 800uM L^2 / (2 A), as L is at most 3.5M. Where it is more, t may be that
+//! of any point of the triangle, which is L |n.d| from the plane, less than 28uM L^2 / (2 A). The slack here is 128uM (1
+//! + 8 L^2 / (2 A)), and what is nearer than that is never called one side.
 
 use super::shaft::{Ends, Shaft};
 use crate::engine::batch::{Group, Members};
@@ -43,7 +46,7 @@ const HEIGHT: usize = 15;
 
 /// The triangles that may hide a suffix from members of its group.
 pub struct Fan {
-    /// How many there are; above [`MOST`] none of them is told.
+    /// How many there are; more than [`MOST`] are too many.
     len: usize,
     y: [f32; 3],
     rows: [[f32; NUMBERS]; MOST],
@@ -56,10 +59,12 @@ impl Fan {
         Fan { len: 0, y: [0.0; 3], rows: [[0.0; NUMBERS]; MOST], ids: [0; MOST] }
     }
 
-    /// Finds those triangles, but for `primitive`, that may stand between the ends of a shaft.
+    /// Finds those triangles, but for `primitive`, that may stand between the ends of a shaft; `false` where they are
+    /// too many.
     #[inline(always)]
-    pub fn find<F: Lanes>(&mut self, table: &OccluderTable, ends: &Ends, shaft: &Shaft, primitive: u32) {
+    pub fn find<F: Lanes>(&mut self, table: &OccluderTable, ends: &Ends, shaft: &Shaft, primitive: u32) -> bool {
         F::apart(Find { fan: self, table, ends, shaft, primitive });
+        self.len <= MOST
     }
 
     /// Takes the triangles base .. base + N that are in `lanes`.
@@ -80,11 +85,11 @@ impl Fan {
     }
 
     /// Members of the group, among those with a bit set in the mask, that a triangle may hide y from; `from`: the
-    /// primitives that their segments leave.
+    /// primitives that their segments leave. The triangles must not be too many.
     #[inline(always)]
     pub fn in_doubt<F: Lanes>(&self, members: &Members, group: Group, from: &[u32; 64], mask: u64) -> u64 {
-        if self.len == 0 || self.len > MOST {
-            return if self.len == 0 { 0 } else { mask };
+        if self.len == 0 {
+            return 0;
         }
         F::apart(Doubt { fan: self, members, group, from, mask })
     }
@@ -105,11 +110,14 @@ impl<F: Lanes> Part<F> for Find<'_> {
     fn run(self) {
         let Find { fan, table, ends, shaft, primitive } = self;
         (fan.len, fan.y) = (0, shaft.y);
+        let mut columns = [[0.0; MOST_LANES]; NUMBERS];
         for base in (0..table.len).step_by(F::N) {
             let other = F::first(table.len - base) & !F::U::load(&table.id[base..]).eq(F::U::splat(primitive));
-            let mut columns = [[0.0; MOST_LANES]; NUMBERS];
             let between = between::<F>(table, ends, shaft, base, other, &mut columns);
             fan.take(table, base, between.bits(), &columns);
+            if fan.len > MOST {
+                return;
+            }
         }
     }
 }
@@ -131,7 +139,7 @@ impl<F: Lanes> Part<F> for Doubt<'_> {
         let (zero, y) = (F::splat(0.0), V3::<F>::splat(fan.y));
         let mut all = 0;
         for base in (0..group.len as usize).step_by(F::N) {
-            let lanes = F::M::from_bits((mask >> base) as u32) & F::first(F::N);
+            let lanes = F::M::from_bits((mask >> base) as u32) & F::first(group.len as usize - base);
             if !lanes.any() {
                 continue;
             }
@@ -172,7 +180,7 @@ fn between<F: Lanes>(
     let reach = (F::load(&table.magnitude[base..]) + c(shaft.magnitude)) * c(MARGIN);
     // On which side of the triangle's plane y is, and all members are.
     let (normal, height) = (V3::<F>::load(&table.normal, base), F::load(&table.height[base..]));
-    let slack = reach + F::load(&table.slack[base..]);
+    let slack = reach * F::load(&table.slack[base..]);
     let of_y = normal.dot(V3::splat(shaft.y)) - height;
     let (least, most) = over_box(normal, ends.lower, ends.upper);
     let (above, below) = (slack.lt(of_y), of_y.lt(-slack));

@@ -332,8 +332,9 @@ pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usiz
             let mut traced = segments.reaching & users & !segments.own;
             if traced != 0 {
                 let few = scene.occluders.as_ref().filter(|few| !few.may_be_covered(suffixes.primitive[j]));
-                if let Some(few) = few {
-                    fan.find::<F>(few, &ends, &shaft, suffixes.primitive[j]);
+                if let Some(few) = few
+                    && fan.find::<F>(few, &ends, &shaft, suffixes.primitive[j])
+                {
                     let others = obstacles.others_left::<F>(&shaft);
                     let beyond = segments.passing::<F>(&few.boxes, others, members, group, traced);
                     traced = beyond | fan.in_doubt::<F>(members, group, &segments.from, traced);

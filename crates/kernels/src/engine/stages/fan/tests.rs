@@ -32,6 +32,11 @@ fn triangles(random: &mut Random, count: usize) -> Vec<[[f32; 3]; 3]> {
         match k % 8 {
             // Flat along an axis.
             1 => corners.iter_mut().for_each(|corner| corner[1] = middle[1]),
+            // A beam aslant, which the tree cuts.
+            2 => {
+                let end = near(random, [0.8, 0.9, 0.7], 0.2);
+                corners = [end.map(|x| -x), end, near(random, end, 0.02)];
+            }
             // A needle.
             3 => corners[2] = near(random, corners[1], 1e-5),
             // Without area.
@@ -58,6 +63,12 @@ fn tree(triangles: &[[[f32; 3]; 3]]) -> Accel {
     Accel::build(&geometry, Acceleration::Bvh).expect("a tree")
 }
 
+/// A point beside a triangle in its plane, but for a millionth: from there it is seen edge-on.
+fn beside(random: &mut Random, [a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
+    let (s, t) = (0.9 + 1.5 * number(random).abs(), number(random));
+    near(random, [0, 1, 2].map(|axis: usize| a[axis] + s * (b[axis] - a[axis]) + t * (c[axis] - a[axis])), 1e-6)
+}
+
 /// A point of a triangle, often at its edge.
 fn on(random: &mut Random, [a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
     let (mut u, mut v) = (number(random).abs(), number(random).abs());
@@ -70,10 +81,18 @@ fn on(random: &mut Random, [a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
     [0, 1, 2].map(|axis: usize| a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis]))
 }
 
+#[derive(Default)]
 struct Seen {
     free: u64,
     blocked: u64,
+    /// Free, and along no triangle's plane by design.
+    clear: u64,
+    /// Of those.
     doubted: u64,
+    /// Segments along the plane of a triangle, which may be on either side of it.
+    edge_on: u64,
+    /// Of triangles that the trees have cut.
+    parts: u64,
 }
 
 /// Fans of so many lanes about random points: what they say is free, the tree finds free.
@@ -82,9 +101,10 @@ fn compare<F: Lanes>(seed: u64, rounds: usize, seen: &mut Seen) -> Vec<u64> {
     let mut batch = Batch::new();
     let mut said = Vec::new();
     for round in 0..rounds {
-        let count = 1 + round % 40;
+        let count = 1 + round % MOST;
         let all = triangles(&mut random, count);
         let accel = tree(&all);
+        seen.parts += accel.stats().parts;
         let table = OccluderTable::new(&accel, 64).expect("little");
         let mut fan = Fan::new();
         for _ in 0..20 {
@@ -95,19 +115,21 @@ fn compare<F: Lanes>(seed: u64, rounds: usize, seen: &mut Seen) -> Vec<u64> {
             let (from, middle) = on_one(&mut random);
             let (target, y) = if round % 5 == 0 { (NONE, vector(&mut random, 1.0)) } else { on_one(&mut random) };
             let size = [0.3, 0.02, 0.0][round % 3];
+            let edge_on = round / 7 % 3 == 0;
+            let (target, y) = if edge_on { (NONE, beside(&mut random, all[from as usize])) } else { (target, y) };
             let len = 64;
             for i in 0..len {
                 let start =
                     if i % 2 == 0 { near(&mut random, middle, size) } else { on(&mut random, all[from as usize]) };
                 (0..3).for_each(|axis| batch.members.start[axis][i] = start[axis]);
-                batch.members.primitive[i] = if i % 7 == 0 { NONE } else { from };
+                batch.members.primitive[i] = if i % 7 == 0 || (edge_on && i % 4 == 1) { NONE } else { from };
             }
             batch.members.len = len;
             let group = Group { first: 0, len: len as u32 };
             let mut ends = Ends::new();
             ends.bound::<F>(&batch.members, group);
             let shaft = Shaft::new(&ends, y);
-            fan.find::<F>(&table, &ends, &shaft, target);
+            assert!(fan.find::<F>(&table, &ends, &shaft, target), "no more than MOST triangles");
             let mut left = [NONE; 64];
             left.copy_from_slice(&batch.members.primitive[..len]);
             let doubt = fan.in_doubt::<F>(&batch.members, group, &left, u64::MAX);
@@ -140,25 +162,28 @@ fn compare<F: Lanes>(seed: u64, rounds: usize, seen: &mut Seen) -> Vec<u64> {
                 }
                 seen.free += u64::from(occluded == 0);
                 seen.blocked += u64::from(occluded != 0);
-                seen.doubted += u64::from(doubted && occluded == 0);
+                seen.clear += u64::from(occluded == 0 && !edge_on);
+                seen.doubted += u64::from(occluded == 0 && !edge_on && doubted);
+                seen.edge_on += u64::from(edge_on);
             }
         }
     }
     said
 }
 
-/// No segment that the tree finds blocked is called free, and most that are free are not left in doubt, though half of
-/// the members lie on a triangle, many of them at its edge, and a seventh do not say that they leave it: of these
-/// scenes, whose numbers are always the same, 36 in a hundred are.
+/// No segment that the tree finds blocked is called free, and most that are free are not left in doubt but where a
+/// triangle is seen edge-on, though half of the members lie on a triangle, many of them at its edge, and a seventh do
+/// not say that they leave it: of these scenes, whose numbers are always the same, 42 in a hundred are.
 #[test]
 fn what_is_free_the_tree_finds_free() {
-    let mut seen = Seen { free: 0, blocked: 0, doubted: 0 };
+    let mut seen = Seen::default();
     let one = compare::<One>(11, 400, &mut seen);
-    let Seen { free, blocked, doubted } = seen;
-    println!("{free} free, of which {doubted} in doubt; {blocked} blocked");
-    assert!(free > 100_000 && blocked > 50_000, "{free} {blocked}");
-    assert!((doubted as f64) < 0.4 * free as f64, "{doubted} of {free}");
-    let mut again = Seen { free: 0, blocked: 0, doubted: 0 };
+    let Seen { free, blocked, clear, doubted, edge_on, parts } = seen;
+    println!("{free} free; {clear} clear, {doubted} in doubt; {blocked} blocked; {edge_on} edge-on; {parts} parts");
+    let enough = free > 100_000 && blocked > 50_000 && edge_on > 50_000 && parts > 100;
+    assert!(enough, "{free} {blocked} {edge_on} {parts}");
+    assert!((doubted as f64) < 0.45 * clear as f64, "{doubted} of {clear}");
+    let mut again = Seen::default();
     assert_eq!(one, compare::<ArrayF<8>>(11, 400, &mut again), "eight lanes");
     assert_eq!(one, compare::<ArrayF<16>>(11, 400, &mut again), "sixteen lanes");
 }
@@ -174,7 +199,7 @@ fn what_is_no_number_is_in_doubt() {
         let mut ends = Ends::new();
         ends.bound::<One>(&batch.members, group);
         let mut fan = Fan::new();
-        fan.find::<One>(&table, &ends, &Shaft::new(&ends, y), NONE);
+        assert!(fan.find::<One>(&table, &ends, &Shaft::new(&ends, y), NONE));
         fan.in_doubt::<One>(&batch.members, group, &[NONE; 64], 1) != 0
     };
     (batch.members.start[0][0], batch.members.start[2][0]) = (0.2, 1.0);

@@ -1,6 +1,6 @@
 //! Curved lights among others, over lanes.
 
-use super::super::{Choice, LightHit, Receiver, pdf, radiance, sample};
+use super::super::{self as lights, Choice, LightHit, LightSample, Receiver};
 use crate::lanes::{ArrayF, Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{CurvedLight, FlatLight, Light, LightTable, NONE, Sphere};
@@ -8,14 +8,27 @@ use crate::shapes::UnitShape;
 use glam::{DAffine3, DVec3};
 use tracer_reference::Random;
 
-type S = ArrayF<8>;
+/// Lanes, and they are few, and functions that are not inlined into one: the optimizer takes minutes for a function of
+/// thousands of loops.
+const N: usize = 2;
+type S = ArrayF<N>;
 type U = <S as Lanes>::U;
 type M = <S as Lanes>::M;
 
-fn stored(x: S) -> [f32; 8] {
-    let mut out = [0.0; 8];
+fn stored(x: S) -> [f32; N] {
+    let mut out = [0.0; N];
     x.store(&mut out);
     out
+}
+
+#[inline(never)]
+fn sample(table: &LightTable, choice: &Choice<S>, p: V3<S>, [u, v]: [S; 2], lanes: M) -> LightSample<S> {
+    lights::sample(table, choice, p, u, v, lanes)
+}
+
+#[inline(never)]
+fn pdf(table: &LightTable, k: U, at: Receiver<S>, hit: &LightHit<S>) -> S {
+    lights::pdf(table, k, at, hit)
 }
 
 /// A ball, a disk with one side, a capsule, a square, a cylinder open at both ends with two sides.
@@ -46,27 +59,27 @@ fn lanes_have_lights_of_their_own() {
     assert!(table.has_curved() && table.has_flat() && table.first_flat == 4);
     let mut random = Random::new(1);
     let mut lit = [0; 5];
-    for _ in 0..2000 {
-        let which: [u32; 8] = std::array::from_fn(|_| random.below(5) as u32);
-        let mut column = |scale: f64| std::array::from_fn::<f32, 8, _>(|_| (scale * (random.number() - 0.5)) as f32);
+    for _ in 0..8000 {
+        let which: [u32; N] = std::array::from_fn(|_| random.below(5) as u32);
+        let mut column = |scale: f64| std::array::from_fn::<f32, N, _>(|_| (scale * (random.number() - 0.5)) as f32);
         let (x, y, z) = (column(8.0), column(8.0), column(16.0));
         let (u, v) = (column(1.0).map(|x| x + 0.5), column(1.0).map(|x| x + 0.5));
         let (k, p) = (U::load(&which), V3(S::load(&x), S::load(&y), S::load(&z)));
         let choice = Choice { light: k, probability: S::splat(1.0), environment: M::from_bits(0) };
-        let s = sample(&table, &choice, p, S::load(&u), S::load(&v), S::first(8));
-        let alone = sample(&table, &choice, p, S::load(&u), S::load(&v), M::from_bits(1));
+        let s = sample(&table, &choice, p, [S::load(&u), S::load(&v)], S::first(N));
+        let alone = sample(&table, &choice, p, [S::load(&u), S::load(&v)], M::from_bits(1));
         assert_eq!(stored(alone.distance)[0].to_bits(), stored(s.distance)[0].to_bits());
         let (distance, inverse) = (stored(s.distance), stored(s.inverse_pdf));
         let (red, wz) = (stored(s.radiance.0), stored(s.wi.2));
-        let mut primitives = [0; 8];
+        let mut primitives = [0; N];
         s.primitive.store(&mut primitives);
-        let front = M::from_bits((0..8).map(|lane| u32::from(wz[lane] < 0.0) << lane).sum());
-        let met = LightHit { direction: s.wi, distance: s.distance, cos: s.wi.2.abs(), front, lanes: S::first(8) };
+        let front = M::from_bits((0..N).map(|lane| u32::from(wz[lane] < 0.0) << lane).sum());
+        let met = LightHit { direction: s.wi, distance: s.distance, cos: s.wi.2.abs(), front, lanes: S::first(N) };
         // It faces what it has chosen: lights below its horizon are never chosen.
         let at = Receiver { p, n: s.wi };
         let density = stored(pdf(&table, k, at, &met));
-        let sent = stored(radiance(&table, k, &met).0);
-        for lane in 0..8 {
+        let sent = stored(lights::radiance(&table, k, &met).0);
+        for lane in 0..N {
             let light = which[lane] as usize;
             if distance[lane] <= 0.0 || red[lane] <= 0.0 {
                 continue;
