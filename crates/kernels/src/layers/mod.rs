@@ -9,7 +9,9 @@
 mod albedo;
 mod alpha;
 mod depth;
+mod direct;
 mod emission;
+mod indirect;
 mod leaves;
 mod material_id;
 mod nodes;
@@ -26,7 +28,7 @@ use crate::engine::Surface;
 use crate::lanes::Lanes;
 use crate::math::V3;
 use crate::scene::Scene;
-pub use samples::LayerSamples;
+pub use samples::{DirectLight, LayerSamples};
 
 /// How a pixel's value comes of its samples.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +42,10 @@ pub enum Pixel {
     Nearest(fn(&Scene, u32, u32, u32) -> u32),
     /// Not of what camera rays hit: the mean of what is counted while the rays of a sample are traced; of one channel.
     Counted(Count),
+    /// Not of what camera rays hit: the mean of what has come to the samples over one surface at most; three channels.
+    Direct,
+    /// What the picture has beside that.
+    Indirect,
     /// Not of what camera rays hit: a number that the film has of each pixel.
     OfFilm(FilmNumber),
 }
@@ -126,6 +132,8 @@ pub struct Kept {
     pub nearest: usize,
     /// Texture coordinates have to be found, whether there are textures or not.
     pub uv: bool,
+    /// What comes over one surface at most is told apart.
+    pub direct: bool,
 }
 
 /// A layer's contract as data.
@@ -144,6 +152,14 @@ pub struct Definition {
 impl Definition {
     const fn of<L: PictureLayer>() -> Self {
         Definition { name: L::NAME, channels: L::CHANNELS, pixel: L::PIXEL, uv: L::READS_UV }
+    }
+}
+
+/// How many sums of a pixel are kept for a layer.
+fn sums_of(channels: &[&str], pixel: Pixel) -> usize {
+    match pixel {
+        Pixel::Nearest(_) | Pixel::OfFilm(_) => 0,
+        Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) | Pixel::Direct | Pixel::Indirect => channels.len(),
     }
 }
 
@@ -212,6 +228,10 @@ layers! {
     Nodes: nodes::Nodes,
     /// See [`leaves`].
     Leaves: leaves::Leaves,
+    /// See [`direct`].
+    Direct: direct::Direct,
+    /// See [`indirect`].
+    Indirect: indirect::Indirect,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.
@@ -267,27 +287,38 @@ impl LayerSet {
         for layer in self.iter() {
             let Definition { channels, pixel, uv, .. } = definition(layer);
             match pixel {
-                Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) => kept.sums += channels.len(),
                 Pixel::Nearest(_) => kept.nearest += 1,
-                Pixel::OfFilm(_) => {}
+                _ => kept.sums += sums_of(channels, pixel),
             }
             kept.uv |= uv;
+            kept.direct |= matches!(pixel, Pixel::Direct | Pixel::Indirect);
         }
         kept
     }
 
+    /// The layers, and which column of [`LayerSamples::sums`] is the first of each.
+    fn placed(self) -> impl Iterator<Item = (usize, Definition)> {
+        let mut next = 0;
+        self.iter().map(move |layer| {
+            let definition = definition(layer);
+            let column = next;
+            next += sums_of(definition.channels, definition.pixel);
+            (column, definition)
+        })
+    }
+
     /// What is counted for them, and in which column of [`LayerSamples::sums`].
     pub fn counted(self) -> impl Iterator<Item = (usize, Count)> {
-        let mut next = 0;
-        self.iter().filter_map(move |layer| {
-            let Definition { channels, pixel, .. } = definition(layer);
-            let column = next;
-            match pixel {
-                Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) => next += channels.len(),
-                Pixel::Nearest(_) | Pixel::OfFilm(_) => {}
-            }
-            if let Pixel::Counted(count) = pixel { Some((column, count)) } else { None }
+        self.placed().filter_map(|(column, of)| match of.pixel {
+            Pixel::Counted(count) => Some((column, count)),
+            _ => None,
         })
+    }
+
+    /// In which columns of [`LayerSamples::sums`] the first channel is of what comes over one surface at most.
+    pub fn direct(self) -> impl Iterator<Item = usize> {
+        let is_direct = |pixel| matches!(pixel, Pixel::Direct | Pixel::Indirect);
+        self.placed().filter(move |(_, of)| is_direct(of.pixel)).map(|(column, _)| column)
     }
 
     /// Whether camera rays have to be looked at for them.

@@ -15,6 +15,19 @@ pub struct LayerSamples {
     pub distance2: Vec<f32>,
     /// Per item: the slots whose ray hit something, a bit each.
     pub hits: [u64; ITEMS],
+    /// A row for each slot where a layer asks for it.
+    pub direct: Vec<DirectLight>,
+}
+
+/// What has come to a sample over one surface at most.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectLight {
+    /// From all lights that were traced before these: of other light groups.
+    pub before: [f64; 3],
+    /// From these.
+    pub now: [f64; 3],
+    /// The sample's radiance when it was looked at last.
+    pub mark: [f32; 3],
 }
 
 impl LayerSamples {
@@ -27,10 +40,12 @@ impl LayerSamples {
         self.nearest.iter_mut().for_each(|column| column.fill(0));
         self.distance2.clear();
         self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, f32::INFINITY);
+        self.direct.clear();
+        self.direct.resize(if kept.direct { PATHS } else { 0 }, DirectLight::default());
     }
 
     /// What there are columns for.
     pub fn kept(&self) -> Kept {
-        Kept { sums: self.sums.len(), nearest: self.nearest.len(), uv: false }
+        Kept { sums: self.sums.len(), nearest: self.nearest.len(), ..Kept::default() }
     }
 }

@@ -118,6 +118,12 @@ scene_words! {
         /// What a sample costs at the tree's leaves: those of up to four triangles or spheres that its rays ask, shadow
         /// rays too, the mean over the samples. 0 where there is no tree.
         Leaves,
+        /// Light that has come over one surface at most, in W/(sr m^2): lamps and background as the camera sees them,
+        /// and what surfaces scatter of light that meets them straight. With `Indirect` it is the picture.
+        Direct,
+        /// Light that has come over two surfaces and more, in W/(sr m^2): from wall to wall, through glass onto a table,
+        /// a lit room in a mirror.
+        Indirect,
     }
 }
 

@@ -5,6 +5,7 @@
 //! same.
 
 mod counting;
+mod direct;
 mod grid;
 mod inspect;
 mod lighting;

@@ -1,5 +1,6 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
+use super::direct;
 use super::grid::Grid;
 use super::lighting::Lighting;
 use super::observer::{Observer, Progress};
@@ -280,6 +281,7 @@ impl Painter<'_> {
                 if let Some(limit) = self.limit {
                     clamp_samples(limit, cells, batch);
                 }
+                direct::settle(plain.layers, batch);
                 if let Some(group) = lighting.group {
                     add_group(group, cells, totals, batch);
                 }

@@ -1,8 +1,8 @@
 //! A batch from camera rays to radiance: the loop over the vertices of its paths.
 
-use super::counting;
 use super::technique::{Engine, Technique, Vertex};
 use super::watcher::Watcher;
+use super::{counting, direct};
 use tracer_kernels::bvh::{Accel, Coherence, Hits, Occlusion};
 use tracer_kernels::engine::batch::{Batch, rays};
 use tracer_kernels::engine::kernels::Kernels;
@@ -25,6 +25,7 @@ pub fn trace(
         // Here, for a batch may have no path at all: beside a fisheye's circle.
         batch.layers.start(pass.layers.kept());
     }
+    direct::start(batch);
     engine.kernels.camera(engine.scene, pass.seed, watcher.items(), batch);
     batch.watch.lap(Stage::Camera);
     if let Integrator::AmbientOcclusion { distance } = engine.scene.integrator {
@@ -52,9 +53,23 @@ pub fn trace(
 pub fn bounce(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     met(engine, pass, vertex, batch);
     batch.watch.shaded(batch.paths.len, pass.lanes);
-    engine.kernels.shade(engine.scene, pass, vertex, batch);
-    batch.watch.lap(Stage::Shade);
+    shade(engine, pass, vertex, batch);
     seen(engine, pass, batch);
+    if vertex < direct::LAST {
+        direct::take(batch);
+    }
+}
+
+/// The light that rays meet, the lights' samples and the next rays.
+pub fn shade(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
+    if vertex > direct::LAST {
+        engine.kernels.shade(engine.scene, pass, vertex, batch);
+    } else {
+        direct::mark(batch);
+        engine.kernels.shade(engine.scene, pass, vertex, batch);
+        direct::take(batch);
+    }
+    batch.watch.lap(Stage::Shade);
 }
 
 /// How much is free of what lies above the surfaces that camera rays hit.
@@ -63,6 +78,7 @@ fn ambient(engine: Engine<'_>, pass: Pass<'_>, distance: f32, batch: &mut Batch)
     engine.kernels.ambient(engine.scene, pass.seed, distance, batch);
     batch.watch.lap(Stage::Shade);
     seen(engine, pass, batch);
+    direct::take(batch);
 }
 
 /// What the rays of a vertex hit, and what layers want of it.

@@ -234,13 +234,14 @@ impl Film {
         let layers = tile.layers.as_deref();
         let hits = layers.map_or(0, |layers| layers.hits[k]);
         let count = match definition(of.layer).pixel {
-            Pixel::Mean => tile.samples[k].max(1),
-            Pixel::Counted(_) => tile.samples[k].max(1),
+            Pixel::Mean | Pixel::Counted(_) => tile.samples[k].max(1),
             Pixel::MeanOfHits(empty) if hits == 0 => return pixel.fill(empty),
             Pixel::MeanOfHits(_) => hits,
             Pixel::Nearest(_) => {
                 return pixel.fill(layers.map_or(0, |layers| number_of(layers.nearest[before.nearest][k])) as f32);
             }
+            Pixel::Direct => return self.direct_of_pixel(x, y, before.sums, pixel),
+            Pixel::Indirect => return self.indirect_of_pixel(x, y, before.sums, pixel),
             Pixel::OfFilm(FilmNumber::Variance) => return pixel.fill(finite(self.variance(x, y))),
             Pixel::OfFilm(FilmNumber::Noise) => return pixel.fill(finite(self.noise(x, y))),
         };
@@ -248,6 +249,32 @@ impl Film {
             let sum = layers.map_or(0, |layers| layers.sums[before.sums + c][k]);
             let mean = sum as f64 * LEAST / f64::from(count);
             *value = finite(mean * of.units.scale + of.units.offset[c]);
+        }
+    }
+}
+
+impl Film {
+    /// What has come over one surface at most, whose sums begin here; without the background that is kept by itself.
+    fn direct_of_pixel(&self, x: u32, y: u32, first: usize, pixel: &mut [f32]) {
+        let (tile, k) = self.place(x, y);
+        let scale = self.unit * LEAST / f64::from(tile.samples[k].max(1));
+        for (c, value) in pixel.iter_mut().enumerate() {
+            let sum = tile.layers.as_ref().map_or(0, |layers| layers.sums[first + c][k]);
+            let missed = tile.missed.as_ref().map_or(0, |missed| missed.of(c, k));
+            *value = finite(sum.wrapping_sub(missed).max(0) as f64 * scale);
+        }
+    }
+
+    /// What is left of the picture without that, whose sums begin here, and what light paths brought. Not below zero: a
+    /// sample's direct light is rounded to single precision where there are light groups.
+    fn indirect_of_pixel(&self, x: u32, y: u32, first: usize, pixel: &mut [f32]) {
+        let (tile, k) = self.place(x, y);
+        let scale = self.unit * LEAST / f64::from(tile.samples[k].max(1));
+        let of_light_paths = self.of_light_paths(x, y);
+        for (c, value) in pixel.iter_mut().enumerate() {
+            let direct = tile.layers.as_ref().map_or(0, |layers| layers.sums[first + c][k]);
+            let rest = tile.sums.of(c, k).wrapping_sub(direct).max(0);
+            *value = finite(rest as f64 * scale + of_light_paths[c]);
         }
     }
 }

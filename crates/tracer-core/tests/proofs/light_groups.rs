@@ -40,7 +40,7 @@ const SCENE: &str = r#"Scene(
 
 const NAMES: [&str; 3] = ["fill", "key", "rest"];
 
-fn described(set: &[&str]) -> SceneDesc {
+pub(crate) fn described(set: &[&str]) -> SceneDesc {
     let set: Vec<Override> = set.iter().map(|&set| Override::from(set.to_owned())).collect();
     load_str("scene.ron", SCENE, Syntax::Ron, Path::new("."), &set).expect("a scene").scene
 }

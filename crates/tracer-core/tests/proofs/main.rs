@@ -15,6 +15,7 @@ mod compiling;
 mod convergence;
 mod coplanar;
 mod curved;
+mod direct;
 mod environment;
 mod figures;
 mod glints;

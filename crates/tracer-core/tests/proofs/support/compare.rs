@@ -1,6 +1,7 @@
 //! The engine's picture against the reference's, and against itself with other settings.
 
 use super::{effort, film};
+use rayon::prelude::*;
 use scene_format::SceneDesc;
 use scene_format::desc::{Caustics, Reuse};
 use tracer_core::scene::Sharing;
@@ -44,8 +45,9 @@ fn area([left, top, right, bottom]: Rectangle) -> f64 {
 struct Renderings(Vec<Film>);
 
 impl Renderings {
+    /// Side by side: a long proof that comes late keeps all cores busy.
     fn new(scene: &Scene, samples: u32, first_seed: u32) -> Self {
-        Renderings((first_seed..first_seed + SEEDS).map(|seed| film(scene, samples, seed)).collect())
+        Renderings((first_seed..first_seed + SEEDS).into_par_iter().map(|seed| film(scene, samples, seed)).collect())
     }
 
     /// Mean of a channel over a rectangle. However the pixels of one rendering hang together, the renderings tell its
@@ -133,7 +135,7 @@ pub fn noise(desc: &SceneDesc, samples: u32) -> f64 {
 }
 
 /// Tiles and means of two pictures of the same scene, one of `scenes`.
-fn assert_agree(
+pub fn assert_agree(
     name: &str,
     [width, height]: [u32; 2],
     scenes: usize,

@@ -20,7 +20,7 @@ pub fn compiled(desc: &scene_format::SceneDesc) -> Scene {
     compile(desc).unwrap_or_else(|error| panic!("{error}: {:?}", error.diagnostics))
 }
 
-/// Renders on one thread: the test runner keeps the others busy.
+/// Renders on one thread: other tests and other seeds keep the others busy.
 pub fn film(scene: &Scene, samples: u32, seed: u32) -> Film {
     let options = RenderOptions { samples: Some(samples), seed: Some(seed), threads: 1, ..RenderOptions::default() };
     let film = tracer_core::render(scene, &options, &Unobserved);
