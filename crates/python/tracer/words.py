@@ -363,7 +363,7 @@ class Output(TypedDict, total=False):
     marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
-Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect"]
+Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect", "Samples"]
 
 Matte = Literal["Objects", "Materials"]
 

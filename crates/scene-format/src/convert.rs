@@ -35,7 +35,8 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
 /// diagnostics.
 ///
 /// # Errors
-/// As [`convert`].
+/// As [`convert`], but names that nobody has given and values out of range do not count, as they are laid out all the
+/// same.
 pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadError> {
     write(name, text, syntax, syntax, true)
 }
@@ -44,7 +45,8 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     match load_str(name, text, from, folder, &[]) {
         // What is wrong with included files is theirs: this text says what to write.
-        Err(LoadError::Invalid { diagnostics, .. }) if diagnostics.iter().all(is_of_others) => {}
+        Err(LoadError::Invalid { diagnostics, .. })
+            if diagnostics.iter().all(|fault| is_of_others(fault) || (from == to && is_of_values(fault))) => {}
         // Whichever is meant, the text stays what it is.
         Err(LoadError::Invalid { undecided: Some(_), .. }) => {}
         loaded => {
@@ -54,7 +56,7 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     let mut sink = Sink::default();
     let tree = parse(text, from, &mut sink);
     let Some(root) = tree.root() else { return Ok(String::new()) };
-    let mut converter = Converter { tree: &tree, next_comment: 0, to, blanks: keeps_blanks.then_some(0) };
+    let mut converter = Converter { tree: &tree, next_comment: 0, from, to, blanks: keeps_blanks.then_some(0) };
     // What stands at the file's top stays there: a headline, a licence, how to render it.
     let before = match from {
         Syntax::Ron | Syntax::Json => converter.comments_before(root.span().start),
@@ -66,14 +68,32 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     Ok(print::scene(&form, to, &before, &after))
 }
 
-/// Whether a fault is one of an included file, or that there is none.
+/// Whether a fault is one of an included file, or that there is none; or that there is nothing to render, as in files
+/// that are there to be included.
 fn is_of_others(fault: &Diagnostic) -> bool {
-    fault.severity == Severity::Warning || fault.code == codes::INCLUDE || fault.span.source != 0
+    let elsewhere = fault.code == codes::INCLUDE || fault.code == codes::NO_OBJECTS || fault.span.source != 0;
+    fault.severity == Severity::Warning || elsewhere
+}
+
+/// Whether a fault is one of what is written, not of how: what it is laid out as does not depend on it.
+fn is_of_values(fault: &Diagnostic) -> bool {
+    let names = [codes::UNKNOWN_MATERIAL, codes::UNKNOWN_NAME, codes::UNKNOWN_CAMERA, codes::UNKNOWN_MASK];
+    fault.code.is_value() || names.contains(&fault.code)
+}
+
+/// Whether a text is there to be included: it has values, textures, materials or cameras for other scenes, and nothing
+/// to render.
+pub fn is_library(text: &str, syntax: Syntax) -> bool {
+    let tree = parse(text, syntax, &mut Sink::default());
+    let fields = || tree.root().into_iter().flat_map(|root| root.fields().map(|(key, _)| key.text().into_owned()));
+    const SHARED: [&str; 5] = ["vars", "textures", "materials", "cameras", "include"];
+    fields().any(|key| SHARED.contains(&&*key)) && fields().all(|key| key == "version" || SHARED.contains(&&*key))
 }
 
 struct Converter<'t, 's> {
     tree: &'t Tree<'s>,
     next_comment: usize,
+    from: Syntax,
     to: Syntax,
     /// Where the last thing ended that has been taken, if empty lines are kept.
     blanks: Option<u32>,
@@ -167,7 +187,9 @@ impl Converter<'_, '_> {
         let early = if header { self.comment_after(end) } else { None };
         let value = value(self);
         self.ended(end);
-        let after = if header { early } else { self.comment_after(end) };
+        // Where its last line ends.
+        let last = || item.children().last().map_or(end, |child| child.span().end.max(end));
+        let after = if header { early.or_else(|| self.comment_after(last())) } else { self.comment_after(end) };
         Entry { name: name.into(), value, before, after }
     }
 
@@ -182,7 +204,7 @@ impl Converter<'_, '_> {
             return Form::Lexeme(item.lexeme().to_owned());
         }
         match kind.resolved() {
-            Type::Value => self.value(item),
+            Type::Value => self.of_var(item),
             Type::Bool => Form::Bool(item.lexeme() == "true"),
             Type::Number | Type::Integer => Form::Lexeme(self.number(item)),
             Type::Text | Type::File => Form::Text(item.text().into_owned()),
@@ -264,7 +286,20 @@ impl Converter<'_, '_> {
         Form::Vector(item.children().map(|child| self.value(child)).collect())
     }
 
-    /// A number, or what may stand in its place and in `vars`.
+    /// What stands in `vars`. A list stays one, for it may have any number of items; what other syntaxes write as a
+    /// list of two or three numbers is RON's pair or point.
+    fn of_var(&mut self, item: Item<'_, '_>) -> Form {
+        let is_point = || matches!(item.children().count(), 2 | 3) && item.children().all(|x| x.kind() != Kind::List);
+        if item.kind() != Kind::List || (self.from != Syntax::Ron && is_point()) {
+            return self.value(item);
+        }
+        let entries = item
+            .children()
+            .map(|child| self.entry_of(String::new(), child.span().start, child, |converter| converter.of_var(child)));
+        Form::List(entries.collect())
+    }
+
+    /// A number, or what may stand in its place.
     fn value(&self, item: Item<'_, '_>) -> Form {
         match item.kind() {
             Kind::Bool => Form::Bool(item.lexeme() == "true"),

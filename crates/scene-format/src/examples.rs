@@ -94,7 +94,7 @@ pub(crate) const CHOICES: [&EnumDef; 38] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 147] = [
+const SNIPPETS: [(&str, &str, &str); 148] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -137,6 +137,7 @@ const SNIPPETS: [(&str, &str, &str); 147] = [
     ("Layer", "Leaves", "layers: [Leaves]"),
     ("Layer", "Direct", "layers: [Direct, Indirect]"),
     ("Layer", "Indirect", "layers: [Direct, Indirect]"),
+    ("Layer", "Samples", "layers: [Samples]"),
     ("Matte", "Objects", "cryptomatte: [Objects]"),
     ("Matte", "Materials", "cryptomatte: [Materials]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),

@@ -82,7 +82,7 @@ mod words;
 mod write;
 
 pub use codes::explain;
-pub use convert::{comments, convert, format};
+pub use convert::{comments, convert, format, is_library};
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use edit::{Viewpoint, ViewpointError, write_viewpoint};

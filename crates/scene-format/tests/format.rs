@@ -155,6 +155,58 @@ fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
     }
 }
 
+/// Lists of vars stay lists, whatever is in them, and comments in them stay where they are; from syntax to syntax, too.
+#[test]
+fn lists_of_vars_stay_lists() {
+    let of = |list: &str| {
+        let objects = "[Box(size: \"=1 + 0 * len(h)\")]";
+        format!("Scene(background: 1, vars: {{ \"h\": {list} }}, objects: {objects})")
+    };
+    let load =
+        |text: &str, syntax| load_str("s", text, syntax, Path::new(""), &[]).map(|loaded| hash_hex(&loaded.scene));
+    for list in [
+        "[]",
+        "[1]",
+        "[0.2, 0.5]",
+        "[0.2, 0.5, 0.3]",
+        "[0.2, 0.5, 0.3, 0.9]",
+        "[\"#ff0000\"]",
+        "[(0, 0, 0)]",
+        "[(0, 0), (1, 2)]",
+        "[(0, 0, 0), (1, 2, 3), (4, 5, 6), (7, 8, 9)]",
+        "[\"=2\", 1, 2, 3]",
+    ] {
+        let text = of(list);
+        let before = load(&text, Syntax::Ron).unwrap_or_else(|error| panic!("{list}: {error:?}"));
+        let tidy = format("s", &text, Syntax::Ron).expect("right");
+        assert!(tidy.contains(&format!("vars: {{\"h\": {list}}}")), "{list} became\n{tidy}");
+        assert_eq!(load(&tidy, Syntax::Ron).ok().as_ref(), Some(&before), "{tidy}");
+        for syntax in [Syntax::Toml, Syntax::Json] {
+            let there = convert("s", &text, Syntax::Ron, syntax).expect("right");
+            assert_eq!(load(&there, syntax).ok().as_ref(), Some(&before), "{there}");
+            let back = convert("s", &there, syntax, Syntax::Ron).expect("right");
+            assert_eq!(load(&back, Syntax::Ron).ok().as_ref(), Some(&before), "{back}");
+        }
+    }
+    let tidy = format("s", &of("[\n  1, // one\n  // two\n  2, 3, 4]"), Syntax::Ron).expect("right");
+    let [one, two, h] = ["// one", "// two", "objects"].map(|text| tidy.find(text).expect("it stays"));
+    assert!(one < two && two < h && tidy[one..].starts_with("// one\n"), "{tidy}");
+}
+
+/// A comment behind the last line of a TOML table is that table's, not the next one's.
+#[test]
+fn comments_stay_with_their_table() {
+    let text = "background = 1\n\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1 } # red\n\n[[objects]]\n\
+                Sphere = { center = [2, 0, 0], radius = 1 } # blue\n\n[[lights]]\n\
+                SphereLight = { center = [0, 9, 0], radius = 1, radiance = 9 } # key\n";
+    let tidy = format("s.toml", text, Syntax::Toml).expect("right");
+    let place = |text: &str| tidy.find(text).expect("it stays");
+    let objects: Vec<usize> = tidy.match_indices("[[objects]]").map(|(at, _)| at).collect();
+    assert!(place("# red") < objects[1] && objects[1] < place("# blue"), "{tidy}");
+    assert!(place("# blue") < place("[[lights]]") && place("# key") > place("[[lights]]"), "{tidy}");
+    assert_eq!(format("s.toml", &tidy, Syntax::Toml).expect("right"), tidy);
+}
+
 #[test]
 fn a_wrong_scene_is_not_touched() {
     assert!(format("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron).is_err());

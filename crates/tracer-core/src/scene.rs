@@ -206,7 +206,7 @@ macro_rules! words {
 
 words!(
     Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance, Alpha, Noise, PathLength, Nodes,
-    Leaves, Direct, Indirect
+    Leaves, Direct, Indirect, Samples
 );
 
 #[cfg(test)]

@@ -413,9 +413,27 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = COMPLETIONS_EXAMPLES)]
 pub struct CompletionsArgs {
-    /// Shell
-    #[arg(value_enum)]
-    pub shell: clap_complete::Shell,
+    /// Shell: bash, elvish, fish, nushell, powershell or zsh
+    #[arg(value_enum, hide_possible_values = true)]
+    pub shell: CompletedShell,
+}
+
+/// A shell whose command lines are completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CompletedShell {
+    /// Bash
+    Bash,
+    /// Elvish
+    Elvish,
+    /// Fish
+    Fish,
+    /// Nushell
+    Nushell,
+    /// PowerShell
+    #[value(name = "powershell")]
+    PowerShell,
+    /// Z shell
+    Zsh,
 }
 
 const MAN_EXAMPLES: &str = "\

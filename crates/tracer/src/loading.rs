@@ -73,6 +73,8 @@ fn loaded(args: &SceneArgs, bytes: Option<(String, Vec<u8>)>) -> Result<Result<L
 
 /// The scene and how many warnings there were, which are printed, as what is wrong is.
 fn told_of(args: &SceneArgs, loaded: Result<Loaded, LoadError>, shell: &Shell) -> Result<(SceneDesc, usize), Failure> {
+    // Looking at the files that a wrong scene names asks for a pool, too.
+    use_threads(None)?;
     let Loaded { scene, warnings } = loaded.map_err(|error| {
         let folder = if is_dash(&args.scene) { Path::new("") } else { args.scene.parent().unwrap_or(Path::new("")) };
         told(with_faults_of_files(error, folder), args.diagnostics, shell)
@@ -103,7 +105,10 @@ fn no_scene(path: &Path) -> Option<String> {
     let shown = path.display();
     let why = match extension.as_str() {
         "png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm" => {
-            format!("{shown} is a picture, not a scene; as a texture it stands in one: Texture(file: \"..\")")
+            format!(
+                "{shown} is a picture, not a scene; `tracer new scene.ron --from {shown}` writes the one that tracer \
+                 rendered it of, and as a texture it stands in one: Texture(file: \"..\")"
+            )
         }
         _ if MeshFormat::of(path).is_some() => format!(
             "{shown} is a mesh, not a scene; it stands in one: Mesh(file: \"..\"). `tracer new scene.ron` starts a \

@@ -8,6 +8,7 @@
 
 mod albedo;
 mod alpha;
+mod batch;
 mod depth;
 mod direct;
 mod emission;
@@ -28,7 +29,7 @@ use crate::engine::Surface;
 use crate::lanes::Lanes;
 use crate::math::V3;
 use crate::scene::Scene;
-pub use samples::{DirectLight, LayerSamples};
+pub use batch::{DirectLight, LayerSamples};
 
 /// How a pixel's value comes of its samples.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +69,8 @@ pub enum FilmNumber {
     Variance,
     /// Its standard error relative to its luminance.
     Noise,
+    /// How many samples it has.
+    Samples,
 }
 
 /// How the numbers of a layer in render space become the person's: by a factor and an offset.
@@ -232,6 +235,8 @@ layers! {
     Direct: direct::Direct,
     /// See [`indirect`].
     Indirect: indirect::Indirect,
+    /// See [`samples`].
+    Samples: samples::Samples,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.

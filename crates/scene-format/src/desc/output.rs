@@ -121,9 +121,12 @@ scene_words! {
         /// Light that has come over one surface at most, in W/(sr m^2): lamps and background as the camera sees them,
         /// and what surfaces scatter of light that meets them straight. With `Indirect` it is the picture.
         Direct,
-        /// Light that has come over two surfaces and more, in W/(sr m^2): from wall to wall, through glass onto a table,
-        /// a lit room in a mirror.
+        /// Light that has come over two surfaces and more, in W/(sr m^2): from wall to wall, through glass onto a
+        /// table, a lit room in a mirror.
         Indirect,
+        /// Samples that the pixel has: as many as `render.samples` asks for, fewer here and there where the rendering
+        /// was ended early.
+        Samples,
     }
 }
 

@@ -85,7 +85,7 @@ pub fn load(
         let mut operands = Vec::new();
         let node = reader.node(object, &format!("objects[{number}]"), None, &mut operands);
         let reach = |map: &DAffine3, axis: usize| bounds(&node, &operands, map).map(|corner| corner[axis]);
-        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&reach) };
+        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&reach) };
         let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let parts = parts(&operands);
@@ -193,7 +193,7 @@ impl Nodes<'_, '_, '_> {
         middle: DVec3,
         reach: super::placing::Reach<'_>,
     ) -> DAffine3 {
-        let subject = Subject { noun, local: DAffine3::IDENTITY, middle, reach: Some(reach) };
+        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: Some(middle), reach: Some(reach) };
         let transform = object.value.transform();
         let maps = place_all((self.desc, self.sources), transform, &Placements::One, &subject, self.diagnostics);
         let whole: Vec<DAffine3> = maps.iter().map(|map| *map * local).collect();

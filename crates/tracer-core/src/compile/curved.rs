@@ -139,7 +139,7 @@ pub fn load(
             continue;
         }
         let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
-        let subject = Subject { noun, local, middle: local.translation, reach: Some(&reach) };
+        let subject = Subject { noun, local, middle: Some(local.translation), reach: Some(&reach) };
         let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
         super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);

@@ -101,7 +101,7 @@ pub fn place(desc: &SceneDesc, sources: &Sources<'_>, loaded: &Loaded, diagnosti
             Geometry::Heights(field) => DVec3::from(field.center.value),
             _ => object.local.transform_point3(DVec3::from(data.barycentre())),
         };
-        let subject = Subject { noun: object.noun, local: object.local, middle, reach: Some(&reach) };
+        let subject = Subject { noun: object.noun, local: object.local, middle: Some(middle), reach: Some(&reach) };
         let maps = place_all((desc, sources), object.transform, object.placements, &subject, diagnostics);
         let at = object.transform.first().map_or(object.span, |t| t.span);
         check(&maps, at, object.noun, diagnostics);

@@ -14,8 +14,9 @@ pub struct Subject<'a> {
     pub noun: &'a str,
     /// From its own frame to the one that it is written in.
     pub local: DAffine3,
-    /// The fixed point of steps that name none, where it is written.
-    pub middle: DVec3,
+    /// The fixed point of steps that name none, where it is written, which goes with what is moved; `None`: the origin,
+    /// which stays where it is.
+    pub middle: Option<DVec3>,
     /// How far it reaches where a map puts what is written; `None`: nobody knows, it is a group.
     pub reach: Option<Reach<'a>>,
 }
@@ -25,19 +26,18 @@ pub type Reach<'a> = &'a dyn Fn(&DAffine3, usize) -> [f64; 2];
 
 impl Subject<'_> {
     /// A group, about the origin.
-    const GROUP: Subject<'static> =
-        Subject { noun: "group", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: None };
+    const GROUP: Subject<'static> = Subject { noun: "group", local: DAffine3::IDENTITY, middle: None, reach: None };
 
     /// A thing that is not known, since something else is wrong with it, of which no fault is told.
     pub fn unknown(noun: &str) -> Subject<'_> {
-        Subject { noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&|_, _| [0.0, 1.0]) }
+        Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&|_, _| [0.0, 1.0]) }
     }
 
     /// The same under a map: what placements move.
     fn under<T>(&self, map: &DAffine3, then: impl FnOnce(&Subject<'_>) -> T) -> T {
         let Some(reach) = self.reach else { return then(&Subject::GROUP) };
         let reach = |placement: &DAffine3, axis: usize| reach(&(*placement * *map), axis);
-        then(&Subject { noun: self.noun, local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&reach) })
+        then(&Subject { noun: self.noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&reach) })
     }
 }
 
@@ -60,7 +60,8 @@ fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnostics: 
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
         let here = |about: &Option<Box<[f64; 3]>>, map: &DAffine3| {
-            about.as_deref().map_or_else(|| map.transform_point3(subject.middle), |about| DVec3::from(*about))
+            let middle = || subject.middle.map_or(DVec3::ZERO, |middle| map.transform_point3(middle));
+            about.as_deref().map_or_else(middle, |about| DVec3::from(*about))
         };
         let step = match &transform.value {
             Transform::Translate(by) => Ok(DAffine3::from_translation(DVec3::from(*by))),
@@ -254,8 +255,11 @@ mod tests {
             [y, y + 1.0]
         };
         let mut found = Diagnostics::new();
-        let map =
-            place(steps, &Subject { noun: "cube", local: DAffine3::IDENTITY, middle, reach: Some(&low) }, &mut found);
+        let map = place(
+            steps,
+            &Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(middle), reach: Some(&low) },
+            &mut found,
+        );
         assert!(found.is_empty(), "{found:?}");
         map
     }
@@ -271,6 +275,36 @@ mod tests {
         let map = placed(&steps, DVec3::new(1.0, 0.0, 0.0));
         near(map.transform_point3(DVec3::new(1.0, 0.0, 0.0)), [11.0, 0.0, 0.0]);
         near(map.transform_point3(DVec3::new(2.0, 0.0, 0.0)), [11.0, 2.0, 0.0]);
+    }
+
+    /// In `placements`, and of groups, steps that name no point are about the origin, wherever a move has brought the
+    /// thing.
+    #[test]
+    fn placements_and_groups_are_about_the_origin() {
+        let text = r#"Scene(background: 1, objects: [
+            Sphere(center: (0, 0, 0), radius: 1, placements: [
+                [Translate((1, 0, 0)), Rotate(axis: (0, 0, 1), degrees: 90)],
+                [Translate((1, 0, 0)), Scale(0.5)],
+                [Translate((1, 0, 0)), Rotate(axis: (0, 0, 1), degrees: 90, about: (1, 0, 0))],
+            ]),
+            Group(transform: [Translate((1, 0, 0)), Rotate(axis: (0, 0, 1), degrees: 90)], objects: [
+                Sphere(center: (0, 0, 0), radius: 1),
+            ]),
+        ])"#;
+        let loaded = scene_format::load_str("s", text, scene_format::Syntax::Ron, std::path::Path::new(""), &[]);
+        let desc = loaded.expect("a scene").scene;
+        let centres = |object: usize| -> Vec<DVec3> {
+            let placements = desc.objects[object].value.placements();
+            let subject = Subject::unknown("sphere");
+            let maps = place_all((&desc, &DISK), &[], placements, &subject, &mut Diagnostics::new());
+            maps.iter().map(|map| map.transform_point3(DVec3::ZERO)).collect()
+        };
+        let of = centres(0);
+        assert_eq!((of.len(), centres(1).len()), (3, 1));
+        near(of[0], [0.0, 1.0, 0.0]);
+        near(of[1], [0.5, 0.0, 0.0]);
+        near(of[2], [1.0, 0.0, 0.0]);
+        near(centres(1)[0], [0.0, 1.0, 0.0]);
     }
 
     #[test]
@@ -370,7 +404,8 @@ mod tests {
         let fitted = |extent, about: Option<[f64; 3]>| {
             let fit = Transform::FitTo { extent, length: 12.0, about: about.map(Box::new) };
             let steps = [Transform::Translate([5.0, 0.0, 0.0]), stretched.clone(), turned.clone(), fit];
-            let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&cube) };
+            let subject =
+                Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&cube) };
             let mut found = Diagnostics::new();
             let map = place(&steps.map(Spanned::from), &subject, &mut found);
             assert!(found.is_empty(), "{found:?}");
@@ -392,7 +427,8 @@ mod tests {
             let rows = map.matrix3.row(axis).abs();
             [map.translation[axis] - rows.x - rows.z, map.translation[axis] + rows.x + rows.z]
         };
-        let subject = Subject { noun: "rectangle", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&flat) };
+        let subject =
+            Subject { noun: "rectangle", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&flat) };
         let fit = |extent| Transform::FitTo { extent, length: 1.0, about: None };
         let turn = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: 90.0, about: None };
         let back = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: -90.0, about: None };
@@ -423,7 +459,8 @@ mod tests {
         let list = steps.into_iter().map(|steps| steps.into_iter().map(Spanned::from).collect::<Vec<_>>());
         let placements = Placements::List(Box::new(list.collect()));
         let own = [Transform::Scale { factor: [1.0, 2.0, 1.0], about: None }].map(Spanned::from);
-        let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: DVec3::ZERO, reach: Some(&cube) };
+        let subject =
+            Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&cube) };
         let desc = scene_format::load_str(
             "s",
             "Scene(objects: [Box(size: 1)])",

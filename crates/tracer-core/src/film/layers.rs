@@ -243,6 +243,7 @@ impl Film {
             Pixel::Direct => return self.direct_of_pixel(x, y, before.sums, pixel),
             Pixel::Indirect => return self.indirect_of_pixel(x, y, before.sums, pixel),
             Pixel::OfFilm(FilmNumber::Variance) => return pixel.fill(finite(self.variance(x, y))),
+            Pixel::OfFilm(FilmNumber::Samples) => return pixel.fill(tile.samples[k] as f32),
             Pixel::OfFilm(FilmNumber::Noise) => return pixel.fill(finite(self.noise(x, y))),
         };
         for (c, value) in pixel.iter_mut().enumerate() {

@@ -9,7 +9,10 @@ use scene_format::desc::{
     Acceleration, FisheyeMapping, Integrator, Material, MaterialRef, Name, Object, PerAxis, PixelFilter, Placements,
     Projection, Rectangle,
 };
-use tracer_core::{Crop, Film, Layer, LayerSet, Level, Misfit, RenderOptions, Scene, Unobserved, render, resume};
+use std::ops::ControlFlow;
+use tracer_core::{
+    Crop, Film, Layer, LayerSet, Level, Misfit, Observer, Progress, RenderOptions, Scene, Unobserved, render, resume,
+};
 use tracer_reference::{FirstHit, first_hits};
 
 fn with_layers(options: RenderOptions) -> RenderOptions {
@@ -368,6 +371,27 @@ fn what_rays_cost_is_counted() {
     assert!(bright.iter().sum::<f32>() > dark.iter().sum::<f32>() && dark.iter().any(|&n| n >= 3.0), "{dark:?}");
     let leaves = of(Layer::Leaves, &lit);
     assert!(leaves.iter().any(|&n| n >= 1.0) && leaves.iter().zip(&bright).all(|(leaf, node)| *leaf <= 8.0 * node));
+}
+
+/// Ends when there are so many samples.
+struct Until(u64);
+
+impl Observer for Until {
+    fn progress(&self, progress: Progress) -> ControlFlow<()> {
+        if progress.samples_done < self.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+/// Where a rendering was ended early, pixels have unlike numbers of samples.
+#[test]
+fn samples_are_counted() {
+    let all = render(&compiled(&everything()), &samples(5), &Unobserved);
+    assert!(layer::<1>(&all, Layer::Samples).iter().all(|[count]| *count == 5.0));
+    let film = render(&compiled(&everything()), &samples(64), &Until(3000));
+    let counts = layer::<1>(&film, Layer::Samples);
+    let (least, most) = counts.iter().fold((f32::MAX, 0.0f32), |(a, b), [x]| (a.min(*x), b.max(*x)));
+    assert_eq!((least as u32, most as u32), film.samples().into_inner());
+    assert!(least < most, "{least} {most}");
 }
 
 /// The standard error relative to the pixel's own luminance, as the film has both.

@@ -1,16 +1,16 @@
 //! The picture is the same, byte for byte, in every combination: threads x lanes x crop x acceleration, with batches of
-//! 4, 8, 12 and 16 items. [`crate::same_bytes`] goes further along each of these alone. Builds with and without
-//! optimisation are compared by the goldens (CONTRIBUTING.md names the command).
+//! 4, 8, 12 and 16 items: all of them with `TRACER_PROOFS=long`, else so many that every two settings meet.
+//! [`crate::same_bytes`] goes further along each of these alone. Builds with and without optimisation are compared by
+//! the goldens (CONTRIBUTING.md names the command).
 
 use crate::same_bytes::{bits, cut, everything, many_balls, options};
-use crate::support::compiled;
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, torus};
+use crate::support::{compiled, effort};
 use scene_format::SceneDesc;
 use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform, Transparent};
 use scene_format::diagnostic::Spanned;
-use tracer_core::Level;
-use tracer_core::{Crop, RenderOptions, Unobserved, develop};
+use tracer_core::{Crop, Film, Level, Look, RenderOptions, Unobserved, develop};
 
 /// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map,
 /// clamping.
@@ -53,25 +53,74 @@ fn every_combination(name: &str, mut desc: SceneDesc) {
     let look = compiled(&desc).look;
     // Under a background, too, where by itself the engine does not share.
     let reuse = Some(desc.render.reuse == Reuse::Blocks);
-    let mut expected = None;
-    for acceleration in [Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None] {
-        desc.render.acceleration = acceleration;
+    // Without hardware fma a sample costs a hundred times more: `same_bytes` has that level.
+    let levels: Vec<_> = Level::available().into_iter().filter(|&level| level != Level::PORTABLE).collect();
+    let render = |acceleration: usize, level: usize, threads: usize, crop: usize| {
+        desc.render.acceleration = ACCELERATIONS[acceleration];
         let scene = compiled(&desc);
-        let whole = Crop::whole(scene.size);
-        // Without hardware fma a sample costs a hundred times more: `same_bytes` has that level.
-        for level in Level::available().into_iter().filter(|&level| level != Level::PORTABLE) {
-            for threads in [1, 3] {
-                for crop in std::iter::once(whole).chain(CROPS) {
-                    let options = RenderOptions { threads, level: Some(level), crop: Some(crop), reuse, ..options() };
-                    let film = tracer_core::render(&scene, &options, &Unobserved);
-                    let (film_bits, image) = (bits(&film), develop(&film, &look));
-                    let (pixels, display) = expected.get_or_insert_with(|| (film_bits.clone(), image.display.clone()));
-                    let place = format!("{name}: {acceleration:?}, {}, {threads} threads, {crop:?}", level.name());
-                    assert!(film_bits == cut(pixels, scene.size, crop), "the film differs: {place}");
-                    let colors: Vec<[f32; 3]> = display.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
-                    let part = cut(&colors, scene.size, crop);
-                    assert!(image.display == part.as_flattened(), "the picture differs: {place}");
-                }
+        let (level, threads) = (levels[level], THREADS[threads]);
+        let crop = crop.checked_sub(1).map_or(Crop::whole(scene.size), |crop| CROPS[crop]);
+        let options = RenderOptions { threads, level: Some(level), crop: Some(crop), reuse, ..options() };
+        let film = tracer_core::render(&scene, &options, &Unobserved);
+        let place = format!("{name}: {:?}, {}, {threads} threads, {crop:?}", ACCELERATIONS[acceleration], level.name());
+        (film, crop, scene.size, place)
+    };
+    compare(&look, combinations(levels.len(), effort() > 1), render);
+}
+
+/// Renders each combination; all must be the first's, which is the whole picture.
+fn compare(
+    look: &Look,
+    combinations: Vec<[usize; 4]>,
+    mut render: impl FnMut(usize, usize, usize, usize) -> (Film, Crop, [u32; 2], String),
+) {
+    let mut expected = None;
+    for [acceleration, level, threads, crop] in combinations {
+        let (film, crop, size, place) = render(acceleration, level, threads, crop);
+        let (film_bits, image) = (bits(&film), develop(&film, look));
+        let (pixels, display) = expected.get_or_insert_with(|| (film_bits.clone(), image.display.clone()));
+        assert!(film_bits == cut(pixels, size, crop), "the film differs: {place}");
+        let colors: Vec<[f32; 3]> = display.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
+        let part = cut(&colors, size, crop);
+        assert!(image.display == part.as_flattened(), "the picture differs: {place}");
+    }
+}
+
+const ACCELERATIONS: [Acceleration; 3] = [Acceleration::Bvh, Acceleration::BoundingBox, Acceleration::None];
+const THREADS: [usize; 2] = [1, 3];
+
+/// Numbers of acceleration, level, threads and crop (0: none), so that every two of them meet in every way; all
+/// combinations where time does not matter.
+fn combinations(levels: usize, all: bool) -> Vec<[usize; 4]> {
+    let pairs = || (0..=CROPS.len()).flat_map(|crop| (0..ACCELERATIONS.len()).map(move |way| (crop, way)));
+    if all {
+        let others = |level| (0..THREADS.len()).map(move |threads| (level, threads));
+        let rest = || (0..levels).flat_map(others);
+        return pairs()
+            .flat_map(|(crop, way)| rest().map(move |(level, threads)| [way, level, threads, crop]))
+            .collect();
+    }
+    pairs()
+        .map(|(crop, way)| {
+            let sum = crop + way;
+            // Where the levels are even in number they would go in step with the threads.
+            let turn = if levels % 2 == 0 { sum / levels } else { 0 };
+            [way, sum % levels, (sum + turn) % THREADS.len(), crop]
+        })
+        .collect()
+}
+
+/// Every two meet in every way, however many levels a CPU has.
+#[test]
+fn every_pair_is_covered() {
+    for levels in 1..=3 {
+        let counts = [ACCELERATIONS.len(), levels, THREADS.len(), CROPS.len() + 1];
+        let few = combinations(levels, false);
+        assert_eq!(combinations(levels, true).len(), counts.iter().product::<usize>());
+        assert!(few.len() <= 3 * (CROPS.len() + 1) && few[0] == [0, 0, 0, 0]);
+        for (a, b) in (0..4).flat_map(|a| (a + 1..4).map(move |b| (a, b))) {
+            for (x, y) in (0..counts[a]).flat_map(|x| (0..counts[b]).map(move |y| (x, y))) {
+                assert!(few.iter().any(|row| row[a] == x && row[b] == y), "{levels} levels: {a} {x}, {b} {y}");
             }
         }
     }

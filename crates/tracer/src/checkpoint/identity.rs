@@ -4,6 +4,7 @@ use super::hashes::{file_note, files_are_told};
 use super::picture::{backdrop_told, mattes_told};
 use super::{picture_notes, told};
 use crate::failure::Failure;
+use crate::write::is_one_file;
 use scene_format::desc::{Acceleration, ToneMap};
 use scene_format::{SceneDesc, hash_hex};
 use sha2::{Digest, Sha256};
@@ -90,6 +91,15 @@ fn hash_of_film(desc: &mut SceneDesc) -> String {
 /// SHA-256 of a file's contents.
 fn hash_of(path: &Path) -> Result<String, Failure> {
     sha256_of(path).map_err(|error| Failure::could_not(format!("cannot read {}: {error}", path.display())))
+}
+
+/// Whether a file is one of those that a film's notes name: the scene's own, or one with the contents of any of its
+/// files, wherever that lay.
+pub fn is_of_scene(path: &Path, notes: &[Note]) -> bool {
+    let files = || notes.iter().filter(|(name, _)| name.starts_with(FILE));
+    let is_scene = notes.iter().any(|(name, value)| name == "scene" && is_one_file(path, Path::new(value)));
+    let hash = || sha256_of(path).ok().filter(|_| path.is_file());
+    is_scene || (files().next().is_some() && hash().is_some_and(|hash| files().any(|(_, value)| *value == hash)))
 }
 
 /// SHA-256 of a file's contents.

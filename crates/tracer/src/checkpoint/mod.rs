@@ -11,7 +11,7 @@ mod told;
 
 pub use flushing::Flushing;
 pub use hashes::{HashOf, Hashes, Hashing, files_are_told};
-pub use identity::{Asked, Extent, differences, note_differences, notes, now, sha256_of};
+pub use identity::{Asked, Extent, differences, is_of_scene, note_differences, notes, now, sha256_of};
 pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};

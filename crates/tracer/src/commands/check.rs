@@ -4,11 +4,12 @@ use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
-use crate::loading::{Known, compile, lights, load_to_look};
+use crate::loading::{Known, compile, is_dash, lights, load_to_look};
 use crate::shell::{Shell, counted};
-use scene_format::Syntax;
+use scene_format::diagnostic::Severity;
+use scene_format::{Diagnostic, LoadError, Syntax, codes, is_library, load_str};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
@@ -36,7 +37,30 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     Ok(ExitCode::from(if wrong > 0 { exit::WRONG } else { exit::DONE }))
 }
 
+/// What is there to be included has nothing to render, and is told so, unless more is wrong with it.
+fn is_sound_library(scene: &Path, syntax: Option<Syntax>) -> bool {
+    let Some(text) = Some(scene).filter(|scene| !is_dash(scene)).and_then(|scene| std::fs::read_to_string(scene).ok())
+    else {
+        return false;
+    };
+    let syntax = syntax.or_else(|| Syntax::from_path(scene)).unwrap_or_else(|| Syntax::guess(&text));
+    if !is_library(&text, syntax) {
+        return false;
+    }
+    let name = scene.display().to_string();
+    let folder = scene.parent().unwrap_or(Path::new(""));
+    let Err(LoadError::Invalid { diagnostics, .. }) = load_str(&name, &text, syntax, folder, &[]) else { return false };
+    let is_wrong = |fault: &Diagnostic| fault.severity == Severity::Error && fault.code != codes::NO_OBJECTS;
+    !diagnostics.iter().any(is_wrong)
+}
+
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
+    if is_sound_library(&scene, args.syntax.map(Syntax::from)) {
+        if args.diagnostics == DiagnosticsForm::Text {
+            writeln!(std::io::stdout().lock(), "{}: ok, to be included: nothing to render", scene.display())?;
+        }
+        return Ok(());
+    }
     let mut args_of_scene = args.of(scene);
     let (desc, warnings) = load_to_look(&mut args_of_scene, shell)?;
     let scene = compile(&desc, args.diagnostics, Known::Nothing, shell)?;

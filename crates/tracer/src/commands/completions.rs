@@ -1,16 +1,29 @@
 //! `tracer completions`: a script that completes command lines.
 
-use crate::args::{Cli, CompletionsArgs};
+use crate::args::{Cli, CompletedShell, CompletionsArgs};
 use crate::failure::{Failure, exit};
 use clap::CommandFactory;
+use clap_complete::{Generator, Shell, generate};
 use std::io::Write;
 use std::process::ExitCode;
 
 pub(super) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
-    let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "tracer", &mut script);
+    let script = match args.shell {
+        CompletedShell::Bash => script(Shell::Bash),
+        CompletedShell::Elvish => script(Shell::Elvish),
+        CompletedShell::Fish => script(Shell::Fish),
+        CompletedShell::Nushell => script(clap_complete_nushell::Nushell),
+        CompletedShell::PowerShell => script(Shell::PowerShell),
+        CompletedShell::Zsh => script(Shell::Zsh),
+    };
     let mut out = std::io::stdout().lock();
     out.write_all(&script)?;
     out.flush()?;
     Ok(ExitCode::from(exit::DONE))
+}
+
+fn script(shell: impl Generator) -> Vec<u8> {
+    let mut script = Vec::new();
+    generate(shell, &mut Cli::command(), "tracer", &mut script);
+    script
 }

@@ -49,6 +49,7 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
         .map_err(|error: LoadError| told(error, args.diagnostics, shell))?;
     match output {
         Some(path) => {
+            spare_named(path, args, &name, &text, from)?;
             save(path, converted.as_bytes())?;
             let moves = folder(path) != folder(&args.scene) && !is_dash(&args.scene);
             if moves && names_files(&name, &text, from) {
@@ -70,6 +71,23 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
         ));
     }
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// Sees that the scene that is written replaces no file that the other one names.
+fn spare_named(path: &Path, args: &ConvertArgs, name: &str, text: &str, syntax: Syntax) -> Result<(), Failure> {
+    let Some(folder) = args.scene.parent().filter(|_| path.is_file() && !is_dash(&args.scene)) else { return Ok(()) };
+    let loaded = scene_format::load_bytes(name, text.as_bytes().to_vec(), Some(syntax), folder, &[]);
+    // What is wrong with it is no matter here: that it names files is.
+    let named = match &loaded {
+        Ok(loaded) => loaded.scene.mentioned(),
+        Err(LoadError::Invalid { files, .. }) => files.iter().map(|file| folder.join(&file.path)).collect(),
+        Err(LoadError::Io { .. }) => Default::default(),
+    };
+    if named.iter().any(|file| is_one_file(path, file)) {
+        let shown = path.display();
+        return Err(Failure::wrong(format!("-o {shown} would replace a file that the scene names; name another file")));
+    }
+    Ok(())
 }
 
 /// Whether a scene names files by where they lie from its own folder.

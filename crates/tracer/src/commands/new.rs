@@ -53,7 +53,11 @@ pub(super) fn run(args: &NewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     }
     let Made { text, options } = match &args.from {
         Some(picture) => of_picture(picture, args, syntax, shell)?,
-        None => Made { text: of_template(args.template, syntax)?, options: Vec::new() },
+        None => {
+            let text = of_template(args.template, syntax)?;
+            let stem = path.file_stem().filter(|_| !is_dash(path)).map(|stem| stem.to_string_lossy().into_owned());
+            Made { text: named(&text, stem.as_deref(), path), options: Vec::new() }
+        }
     };
     if is_dash(path) {
         let mut out = std::io::stdout().lock();
@@ -80,6 +84,16 @@ struct Made {
 
 fn of_template(template: Template, syntax: Syntax) -> Result<String, Failure> {
     in_syntax("template", template.text(), Syntax::Ron, syntax)
+}
+
+/// The command that renders a template, which stands in its comment, for a file of this name.
+fn named(text: &str, stem: Option<&str>, path: &Path) -> String {
+    let Some(stem) = stem else { return text.to_owned() };
+    let file = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+    text.replace(
+        "tracer render ball.ron -o ball.png",
+        &format!("tracer render {} -o {}", quoted(&file), quoted(&format!("{stem}.png"))),
+    )
 }
 
 fn in_syntax(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, Failure> {

@@ -231,11 +231,13 @@ fn schema_completions_and_man_pages() {
     let sandbox = Sandbox::new();
     let schema: Value = serde_json::from_str(&sandbox.run(&["schema"]).ends(0).silent().out_text()).expect("JSON");
     assert!(schema["$schema"].as_str().is_some_and(|draft| draft.contains("draft-07")));
-    for shell in ["bash", "zsh", "fish", "powershell"] {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish", "nushell"] {
         let script = sandbox.run(&["completions", shell]).ends(0).silent().out_text();
         assert!(COMMANDS.iter().all(|command| script.contains(command)), "{shell}");
     }
-    assert!(sandbox.run(&["man"]).ends(0).silent().out_text().contains(".TH tracer 1"));
+    let page = sandbox.run(&["man"]).ends(0).silent().out_text();
+    let sections = [".TH tracer 1", ".SH EXAMPLES", ".SH \"EXIT STATUS\"", ".SH FILES", ".SH ENVIRONMENT"];
+    assert!(sections.iter().all(|section| page.contains(section)) && !page.contains("EXTRA"), "{page}");
     assert!(sandbox.run(&["man", "render"]).ends(0).silent().out_text().contains("\\-\\-samples"));
     assert!(sandbox.run(&["man", "golden-run"]).ends(0).silent().out_text().contains("\\-\\-junit"));
     sandbox.run(&["man", "nothing"]).ends(2).says(&["nothing", "render"]);

@@ -60,6 +60,48 @@ fn furnished() -> Sandbox {
     sandbox
 }
 
+/// A scene that is written replaces no file that the one it was made of names, not even by force.
+#[test]
+fn converted_scenes_spare_what_they_include() {
+    let sandbox = Sandbox::new();
+    let library = "Scene(materials: { \"red\": Diffuse(albedo: (0.6, 0.1, 0.1)) })";
+    sandbox.write("lib.ron", library);
+    sandbox.write(
+        "all.toml",
+        "include = [\"lib.ron\"]\nbackground = 1\n[[objects]]\n\
+         Sphere = { center = [0, 0, 0], radius = 1, material = \"red\" }\n",
+    );
+    for output in ["lib.ron", "./lib.ron"] {
+        let says = format!("-o {output} would replace a file that the scene names");
+        sandbox.run(&["convert", "all.toml", "-o", output, "--force"]).ends(2).says(&[&says]);
+    }
+    assert_eq!(sandbox.text("lib.ron"), library);
+    sandbox.run(&["convert", "all.toml", "-o", "all.ron"]).ends(0);
+}
+
+/// The others are looked at whatever is wrong with the first; what is there to be included is sound, and is laid out.
+#[test]
+fn many_scenes_are_checked() {
+    let sandbox = Sandbox::new();
+    sandbox.write(
+        "a.ron",
+        "Scene(background: 1, objects: [Mesh(file: \"no.obj\"), Sphere(centre: (0, 0, 0), radius: 1)])",
+    );
+    sandbox.write("b.ron", "Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])");
+    sandbox.write("lib.ron", "Scene(vars: {\"h\": 2}, materials: {\"red\": Diffuse(albedo: (0.6, 0.1, 0.1))})");
+    sandbox.write("bad.ron", "Scene(materials: {\"red\": Diffuse(albedo: (7, 0.1, 0.1))})");
+    let ran = sandbox.run(&["check", "a.ron", "b.ron", "lib.ron", "bad.ron"]).ends(2);
+    let out = ran.out_text();
+    ran.says(&["centre", "no.obj", "E0207", "2 of 4 scenes are wrong"]);
+    assert!(out.contains("b.ron: ok, 1 object") && out.contains("lib.ron: ok, to be included"), "{out}");
+    sandbox.run(&["fmt", "lib.ron"]).ends(0);
+    assert!(sandbox.text("lib.ron").contains("vars: {\"h\": 2}"), "{}", sandbox.text("lib.ron"));
+    // Names that nobody has given and values out of range are laid out all the same.
+    sandbox.write("c.ron", "Scene(background: 1, objects: [Sphere(center: (0,0,0), radius: -1, material: \"rde\")])");
+    sandbox.run(&["fmt", "c.ron"]).ends(0);
+    assert!(sandbox.text("c.ron").contains("radius: -1, material: \"rde\""), "{}", sandbox.text("c.ron"));
+}
+
 /// Nothing that the scene is made of is replaced, under none of its names, and nothing that is compared.
 #[test]
 fn inputs_are_never_overwritten() {
@@ -80,6 +122,20 @@ fn inputs_are_never_overwritten() {
         .says(&["would replace the scene"]);
     sandbox.run(&["compare", "t.png", "m.png", "-o", "t.png"]).ends(2).says(&["-o t.png would replace a picture"]);
     sandbox.run(&["compare", "t.png", "m.png", "-o", "./m.png"]).ends(2).says(&["./m.png would replace", "(m.png)"]);
+    // Parts know the files by what they hold, and the scene by its name.
+    for part in ["1/2", "2/2"] {
+        let name = format!("{}.tracer", &part[..1]);
+        sandbox.run(&["render", "all.ron", "-s", "2", "--part", part, "-o", &name]).ends(0);
+    }
+    let merge = |more: &[&str]| sandbox.run(&[&["merge", "1.tracer", "2.tracer"][..], more].concat());
+    for input in ["t.png", "m.png", "./t.png"] {
+        merge(&["-o", input]).ends(2).says(&[&format!("-o {input} would replace a file of the scene")]);
+    }
+    for input in ["t.obj", "t.txt", "all.ron"] {
+        let says = format!("--report {input} would replace a file of the scene");
+        merge(&["-o", "out.png", "--report", input]).ends(2).says(&[&says]);
+    }
+    ["1.tracer", "2.tracer"].iter().for_each(|part| std::fs::remove_file(sandbox.path(part)).expect("it is there"));
     assert_eq!(sandbox.files(), names);
     assert!(names.iter().zip(before).all(|(name, bytes)| sandbox.read(name) == bytes));
     // Pictures and reports of earlier runs are.

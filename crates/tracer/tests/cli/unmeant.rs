@@ -130,6 +130,13 @@ fn empty_pictures_are_told() {
     let lamp = "lights: [SphereLight(center: (0, 1, 30), radius: 0.5, radiance: 10)],";
     assert_eq!(codes(&sandbox, &scene(lamp, behind)), ["W0308"]);
     assert!(codes(&sandbox, &scene(lamp, "Sphere(center: (0, 0, 0), radius: 1)")).is_empty());
+    // A background does not help who stands within something, whatever it is.
+    let within = "Cylinder(from: (0, 0, 6), to: (0, 2, 6), radius: 1, caps: true)";
+    assert_eq!(codes(&sandbox, &scene("background: 0.5,", within)), ["W0308"]);
+    // So little light that all of it is shown black; what a tone map makes of it, nobody knows.
+    let ball = "Sphere(center: (0, 0, 0), radius: 1)";
+    assert_eq!(codes(&sandbox, &scene("background: 0.5, effects: Effects(exposure: -14),", ball)), ["W0308"]);
+    assert!(codes(&sandbox, &scene("background: 0.5, effects: Effects(exposure: -10),", ball)).is_empty());
     // White under white light from everywhere is as bright as that.
     let white = "Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: 1))";
     assert!(codes(&sandbox, &scene("background: 1,", white)).is_empty());

@@ -21,10 +21,24 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["layers::first_hits_are_those_of_the_reference"]),
     },
     Mutant {
+        name: "two-surfaces-are-direct",
+        file: "crates/tracer-core/src/engine/direct.rs",
+        find: "pub const LAST: u32 = 1;",
+        replace: "pub const LAST: u32 = 2;",
+        caught_by: proofs(&["direct::direct_light_is_the_picture_without_bounces"]),
+    },
+    Mutant {
+        name: "chains-bring-no-direct-light",
+        file: "crates/tracer-core/src/engine/techniques/glints.rs",
+        find: "shade(engine, pass, vertex, batch);",
+        replace: "kernels.shade(scene, pass, vertex, batch);",
+        caught_by: proofs(&["direct::"]),
+    },
+    Mutant {
         name: "misses-do-not-count",
         file: FILM,
-        find: "Pixel::Mean => tile.samples[k].max(1)",
-        replace: "Pixel::Mean => hits.max(1)",
+        find: "Pixel::Mean | Pixel::Counted(_) => tile.samples[k].max(1)",
+        replace: "Pixel::Mean | Pixel::Counted(_) => hits.max(1)",
         caught_by: proofs(&["layers::layers_are_averaged_as_the_picture_is"]),
     },
     Mutant {

@@ -170,8 +170,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "barycentre-left-behind",
         file: PLACING,
-        find: "|| map.transform_point3(subject.middle)",
-        replace: "|| subject.middle",
+        find: "|middle| map.transform_point3(middle));",
+        replace: "|middle| middle);",
         caught_by: units(&["compile::placing"]),
     },
     Mutant {

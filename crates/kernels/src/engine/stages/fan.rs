@@ -20,11 +20,11 @@
 //! The tree's t is that of a point of the triangle which is off by 10uM from its plane, and by 57u L^3 / (A |n.d|)
 //! along the ray, whose distance from the plane changes by |n.d| for each of its length: L is the longest side, A the
 //! area. (6u m^2 / |det| of the depth for the roundings of the edge functions, and twice 8u m^2 / |det| where a part
-//! takes what lies beside it; m^2 is 3 L^2 at most, the depth times the largest component's inverse 1.8 L, and |det| 2 A
-//! |n.d| but for 14uM L, which its corners may be off.) Where 14uM L is at most half of that, the distance from the
-//! plane is less than 2 * 57u L^3 / A, which is 800uM L^2 / (2 A), as L is at most 3.5M. Where it is more, t may be that
-//! of any point of the triangle, which is L |n.d| from the plane, less than 28uM L^2 / (2 A). The slack here is 128uM (1
-//! + 8 L^2 / (2 A)), and what is nearer than that is never called one side.
+//! takes what lies beside it; m^2 is 3 L^2 at most, the depth times the largest component's inverse 1.8 L, and |det|
+//! 2 A |n.d| but for 14uM L, which its corners may be off.) Where 14uM L is at most half of that, the distance from the
+//! plane is less than 2 * 57u L^3 / A, which is 800uM L^2 / (2 A), as L is at most 3.5M. Where it is more, t may be
+//! that of any point of the triangle, which is L |n.d| from the plane, less than 28uM L^2 / (2 A). The slack here is
+//! 128uM (1 + 8 L^2 / (2 A)), and what is nearer than that is never called one side.
 
 use super::shaft::{Ends, Shaft};
 use crate::engine::batch::{Group, Members};

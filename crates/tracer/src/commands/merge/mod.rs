@@ -6,7 +6,7 @@ use super::render::outputs::{self, Output};
 use super::render::rescue::{Pictures, pictures};
 use super::render::write_report;
 use crate::args::{DenoiseName, MergeArgs};
-use crate::checkpoint::{Asked, differences, look, mattes, part_told, picture_layers, provenance};
+use crate::checkpoint::{Asked, differences, is_of_scene, look, mattes, part_told, picture_layers, provenance};
 use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, use_threads};
@@ -35,6 +35,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
     let Sorted { parts, gaps } = sorted(parts, damaged, args, allowed, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
+    spare_scene(args, files(&outputs), &heads)?;
     if args.denoise.is_on() {
         denoising::check(heads[0].has_halves(), heads[0].layers())?;
     }
@@ -96,13 +97,34 @@ fn files(outputs: &[Output]) -> impl Iterator<Item = (&'static str, &Path)> {
     })
 }
 
+/// The report, where it is a file.
+fn report(args: &MergeArgs) -> Option<(&'static str, &Path)> {
+    args.report.as_deref().filter(|report| !is_dash(report)).map(|report| ("--report", report))
+}
+
+/// Sees that nothing that is written replaces a file of the scene, as the parts know those.
+fn spare_scene<'a>(
+    args: &'a MergeArgs,
+    written: impl Iterator<Item = (&'static str, &'a Path)>,
+    heads: &[FilmHead],
+) -> Result<(), Failure> {
+    for (option, path) in written.chain(report(args)).filter(|(_, path)| path.is_file()) {
+        if heads.iter().any(|head| is_of_scene(path, &head.notes)) {
+            let shown = path.display();
+            return Err(Failure::wrong(format!(
+                "{option} {shown} would replace a file of the scene; name another file"
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Sees that nothing that is written replaces a part.
 fn spare_parts<'a>(
     args: &'a MergeArgs,
     written: impl Iterator<Item = (&'static str, &'a Path)>,
 ) -> Result<(), Failure> {
-    let report = args.report.as_deref().filter(|report| !is_dash(report)).map(|report| ("--report", report));
-    for (option, path) in written.chain(report) {
+    for (option, path) in written.chain(report(args)) {
         if args.parts.iter().any(|part| is_one_file(path, part)) {
             return Err(Failure::wrong(format!("{option} {} would replace a part; name another file", path.display())));
         }

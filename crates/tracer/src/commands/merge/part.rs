@@ -1,6 +1,6 @@
 //! `tracer merge -o FILE.tracer`: parts that lie together become one part, so that many machines can merge.
 
-use super::{Sorted, check_film, failure, read, sorted, spare_parts};
+use super::{Sorted, check_film, failure, read, sorted, spare_parts, spare_scene};
 use crate::args::MergeArgs;
 use crate::checkpoint::part_told;
 use crate::failure::{Failure, exit};
@@ -32,6 +32,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let Sorted { parts, .. } = sorted(parts, damaged, args, Gaps::Around, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     check_film(&heads[0])?;
+    spare_scene(args, std::iter::once(("-o", path.as_path())), &heads)?;
     let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
     let film = Film::merge(&heads, open, Gaps::Around).map_err(|error| failure(&error, &parts))?;
     let merged = started.elapsed().as_secs_f64();

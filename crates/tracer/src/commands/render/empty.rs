@@ -9,7 +9,27 @@ pub(super) fn warning(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     if film.crop() != Crop::whole(film.size()) {
         return None;
     }
-    empty(film, desc).or_else(|| white(film, desc))
+    empty(film, desc).or_else(|| dark(film, desc)).or_else(|| white(film, desc))
+}
+
+/// What an eight-bit picture shows as black: half of a 255th, which is where sRGB is linear (IEC 61966-2-1).
+const BLACK: f64 = 0.5 / 255.0 / 12.92;
+
+/// Of a picture in which there is light, but so little that all of it is shown black.
+fn dark(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+    // A curve lifts what is dark, and before a backdrop little may be seen.
+    if desc.effects.tone_map != ToneMap::None || desc.output.backdrop.is_some() {
+        return None;
+    }
+    let [width, height] = film.size();
+    let exposed = desc.effects.exposure.value.exp2();
+    let is_black = |x: u32, y: u32| film.radiance(x, y).iter().all(|channel| channel * exposed < BLACK);
+    let all = (0..height).all(|y| (0..width).all(|x| is_black(x, y)));
+    all.then(|| {
+        Diagnostic::warning(codes::ALL_BLACK, desc.effects.exposure.span, "the picture is so dark that all is black")
+            .expected("what is seen between black, 0, and white, 1")
+            .hint("take brighter lights or a higher `exposure`: 1 more is twice as bright")
+    })
 }
 
 /// Of a picture that is white twice over, in every channel of every pixel.
@@ -41,12 +61,17 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
         // It has one colour only where the camera does not see it.
         Background::Environment(_) => [0.0; 3],
     };
-    if first == [0.0; 3] && background == [0.0; 3] {
+    if first == [0.0; 3] {
         // Whether a scene has light at all is told before.
+        let hint = if background == [0.0; 3] {
+            "look at where the camera stands and looks, and whether a light reaches what it sees"
+        } else {
+            "not even the background is seen: the camera stands within an object or right before one; move it"
+        };
         return Some(
             Diagnostic::warning(codes::ALL_BLACK, span, "the picture is black")
                 .expected("objects in view that light falls on")
-                .hint("look at where the camera stands and looks, and whether a light reaches what it sees"),
+                .hint(hint),
         );
     }
     // What is as bright as the background may be an object in it: then rays went on from there.
