@@ -104,7 +104,7 @@ fn combinations(levels: usize, all: bool) -> Vec<[usize; 4]> {
         .map(|(crop, way)| {
             let sum = crop + way;
             // Where the levels are even in number they would go in step with the threads.
-            let turn = if levels % 2 == 0 { sum / levels } else { 0 };
+            let turn = if levels.is_multiple_of(2) { sum / levels } else { 0 };
             [way, sum % levels, (sum + turn) % THREADS.len(), crop]
         })
         .collect()
