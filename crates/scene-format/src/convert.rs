@@ -46,7 +46,11 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     match load_str(name, text, from, folder, &[]) {
         // What is wrong with included files is theirs: this text says what to write.
         Err(LoadError::Invalid { diagnostics, .. })
-            if diagnostics.iter().all(|fault| is_of_others(fault) || (from == to && is_of_values(fault))) => {}
+            if diagnostics.iter().all(|fault| {
+                is_of_others(fault)
+                    || (from == to && is_of_values(fault))
+                    || (fault.code == codes::NO_OBJECTS && is_library(text, from))
+            }) => {}
         // Whichever is meant, the text stays what it is.
         Err(LoadError::Invalid { undecided: Some(_), .. }) => {}
         loaded => {
@@ -68,11 +72,9 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     Ok(print::scene(&form, to, &before, &after))
 }
 
-/// Whether a fault is one of an included file, or that there is none; or that there is nothing to render, as in files
-/// that are there to be included.
+/// Whether a fault is one of an included file, or that there is none.
 fn is_of_others(fault: &Diagnostic) -> bool {
-    let elsewhere = fault.code == codes::INCLUDE || fault.code == codes::NO_OBJECTS || fault.span.source != 0;
-    fault.severity == Severity::Warning || elsewhere
+    fault.severity == Severity::Warning || fault.code == codes::INCLUDE || fault.span.source != 0
 }
 
 /// Whether a fault is one of what is written, not of how: what it is laid out as does not depend on it.
@@ -289,7 +291,8 @@ impl Converter<'_, '_> {
     /// What stands in `vars`. A list stays one, for it may have any number of items; what other syntaxes write as a
     /// list of two or three numbers is RON's pair or point.
     fn of_var(&mut self, item: Item<'_, '_>) -> Form {
-        let is_point = || matches!(item.children().count(), 2 | 3) && item.children().all(|x| x.kind() != Kind::List);
+        let is_number = |x: Item<'_, '_>| x.number().is_some() || is_expression(x);
+        let is_point = || matches!(item.children().count(), 2 | 3) && item.children().all(is_number);
         if item.kind() != Kind::List || (self.from != Syntax::Ron && is_point()) {
             return self.value(item);
         }

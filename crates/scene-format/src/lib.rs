@@ -92,6 +92,7 @@ pub use files::{FileKind, MAX_FILE_BYTES, NamedFile};
 pub use json_schema::schema;
 pub use load::{LoadError, Loaded, load, load_bytes, load_str, load_with};
 pub use mend::{Mended, mend};
+pub use mentioned::mentioned_in;
 pub use overrides::Override;
 pub use reference::{diagnostics_reference, reference};
 pub use suggest::nearest;

@@ -34,6 +34,14 @@ impl SceneDesc {
     }
 }
 
+/// All texts of a scene's own text that may name a file, from the place where its folder stands, whatever is wrong with
+/// it; [`SceneDesc::mentioned`] knows what it includes as well.
+pub fn mentioned_in(name: &str, text: &str, folder: &Path) -> BTreeSet<PathBuf> {
+    let tree = tree_of(name, text);
+    let items = (0..tree.nodes.len()).filter_map(|index| tree.item(index));
+    items.filter(|item| item.kind() == Kind::Text).map(|item| folder.join(&*item.text())).collect()
+}
+
 /// The tree of a text that was read before; its name may tell another syntax than it has.
 fn tree_of<'s>(name: &str, text: &'s str) -> Tree<'s> {
     let guess = Syntax::guess(text);

@@ -171,6 +171,8 @@ fn lists_of_vars_stay_lists() {
         "[0.2, 0.5, 0.3]",
         "[0.2, 0.5, 0.3, 0.9]",
         "[\"#ff0000\"]",
+        "[\"#ff0000\", \"#00ff00\"]",
+        "[true, false]",
         "[(0, 0, 0)]",
         "[(0, 0), (1, 2)]",
         "[(0, 0, 0), (1, 2, 3), (4, 5, 6), (7, 8, 9)]",
@@ -205,6 +207,33 @@ fn comments_stay_with_their_table() {
     assert!(place("# red") < objects[1] && objects[1] < place("# blue"), "{tidy}");
     assert!(place("# blue") < place("[[lights]]") && place("# key") > place("[[lights]]"), "{tidy}");
     assert_eq!(format("s.toml", &tidy, Syntax::Toml).expect("right"), tidy);
+}
+
+/// What is wrong with values and names is laid out whole: nothing of the text is lost but blanks, commas, signs,
+/// and how comments are marked.
+#[test]
+fn nothing_of_a_wrong_scene_is_lost() {
+    let letters = |text: &str| {
+        let mut letters: Vec<char> =
+            text.chars().filter(|c| !c.is_whitespace() && !",+*/\u{feff}".contains(*c)).collect();
+        letters.sort_unstable();
+        letters
+    };
+    let mut laid_out = 0;
+    for (folder, syntax) in [("ron", Syntax::Ron), ("json", Syntax::Json)] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken").join(folder);
+        for entry in std::fs::read_dir(folder).expect("broken scenes") {
+            let path = entry.expect("a file").path();
+            let Some(text) = Syntax::from_path(&path).and_then(|_| std::fs::read_to_string(&path).ok()) else {
+                continue;
+            };
+            if let Ok(tidy) = format("s", &text, syntax) {
+                assert_eq!(letters(&tidy), letters(&text), "{}:\n{tidy}", path.display());
+                laid_out += 1;
+            }
+        }
+    }
+    assert!(laid_out > 20, "{laid_out}");
 }
 
 #[test]

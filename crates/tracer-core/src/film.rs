@@ -116,7 +116,7 @@ pub(crate) struct Tile {
 
 /// Whether a sample can be summed; false for NaN too.
 #[inline(always)]
-fn counts(sample: [f32; 3]) -> bool {
+pub(crate) fn counts(sample: [f32; 3]) -> bool {
     sample.iter().all(|&x| x.abs() <= LARGEST)
 }
 

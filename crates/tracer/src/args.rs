@@ -24,7 +24,7 @@ pub use preview::{PreviewArgs, TerminalName};
 pub use render::{Frames, IntegratorName, RenderArgs};
 pub use repro::ReproArgs;
 
-use crate::commands::Template;
+use crate::commands::{CompletedShell, Template};
 use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -416,24 +416,6 @@ pub struct CompletionsArgs {
     /// Shell: bash, elvish, fish, nushell, powershell or zsh
     #[arg(value_enum, hide_possible_values = true)]
     pub shell: CompletedShell,
-}
-
-/// A shell whose command lines are completed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CompletedShell {
-    /// Bash
-    Bash,
-    /// Elvish
-    Elvish,
-    /// Fish
-    Fish,
-    /// Nushell
-    Nushell,
-    /// PowerShell
-    #[value(name = "powershell")]
-    PowerShell,
-    /// Z shell
-    Zsh,
 }
 
 const MAN_EXAMPLES: &str = "\

@@ -5,6 +5,7 @@
 //! meet at their first two vertices belongs to it, too. All else is added elsewhere and comes over two surfaces at
 //! least: what pixels share, what light paths bring.
 
+use crate::film::counts;
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::layers::LayerSet;
 use tracer_kernels::sampling::blocks::ITEM_PIXELS;
@@ -44,10 +45,10 @@ pub fn settle(layers: LayerSet, batch: &mut Batch) {
     }
     for slot in 0..batch.items.len() * ITEM_PIXELS {
         let light = &mut batch.layers.direct[slot];
-        for c in 0..3 {
-            let left = f64::from(batch.radiance[c][slot]);
-            // What is no number is dropped with the sample.
-            light.before[c] += if left.is_finite() { light.now[c].min(left) } else { 0.0 };
+        let left = [0, 1, 2].map(|c: usize| batch.radiance[c][slot]);
+        // Else the film leaves the sample out.
+        if counts(left) {
+            (0..3).for_each(|c| light.before[c] += light.now[c].min(f64::from(left[c])));
         }
         let sum = light.before;
         for column in layers.direct() {

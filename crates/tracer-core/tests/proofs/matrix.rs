@@ -10,7 +10,7 @@ use crate::support::{compiled, effort};
 use scene_format::SceneDesc;
 use scene_format::desc::{Acceleration, Material, PixelFilter, Reuse, Shading, ToneMap, Transform, Transparent};
 use scene_format::diagnostic::Spanned;
-use tracer_core::{Crop, Film, Level, Look, RenderOptions, Unobserved, develop};
+use tracer_core::{Crop, Level, RenderOptions, Unobserved, develop};
 
 /// What the other two scenes lack: pixels for themselves, tinted glass, a box filter or none, exposure and a tone map,
 /// clamping.
@@ -55,33 +55,21 @@ fn every_combination(name: &str, mut desc: SceneDesc) {
     let reuse = Some(desc.render.reuse == Reuse::Blocks);
     // Without hardware fma a sample costs a hundred times more: `same_bytes` has that level.
     let levels: Vec<_> = Level::available().into_iter().filter(|&level| level != Level::PORTABLE).collect();
-    let render = |acceleration: usize, level: usize, threads: usize, crop: usize| {
+    let mut expected = None;
+    // The first is the whole picture.
+    for [acceleration, level, threads, crop] in combinations(levels.len(), effort() > 1) {
         desc.render.acceleration = ACCELERATIONS[acceleration];
         let scene = compiled(&desc);
         let (level, threads) = (levels[level], THREADS[threads]);
         let crop = crop.checked_sub(1).map_or(Crop::whole(scene.size), |crop| CROPS[crop]);
         let options = RenderOptions { threads, level: Some(level), crop: Some(crop), reuse, ..options() };
         let film = tracer_core::render(&scene, &options, &Unobserved);
-        let place = format!("{name}: {:?}, {}, {threads} threads, {crop:?}", ACCELERATIONS[acceleration], level.name());
-        (film, crop, scene.size, place)
-    };
-    compare(&look, combinations(levels.len(), effort() > 1), render);
-}
-
-/// Renders each combination; all must be the first's, which is the whole picture.
-fn compare(
-    look: &Look,
-    combinations: Vec<[usize; 4]>,
-    mut render: impl FnMut(usize, usize, usize, usize) -> (Film, Crop, [u32; 2], String),
-) {
-    let mut expected = None;
-    for [acceleration, level, threads, crop] in combinations {
-        let (film, crop, size, place) = render(acceleration, level, threads, crop);
-        let (film_bits, image) = (bits(&film), develop(&film, look));
+        let (film_bits, image) = (bits(&film), develop(&film, &look));
         let (pixels, display) = expected.get_or_insert_with(|| (film_bits.clone(), image.display.clone()));
-        assert!(film_bits == cut(pixels, size, crop), "the film differs: {place}");
+        let place = format!("{name}: {:?}, {}, {threads} threads, {crop:?}", desc.render.acceleration, level.name());
+        assert!(film_bits == cut(pixels, scene.size, crop), "the film differs: {place}");
         let colors: Vec<[f32; 3]> = display.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
-        let part = cut(&colors, size, crop);
+        let part = cut(&colors, scene.size, crop);
         assert!(image.display == part.as_flattened(), "the picture differs: {place}");
     }
 }

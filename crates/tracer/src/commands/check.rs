@@ -4,10 +4,10 @@ use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
-use crate::loading::{Known, compile, is_dash, lights, load_to_look};
+use crate::loading::{Known, compile, is_dash, lights, load_to_look, use_threads, with_faults_of_files};
 use crate::shell::{Shell, counted};
-use scene_format::diagnostic::Severity;
-use scene_format::{Diagnostic, LoadError, Syntax, codes, is_library, load_str};
+use scene_format::diagnostic::{Severity, Source};
+use scene_format::{Diagnostics, LoadError, Syntax, codes, is_library, load_str};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -37,25 +37,33 @@ pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     Ok(ExitCode::from(if wrong > 0 { exit::WRONG } else { exit::DONE }))
 }
 
-/// What is there to be included has nothing to render, and is told so, unless more is wrong with it.
-fn is_sound_library(scene: &Path, syntax: Option<Syntax>) -> bool {
-    let Some(text) = Some(scene).filter(|scene| !is_dash(scene)).and_then(|scene| std::fs::read_to_string(scene).ok())
-    else {
-        return false;
-    };
+/// What is wrong with a file that is there to be included, and its texts: all but that it has nothing to render. `None`
+/// where it is none.
+fn of_library(scene: &Path, syntax: Option<Syntax>) -> Result<Option<(Diagnostics, Vec<Source>)>, Failure> {
+    let text = Some(scene).filter(|scene| !is_dash(scene)).and_then(|scene| std::fs::read_to_string(scene).ok());
+    let Some(text) = text else { return Ok(None) };
     let syntax = syntax.or_else(|| Syntax::from_path(scene)).unwrap_or_else(|| Syntax::guess(&text));
     if !is_library(&text, syntax) {
-        return false;
+        return Ok(None);
     }
-    let name = scene.display().to_string();
+    use_threads(None)?;
     let folder = scene.parent().unwrap_or(Path::new(""));
-    let Err(LoadError::Invalid { diagnostics, .. }) = load_str(&name, &text, syntax, folder, &[]) else { return false };
-    let is_wrong = |fault: &Diagnostic| fault.severity == Severity::Error && fault.code != codes::NO_OBJECTS;
-    !diagnostics.iter().any(is_wrong)
+    let loaded = load_str(&scene.display().to_string(), &text, syntax, folder, &[]);
+    Ok(match loaded.map_err(|error| with_faults_of_files(error, folder)) {
+        Err(LoadError::Invalid { mut diagnostics, sources, .. }) => {
+            diagnostics.retain(|fault| fault.code != codes::NO_OBJECTS);
+            Some((diagnostics, sources))
+        }
+        _ => None,
+    })
 }
 
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
-    if is_sound_library(&scene, args.syntax.map(Syntax::from)) {
+    if let Some((diagnostics, sources)) = of_library(&scene, args.syntax.map(Syntax::from))? {
+        shell.diagnostics(&diagnostics, &sources, args.diagnostics);
+        if diagnostics.iter().any(|fault| fault.severity == Severity::Error || args.deny_warnings) {
+            return Err(Failure::WrongScene);
+        }
         if args.diagnostics == DiagnosticsForm::Text {
             writeln!(std::io::stdout().lock(), "{}: ok, to be included: nothing to render", scene.display())?;
         }

@@ -1,11 +1,29 @@
 //! `tracer completions`: a script that completes command lines.
 
-use crate::args::{Cli, CompletedShell, CompletionsArgs};
+use crate::args::{Cli, CompletionsArgs};
 use crate::failure::{Failure, exit};
-use clap::CommandFactory;
+use clap::{CommandFactory, ValueEnum};
 use clap_complete::{Generator, Shell, generate};
 use std::io::Write;
 use std::process::ExitCode;
+
+/// A shell whose command lines are completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CompletedShell {
+    /// Bash
+    Bash,
+    /// Elvish
+    Elvish,
+    /// Fish
+    Fish,
+    /// Nushell
+    Nushell,
+    /// PowerShell
+    #[value(name = "powershell")]
+    PowerShell,
+    /// Z shell
+    Zsh,
+}
 
 pub(super) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
     let script = match args.shell {

@@ -5,7 +5,7 @@ use crate::failure::{Failure, exit};
 use crate::loading::{asset_files, is_dash, read, told};
 use crate::shell::{Shell, counted};
 use crate::write::{is_one_file, save, spare};
-use scene_format::{LoadError, Syntax};
+use scene_format::{LoadError, Syntax, mentioned_in};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -76,13 +76,9 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
 /// Sees that the scene that is written replaces no file that the other one names.
 fn spare_named(path: &Path, args: &ConvertArgs, name: &str, text: &str, syntax: Syntax) -> Result<(), Failure> {
     let Some(folder) = args.scene.parent().filter(|_| path.is_file() && !is_dash(&args.scene)) else { return Ok(()) };
-    let loaded = scene_format::load_bytes(name, text.as_bytes().to_vec(), Some(syntax), folder, &[]);
     // What is wrong with it is no matter here: that it names files is.
-    let named = match &loaded {
-        Ok(loaded) => loaded.scene.mentioned(),
-        Err(LoadError::Invalid { files, .. }) => files.iter().map(|file| folder.join(&file.path)).collect(),
-        Err(LoadError::Io { .. }) => Default::default(),
-    };
+    let named = scene_format::load_str(name, text, syntax, folder, &[])
+        .map_or_else(|_| mentioned_in(name, text, folder), |loaded| loaded.scene.mentioned());
     if named.iter().any(|file| is_one_file(path, file)) {
         let shown = path.display();
         return Err(Failure::wrong(format!("-o {shown} would replace a file that the scene names; name another file")));

@@ -66,13 +66,15 @@ TRACER_OIDN
 Where Open Image Denoise is, a folder or the library itself, for \fB\-\-denoise oidn\fR.
 "#;
 
-/// Shows a page to a person, as `man` does; `false` where there is no such program.
+/// Shows a page to a person, as `man` does; `false` where there is no such program, or it cannot.
 fn shown(page: &str) -> bool {
     let man = Command::new("man").args(["-l", "-"]).stdin(Stdio::piped()).stderr(Stdio::null()).spawn();
     let Ok(mut man) = man else { return false };
-    // Whoever leaves before its end has seen enough.
-    let written = man.stdin.take().is_some_and(|mut input| input.write_all(page.as_bytes()).is_ok());
-    man.wait().is_ok_and(|status| status.success() && written)
+    if let Some(mut input) = man.stdin.take() {
+        // Whoever leaves before its end has seen enough.
+        let _ = input.write_all(page.as_bytes());
+    }
+    man.wait().is_ok_and(|status| status.success())
 }
 
 /// A command, or one of a command: `golden-run`.

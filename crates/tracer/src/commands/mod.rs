@@ -25,6 +25,7 @@ mod repro;
 mod scenes;
 mod schema;
 
+pub use completions::CompletedShell;
 pub use new::Template;
 
 use crate::args::Command;

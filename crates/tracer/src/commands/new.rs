@@ -55,8 +55,7 @@ pub(super) fn run(args: &NewArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         Some(picture) => of_picture(picture, args, syntax, shell)?,
         None => {
             let text = of_template(args.template, syntax)?;
-            let stem = path.file_stem().filter(|_| !is_dash(path)).map(|stem| stem.to_string_lossy().into_owned());
-            Made { text: named(&text, stem.as_deref(), path), options: Vec::new() }
+            Made { text: if is_dash(path) { text } else { named(&text, path) }, options: Vec::new() }
         }
     };
     if is_dash(path) {
@@ -87,13 +86,10 @@ fn of_template(template: Template, syntax: Syntax) -> Result<String, Failure> {
 }
 
 /// The command that renders a template, which stands in its comment, for a file of this name.
-fn named(text: &str, stem: Option<&str>, path: &Path) -> String {
-    let Some(stem) = stem else { return text.to_owned() };
-    let file = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
-    text.replace(
-        "tracer render ball.ron -o ball.png",
-        &format!("tracer render {} -o {}", quoted(&file), quoted(&format!("{stem}.png"))),
-    )
+fn named(text: &str, path: &Path) -> String {
+    let name = |path: &Path| quoted(&path.file_name().unwrap_or_default().to_string_lossy());
+    let command = format!("tracer render {} -o {}", name(path), name(&path.with_extension("png")));
+    text.replace("tracer render ball.ron -o ball.png", &command)
 }
 
 fn in_syntax(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, Failure> {
@@ -120,6 +116,10 @@ fn of_picture(picture: &Path, args: &NewArgs, syntax: Syntax, shell: &Shell) -> 
     let name = record.as_ref().map_or("scene.txt".to_owned(), |record| record.scene.clone());
     let name = name.as_str();
     let plain = from_picture::load(name, text, folder, &[]).map_err(wrong)?;
+    if args.scene.is_file() && plain.mentioned().iter().any(|file| is_one_file(&args.scene, file)) {
+        let scene = args.scene.display();
+        return Err(Failure::wrong(format!("{scene} is a file that the scene names; name a new file")));
+    }
     let by_name = Syntax::from_path(Path::new(name));
     let from = by_name.filter(|by_name| *by_name == Syntax::guess(text)).unwrap_or_else(|| Syntax::guess(text));
     let Some(record) = record.filter(|_| !args.as_written) else {

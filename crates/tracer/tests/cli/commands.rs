@@ -203,6 +203,7 @@ fn templates_are_right_and_render() {
         }
     }
     sandbox.write("mine.ron", "mine");
+    assert!(sandbox.text("mine.ron").contains("tracer render mine.ron -o mine.png"));
     sandbox.run(&["new", "mine.ron"]).ends(1).says(&["mine.ron is there already", "--force"]);
     assert_eq!(sandbox.text("mine.ron"), "mine");
     sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron, .toml or .json"]);

@@ -77,6 +77,13 @@ fn converted_scenes_spare_what_they_include() {
     }
     assert_eq!(sandbox.text("lib.ron"), library);
     sandbox.run(&["convert", "all.toml", "-o", "all.ron"]).ends(0);
+    // A library's own library, though it renders nothing, and what a picture's scene includes.
+    sandbox.write("more.toml", "include = [\"lib.ron\"]\n[vars]\nh = 2\n");
+    let says = "-o lib.ron would replace a file that the scene names";
+    sandbox.run(&["convert", "more.toml", "-o", "lib.ron", "--force"]).ends(2).says(&[says]);
+    sandbox.run(&["render", "all.ron", "-o", "all.png", "-s", "1", "--size", "8x8"]).ends(0);
+    sandbox.run(&["new", "lib.ron", "--from", "all.png", "--force"]).ends(2).says(&["is a file that the scene names"]);
+    assert_eq!(sandbox.text("lib.ron"), library);
 }
 
 /// The others are looked at whatever is wrong with the first; what is there to be included is sound, and is laid out.
@@ -90,9 +97,10 @@ fn many_scenes_are_checked() {
     sandbox.write("b.ron", "Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: 1)])");
     sandbox.write("lib.ron", "Scene(vars: {\"h\": 2}, materials: {\"red\": Diffuse(albedo: (0.6, 0.1, 0.1))})");
     sandbox.write("bad.ron", "Scene(materials: {\"red\": Diffuse(albedo: (7, 0.1, 0.1))})");
-    let ran = sandbox.run(&["check", "a.ron", "b.ron", "lib.ron", "bad.ron"]).ends(2);
+    sandbox.write("lost.ron", "Scene(materials: {\"red\": Diffuse(albedo: Texture(file: \"no.png\"))})");
+    let ran = sandbox.run(&["check", "a.ron", "b.ron", "lib.ron", "bad.ron", "lost.ron"]).ends(2);
     let out = ran.out_text();
-    ran.says(&["centre", "no.obj", "E0207", "2 of 4 scenes are wrong"]);
+    ran.says(&["centre", "no.obj", "materials.red.Diffuse.albedo", "no.png", "3 of 5 scenes are wrong"]);
     assert!(out.contains("b.ron: ok, 1 object") && out.contains("lib.ron: ok, to be included"), "{out}");
     sandbox.run(&["fmt", "lib.ron"]).ends(0);
     assert!(sandbox.text("lib.ron").contains("vars: {\"h\": 2}"), "{}", sandbox.text("lib.ron"));

@@ -27,12 +27,13 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let place = parts::place(&args.as_render())?;
     use_threads(args.threads)?;
     let path = place.named().to_owned();
-    spare_parts(args, std::iter::once(("-o", path.as_path())))?;
+    let written = || std::iter::once(("-o", path.as_path()));
+    spare_parts(args, written())?;
     let (parts, damaged) = read(&args.parts)?;
     let Sorted { parts, .. } = sorted(parts, damaged, args, Gaps::Around, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     check_film(&heads[0])?;
-    spare_scene(args, std::iter::once(("-o", path.as_path())), &heads)?;
+    spare_scene(args, written(), &heads)?;
     let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
     let film = Film::merge(&heads, open, Gaps::Around).map_err(|error| failure(&error, &parts))?;
     let merged = started.elapsed().as_secs_f64();

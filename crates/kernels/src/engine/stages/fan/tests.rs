@@ -196,7 +196,7 @@ fn what_is_free_the_tree_finds_free() {
     println!("{free} free; {clear} clear, {doubted} in doubt; {blocked} blocked; {edge_on} edge-on; {parts} parts");
     let enough = free > 100_000 && blocked > 50_000 && edge_on > 50_000 && parts > 100;
     assert!(enough, "{free} {blocked} {edge_on} {parts}");
-    assert!((doubted as f64) < 0.45 * clear as f64, "{doubted} of {clear}");
+    assert!((doubted as f64) < 0.41 * clear as f64, "{doubted} of {clear}");
     let mut again = Seen::default();
     assert_eq!(one, compare::<ArrayF<8>>(11, 400, &mut again), "eight lanes");
     assert_eq!(one, compare::<ArrayF<16>>(11, 400, &mut again), "sixteen lanes");
