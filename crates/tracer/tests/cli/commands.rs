@@ -202,8 +202,9 @@ fn templates_are_right_and_render() {
             sandbox.run(&["render", name, "-o", "new.png", "--size", "16x16", "--samples", "1"]).ends(0).silent();
         }
     }
+    sandbox.run(&["new", "first.ron"]).ends(0);
+    assert!(sandbox.text("first.ron").contains("tracer render first.ron -o first.png"));
     sandbox.write("mine.ron", "mine");
-    assert!(sandbox.text("mine.ron").contains("tracer render mine.ron -o mine.png"));
     sandbox.run(&["new", "mine.ron"]).ends(1).says(&["mine.ron is there already", "--force"]);
     assert_eq!(sandbox.text("mine.ron"), "mine");
     sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron, .toml or .json"]);

@@ -100,7 +100,7 @@ fn many_scenes_are_checked() {
     sandbox.write("lost.ron", "Scene(materials: {\"red\": Diffuse(albedo: Texture(file: \"no.png\"))})");
     let ran = sandbox.run(&["check", "a.ron", "b.ron", "lib.ron", "bad.ron", "lost.ron"]).ends(2);
     let out = ran.out_text();
-    ran.says(&["centre", "no.obj", "materials.red.Diffuse.albedo", "no.png", "3 of 5 scenes are wrong"]);
+    ran.says(&["centre", "no.obj", "the red channel of the albedo", "no.png", "3 of 5 scenes are wrong"]);
     assert!(out.contains("b.ron: ok, 1 object") && out.contains("lib.ron: ok, to be included"), "{out}");
     sandbox.run(&["fmt", "lib.ron"]).ends(0);
     assert!(sandbox.text("lib.ron").contains("vars: {\"h\": 2}"), "{}", sandbox.text("lib.ron"));
