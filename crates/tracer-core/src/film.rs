@@ -13,8 +13,10 @@ mod layers;
 mod mattes;
 mod merge;
 mod missed;
+mod noise;
 mod pack;
 mod part;
+mod plan;
 mod record;
 mod state;
 
@@ -29,7 +31,9 @@ use layers::{FilmLayer, TileLayers};
 use mattes::TileMattes;
 pub use mattes::{MatteOf, MattesKept};
 pub use merge::{Gap, Gaps, MergeError, faults};
+use noise::Octave;
 pub use part::{Part, Split};
+pub use plan::{NoPlan, Plan};
 pub use state::FilmState;
 pub(crate) use state::Keeper;
 use tracer_kernels::sampling::blocks::TILE;
@@ -98,6 +102,8 @@ pub(crate) struct Tile {
     squares: Squares,
     /// Samples of each pixel so far, dropped ones included.
     samples: [u32; PIXELS],
+    /// Mean luminance of each pixel when the film had the samples of its last octave ([`noise`]).
+    octave: [f32; PIXELS],
     /// Where samples are clamped.
     taken: Option<Box<Taken>>,
     /// Where light paths have fallen.
@@ -282,6 +288,8 @@ pub struct Film {
     pub(crate) unfinished: Option<Unfinished>,
     /// The sample index whose light paths are not on the film yet, counted as [`Film::whole`].
     pub(crate) light_samples: u32,
+    /// What the noise is told by.
+    octave: Octave,
     /// Rays and dropped samples.
     pub counters: Counters,
     /// Where the time went, if that was asked for.
@@ -335,6 +343,7 @@ impl Film {
             whole: 0,
             unfinished: None,
             light_samples: 0,
+            octave: Octave::default(),
             counters: Counters::default(),
             statistics: None,
             costs: Costs::default(),
@@ -509,45 +518,6 @@ impl Film {
     fn pixels(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let Crop { x, y, width, height } = self.crop;
         (y..y + height).flat_map(move |py| (x..x + width).map(move |px| (px, py)))
-    }
-
-    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero
-    /// below two samples.
-    pub fn variance(&self, x: u32, y: u32) -> f64 {
-        let (tile, pixel) = self.place(x, y);
-        if tile.samples[pixel] < 2 {
-            return 0.0;
-        }
-        let n = f64::from(tile.samples[pixel]);
-        let mean = luminance(tile.sums.mean(pixel, tile.samples[pixel]));
-        let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
-        // Light paths come one by one: the variance of such a sum is about the sum of squares.
-        let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
-        let passes = f64::from(self.light_count().max(1));
-        let of_light = splats / (passes * passes);
-        (of_samples + of_light) * self.unit * self.unit
-    }
-
-    /// The standard error of a pixel relative to its own luminance, as [`Film::variance`] has it; zero where it is
-    /// black.
-    pub fn noise(&self, x: u32, y: u32) -> f64 {
-        // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let (variance, mean) =
-            (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)) / self.unit);
-        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
-    }
-
-    /// Root mean square over the pixels of the standard error of a pixel, relative to the mean luminance: the noise of
-    /// the picture as one number, an upper bound because the samples are stratified.
-    pub fn relative_noise(&self) -> f64 {
-        let (mut variance, mut mean) = (0.0, 0.0);
-        for (x, y) in self.pixels() {
-            // In the sums' own unit: squares of the scene's might leave the range of numbers.
-            variance += self.variance(x, y) / self.unit / self.unit;
-            mean += luminance(self.radiance(x, y)) / self.unit;
-        }
-        let n = f64::from(self.crop.width) * f64::from(self.crop.height);
-        if mean > 0.0 { (variance / n).sqrt() / (mean / n) } else { 0.0 }
     }
 }
 

@@ -9,10 +9,10 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tracer_core::{
-    Costs, Crop, Film, FilmError, FilmState, Misfit, Observer, Progress, RenderOptions, SavedFilm, Scene, Unobserved,
-    compile, render, resume,
+    Costs, Crop, Film, FilmError, FilmState, Misfit, Observer, Plan, Progress, RenderOptions, SavedFilm, Scene,
+    Unobserved, compile, render, resume,
 };
 
 const SCENE: &str = r#"Scene(
@@ -155,6 +155,36 @@ fn a_finished_film_is_extended() {
     }
 }
 
+/// Wherever a time ends a rendering, the plan of its film ends another one there.
+#[test]
+fn a_plan_ends_a_rendering_where_a_time_has_ended_one() {
+    let mut planned = 0;
+    for (scene, crop) in cases() {
+        let at_once = render(&scene, &options(37, crop), &Unobserved);
+        let ends = [0, 1, 3, 7, 13, 20].map(Duration::from_millis);
+        for until in ends.map(|time| Some(Instant::now() + time)) {
+            let ended = render(&scene, &RenderOptions { until, threads: 2, ..options(37, crop) }, &Unobserved);
+            let Some(plan) = ended.plan() else { continue };
+            planned += 1;
+            let again = RenderOptions { plan: Some(plan), threads: 3, ..options(0, crop) };
+            let again = render(&scene, &again, &Unobserved);
+            assert_eq!(again.plan(), Some(plan));
+            assert_same(again.clone(), ended);
+            // It goes on as any other.
+            assert_same(resume(&scene, &options(37, crop), again, &Unobserved).expect("it fits"), at_once.clone());
+        }
+        // Where nothing of a pass is on it but light paths, and where all of it is.
+        for plan in ["3,4,0,4", "8,16,1,8", "16,24,2,20"].map(|plan| plan.parse::<Plan>().expect("a plan")) {
+            let planned = RenderOptions { plan: Some(plan), ..options(0, crop) };
+            let (one, two) = (RenderOptions { threads: 1, ..planned }, RenderOptions { threads: 2, ..planned });
+            let film = render(&scene, &one, &Unobserved);
+            assert_same(film.clone(), render(&scene, &two, &Unobserved));
+            assert_same(resume(&scene, &options(37, crop), film, &Unobserved).expect("it fits"), at_once.clone());
+        }
+    }
+    assert!(planned > 3, "{planned} were ended within a pass");
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let (plain, small) = (scene(&[]), Crop { x: 0, y: 0, width: 8, height: 8 });
@@ -220,6 +250,6 @@ fn mutants_of(scene: &Scene) {
     });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
-    later[8] = 7;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(7))));
+    later[8] = 8;
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(8))));
 }

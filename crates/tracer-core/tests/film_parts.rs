@@ -102,7 +102,14 @@ fn parts_of_any_split_are_the_film_of_one_machine() {
     for (scene, crop) in cases {
         let whole = crop.unwrap_or(Crop::whole(scene.size));
         let of_one = RenderOptions { samples: Some(13), crop, threads: 2, ..RenderOptions::default() };
-        let at_once = without_time(render(&scene, &of_one, &Unobserved));
+        // Of parts nobody knows the noise as of the whole.
+        let at_once = bytes(&render(&scene, &of_one, &Unobserved));
+        let at_once = without_time(merge(&[at_once], Gaps::Refused).expect("it is whole"));
+        let pixels = || (0..whole.height).flat_map(|y| (0..whole.width).map(move |x| (whole.x + x, whole.y + y)));
+        let variance = pixels().map(|(x, y)| at_once.variance(x, y)).sum::<f64>() / pixels().count() as f64;
+        let luminance = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let mean = pixels().map(|(x, y)| luminance(at_once.radiance(x, y))).sum::<f64>() / pixels().count() as f64;
+        assert!((at_once.relative_noise() * mean / variance.sqrt() - 1.0).abs() < 1e-9);
         for _ in 0..6 {
             let parts = random_split(whole, 13, &mut random);
             many += usize::from(parts.len() > 3);

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tracer_core::{Crop, Film, FilmState, Observer, Progress};
 
@@ -23,6 +23,9 @@ pub struct Watch<'a> {
     before: u64,
     /// Camera samples that a noise goal will take, as far as one can tell.
     for_noise: AtomicU64,
+    pace: Mutex<Pace>,
+    /// Seconds left, as far as one can tell.
+    left: Arc<AtomicU64>,
 }
 
 /// What may end a rendering before all samples are done.
@@ -37,15 +40,20 @@ pub struct Goals {
 impl<'a> Watch<'a> {
     /// Draws only where somebody watches; elsewhere there are lines, unless nothing is to be said.
     pub fn new(shell: &Shell, samples: u64) -> Self {
+        let left = Arc::new(AtomicU64::new(u64::MAX));
         let bar = shell.is_watched().then(|| {
             let template = match shell.width() {
                 0..NARROW => "{wide_bar} {percent:>3} %",
-                _ => "{wide_bar} {percent:>3} %  {rate}  {eta} left",
+                _ => "{wide_bar} {percent:>3} %  {rate}  {left}",
             };
+            let left = left.clone();
             let style = ProgressStyle::with_template(template)
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .with_key("rate", |state: &ProgressState, out: &mut dyn Write| {
                     let _ = write!(out, "{}", rate(state.per_sec()));
+                })
+                .with_key("left", move |_: &ProgressState, out: &mut dyn Write| {
+                    let _ = write!(out, "{}", left_in_words(left.load(Ordering::Relaxed)).unwrap_or_default());
                 })
                 .progress_chars("=> ");
             let target = ProgressDrawTarget::stderr_with_hz(10);
@@ -54,7 +62,8 @@ impl<'a> Watch<'a> {
         let begun = Instant::now();
         let lines = (bar.is_none() && shell.is_told()).then(|| Mutex::new(Lines { last: begun, tenths: 0 }));
         let (goals, for_noise) = (Goals::default(), AtomicU64::new(u64::MAX));
-        Watch { bar, lines, shell: *shell, begun, checkpoints: None, goals, before: 0, for_noise }
+        let pace = Mutex::default();
+        Watch { bar, lines, shell: *shell, begun, checkpoints: None, goals, before: 0, for_noise, pace, left }
     }
 
     /// The same, where so many samples were done before, and the state is kept.
@@ -87,6 +96,16 @@ impl<'a> Watch<'a> {
         progress.samples_total.min(by_time).min(by_noise)
     }
 
+    /// Notes how far it is, and how long it will take.
+    fn note(&self, progress: Progress, all: u64) {
+        let now = Instant::now();
+        let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
+        let by_pace = pace.left(progress.samples_done, all, now);
+        let by_time = self.goals.until.map(|until| until.saturating_duration_since(now));
+        let left = by_pace.into_iter().chain(by_time).min();
+        self.left.store(left.map_or(u64::MAX, |left| left.as_secs_f64().round() as u64), Ordering::Relaxed);
+    }
+
     /// Takes the bar away.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
@@ -98,15 +117,20 @@ impl<'a> Watch<'a> {
 impl Observer for Watch<'_> {
     fn progress(&self, progress: Progress) -> ControlFlow<()> {
         if let Some(bar) = self.bar.as_ref().filter(|_| self.begun.elapsed() >= NO_BAR_BEFORE) {
-            bar.set_length(self.expected(progress));
+            let all = self.expected(progress);
+            self.note(progress, all);
+            bar.set_length(all);
             bar.set_position(progress.samples_done);
         }
         if let Some(lines) = &self.lines {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
             let all = self.expected(progress);
+            self.note(progress, all);
             if lines.is_due(tenths(progress.samples_done, all), Instant::now()) {
                 let percent = 100 * progress.samples_done / all.max(1);
-                self.shell.say(&format!("{percent} % after {}", time(self.begun.elapsed())));
+                let left = left_in_words(self.left.load(Ordering::Relaxed));
+                let left = left.map_or(String::new(), |left| format!(", {left}"));
+                self.shell.say(&format!("{percent} % after {}{left}", time(self.begun.elapsed())));
             }
         }
         if interrupt::requested().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -114,8 +138,7 @@ impl Observer for Watch<'_> {
 
     fn pass(&self, film: &Film) {
         let Some(goal) = self.goals.noise else { return };
-        // Noise goes down by the root of the number of samples.
-        let times = (film.relative_noise() / goal).powi(2);
+        let times = (film.relative_noise() / goal).powf(2.0 / film.noise_rate());
         let Crop { width, height, .. } = film.crop();
         let done = f64::from(width) * f64::from(height) * f64::from(*film.samples().start());
         self.for_noise.store((done * times) as u64, Ordering::Relaxed);
@@ -130,6 +153,30 @@ impl Observer for Watch<'_> {
             checkpoints.begin(state);
         }
     }
+}
+
+/// How fast it goes: moments, and what was done then.
+#[derive(Default)]
+struct Pace(Vec<(u64, Instant)>);
+
+impl Pace {
+    /// How long the rest will take, where so much is done by now. The pace is that of the latter half of what was done:
+    /// first passes are short, and come with what is made ready for all.
+    fn left(&mut self, done: u64, all: u64, now: Instant) -> Option<Duration> {
+        let first = self.0.first().map_or(done, |first| first.0);
+        if self.0.last().is_none_or(|last| done - first >= (last.0 - first) / 8 * 9 + 1) {
+            self.0.push((done, now));
+        }
+        let half = first + (done - first) / 2;
+        let since = self.0.iter().rev().find(|point| point.0 <= half)?;
+        let seconds = (now - since.1).as_secs_f64() / (done - since.0).max(1) as f64;
+        (done > since.0).then(|| Duration::try_from_secs_f64(seconds * all.saturating_sub(done) as f64).ok()).flatten()
+    }
+}
+
+/// `12 s left`; nothing where one cannot tell.
+fn left_in_words(seconds: u64) -> Option<String> {
+    (seconds < u64::MAX).then(|| format!("{} left", time(Duration::from_secs(seconds))))
 }
 
 /// Terminals of fewer columns get the bar and a number.
@@ -172,8 +219,8 @@ fn time(duration: Duration) -> String {
 }
 
 /// How noisy a picture is, and what it takes to be less so: `noise 4 %, about 1000 samples for 1 %`. `None`: it has no
-/// noise, or one cannot tell.
-pub fn noise(relative: f64, samples: u32) -> Option<String> {
+/// noise, or one cannot tell. Its square falls at this rate with the number of samples.
+pub fn noise(relative: f64, rate: f64, samples: u32) -> Option<String> {
     if !(relative.is_finite() && relative > 1e-6) || samples < 2 {
         return None;
     }
@@ -183,9 +230,9 @@ pub fn noise(relative: f64, samples: u32) -> Option<String> {
         format!("{percent:.digits$}").trim_end_matches(".0").to_owned()
     };
     let mut line = format!("noise {} %", shown(percent));
-    // The next power of ten that is well below; noise goes down by the root of the number of samples.
+    // The next power of ten that is well below.
     if let Some(goal) = [10.0, 1.0, 0.1].into_iter().find(|goal| *goal * 1.5 <= percent) {
-        let needed = f64::from(samples) * (percent / goal).powi(2);
+        let needed = f64::from(samples) * (percent / goal).powf(2.0 / rate);
         let unit = 10f64.powf((needed.log10() - 1.0).floor());
         let needed = (needed / unit).ceil() * unit;
         // More is no advice.
@@ -223,14 +270,32 @@ mod tests {
         assert_eq!(said, [10, 20, 80, 100]);
     }
 
+    /// A rendering whose first tenth takes ten times as long: the pace is that of what comes.
+    #[test]
+    fn the_rest_is_told_by_the_latter_half() {
+        let begun = Instant::now();
+        let mut pace = Pace::default();
+        let mut at = 0.0;
+        for done in (500..1500).step_by(5) {
+            at += if done < 600 { 0.05 } else { 0.005 };
+            let left = pace.left(done, 1500, begun + Duration::from_secs_f64(at)).map(|left| left.as_secs_f64());
+            let expected = (1500 - done) as f64 / 1000.0;
+            let is_late = done > 740;
+            assert!(left.is_some_and(|left| left >= 0.99 * expected) || done < 520, "{done}: {left:?}");
+            assert!(!is_late || left.is_some_and(|left| left < 1.3 * expected + 0.01), "{done}: {left:?}, {expected}");
+        }
+        assert_eq!(Pace::default().left(7, 10, begun), None);
+    }
+
     #[test]
     fn noise_is_told_with_what_it_takes() {
-        assert_eq!(noise(0.04, 64).as_deref(), Some("noise 4 %, about 1100 samples for 1 %"));
-        assert_eq!(noise(0.24, 32).as_deref(), Some("noise 24 %, about 190 samples for 10 %"));
-        assert_eq!(noise(0.0123, 100).as_deref(), Some("noise 1.2 %, about 16000 samples for 0.1 %"));
-        assert_eq!(noise(0.0012, 100).as_deref(), Some("noise 0.1 %"));
+        assert_eq!(noise(0.04, 1.0, 64).as_deref(), Some("noise 4 %, about 1100 samples for 1 %"));
+        assert_eq!(noise(0.24, 1.0, 32).as_deref(), Some("noise 24 %, about 190 samples for 10 %"));
+        assert_eq!(noise(0.0123, 1.0, 100).as_deref(), Some("noise 1.2 %, about 16000 samples for 0.1 %"));
+        assert_eq!(noise(0.04, 2.0, 64).as_deref(), Some("noise 4 %, about 260 samples for 1 %"));
+        assert_eq!(noise(0.0012, 1.0, 100).as_deref(), Some("noise 0.1 %"));
         for (relative, samples) in [(0.0, 64), (f64::NAN, 64), (0.3, 1)] {
-            assert_eq!(noise(relative, samples), None);
+            assert_eq!(noise(relative, 1.0, samples), None);
         }
     }
 

@@ -25,7 +25,7 @@ pub use inspect::{
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
-use crate::film::{Crop, Film, FilmGroups, Keeper};
+use crate::film::{Crop, Film, FilmGroups, Keeper, Unfinished};
 use crate::scene::Scene;
 use grid::Grid;
 use lighting::Lighting;
@@ -134,7 +134,8 @@ fn new_film(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Fi
 
 /// The sample index that a rendering ends before.
 fn samples(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> u32 {
-    options.part.map(|part| part.end).or(options.samples).unwrap_or(scene.samples)
+    let planned = options.plan.map(|plan| plan.end);
+    options.part.map(|part| part.end).or(planned).or(options.samples).unwrap_or(scene.samples)
 }
 
 /// Adds the samples that a film lacks.
@@ -158,7 +159,8 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     let lit = lit(scene, &film);
     let mut painter = painter(engine, &lit, options, &film, samples, &pool, observer);
     take_up(&mut film, &mut painter)?;
-    let mut passes = Passes::new(film.whole, samples, 16 * SAMPLES).looking(work.goals.noise.is_some());
+    let passes = Passes::new(film.whole, samples, 16 * SAMPLES).planned(options.plan);
+    let mut passes = passes.looking(work.goals.noise.is_some());
     while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
@@ -190,12 +192,23 @@ impl Work<'_> {
     fn add(&mut self, film: &mut Film, painter: &mut Painter<'_>, pass: Range<u32>) -> bool {
         painter.until = self.goals.until.filter(|_| film.whole > film.first());
         painter.prepare(&pass);
+        let plan = self.options.plan.filter(|plan| plan.whole == pass.start);
+        let blocks = painter.grid.len() as u32;
+        if let Some(plan) = &plan {
+            film.unfinished = Some(plan.to_do(blocks));
+            painter.light_until = plan.light;
+        }
         film.unfinished = painter.paint(film, pass.clone(), self.keeper.take());
+        if let Some(left) = plan.and_then(|plan| plan.left(blocks)) {
+            let rest = film.unfinished.get_or_insert(Unfinished { end: left.end, pieces: Vec::new() });
+            rest.pieces.extend(left.pieces);
+        }
         note(film, &self.before, &self.pool.counted());
         if film.unfinished.is_none() {
             film.whole = pass.end;
+            film.end_octave();
         }
-        if painter.stopped.load(Ordering::Relaxed) {
+        if painter.stopped.load(Ordering::Relaxed) || plan.is_some() {
             return false;
         }
         self.observer.pass(film);
@@ -246,6 +259,7 @@ fn painter<'a>(
         mattes: film.mattes(),
         lamps: film.place_of_lamps(),
         until: None,
+        light_until: u32::MAX,
         done: AtomicU64::new(if film.is_begun() { film.camera_samples() } else { 0 }),
         samples_total,
         stopped: AtomicBool::new(false),
@@ -288,11 +302,11 @@ struct Goals {
 
 impl Goals {
     fn new(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Self {
-        let of_scene = options.part.is_none();
+        let of_scene = options.part.is_none() && options.plan.is_none();
         // A time that no clock can hold is none.
         let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Goals {
-            noise: options.noise.or(scene.noise.filter(|_| of_scene)),
+            noise: options.noise.filter(|_| options.plan.is_none()).or(scene.noise.filter(|_| of_scene)),
             until: options.until.or_else(|| Instant::now().checked_add(time?)),
         }
     }

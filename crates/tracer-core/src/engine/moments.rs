@@ -84,7 +84,7 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
             return Ok(film);
         }
     };
-    let mut passes = Passes::new(film.whole, work.samples, 1);
+    let mut passes = Passes::new(film.whole, work.samples, 1).planned(work.options.plan);
     while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {

@@ -1,6 +1,6 @@
 //! What a caller may decide about a rendering.
 
-use crate::film::{Crop, MattesKept, Part};
+use crate::film::{Crop, MattesKept, Part, Plan};
 use std::time::{Duration, Instant};
 use tracer_kernels::layers::LayerSet;
 use tracer_kernels::level::Level;
@@ -30,11 +30,13 @@ pub struct RenderOptions {
     /// one light path brings to a pixel is scaled by itself. What is not a finite number above zero is no limit.
     pub clamp: Option<f32>,
     /// The rendering ends as soon as [`crate::Film::relative_noise`] is no more than this, with fewer samples than are
-    /// asked for. It is looked at where all pixels have 16 samples, at every power of two, and from 64 on at every
-    /// multiple of 64: so the picture depends on nothing but the scene.
+    /// asked for. It is looked at where all pixels have 16 samples, and then four times from each power of two to the
+    /// next, at 20, 24, 28, 32, 40 and so on: so the picture depends on nothing but the scene.
     pub noise: Option<f64>,
     /// The rendering ends then, as an observer would end it; not before every pixel has a sample.
     pub until: Option<Instant>,
+    /// The rendering ends as another one was ended by a time ([`crate::Film::plan`]); its samples count, and no goal.
+    pub plan: Option<Plan>,
     /// What is kept of what camera rays hit first, beside the picture ([`crate::Film::layer`]).
     pub layers: Option<LayerSet>,
     /// Whether the film keeps two halves of the samples apart, too, as [`crate::denoise`] needs them.

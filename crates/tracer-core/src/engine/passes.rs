@@ -7,7 +7,7 @@ use super::observer::{Observer, Progress};
 use super::technique::{OnFilm, Technique};
 use super::trace::trace;
 use super::watcher::Unwatched;
-use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Samples, Tile, Unfinished, half_end, half_of};
+use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Plan, Samples, Tile, Unfinished, half_end, half_of};
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -31,29 +31,42 @@ pub struct Passes {
     longest: u32,
     last: u32,
     looks: bool,
+    plan: Option<Plan>,
 }
-
-/// Where somebody looks at the film, no pass goes over a multiple of this.
-const LOOKS: u32 = 64;
 
 /// Samples per pixel at which a noise goal is looked at first: with fewer, what is rare has not been found, and does
 /// not count.
 const FIRST_LOOK: u32 = 16;
 
+/// A noise goal is looked at so many times between a power of two and the next: so a picture has a fourth more samples
+/// than it needs at most, and still so many at once that they are good ones.
+const LOOKS: u32 = 4;
+
+/// The next number of samples of all pixels at which a noise goal is looked at.
+fn next_look(samples: u32) -> u32 {
+    let apart = samples.checked_ilog2().map_or(1, |power| (1 << power) / LOOKS).max(FIRST_LOOK / LOOKS);
+    (samples - samples % apart).saturating_add(apart).max(FIRST_LOOK)
+}
+
 /// Whether a noise goal is looked at where all pixels have so many samples.
 pub fn is_looked_at(samples: u32) -> bool {
-    samples >= FIRST_LOOK && (samples.is_power_of_two() || samples.is_multiple_of(LOOKS))
+    samples > 0 && next_look(samples - 1) == samples
 }
 
 impl Passes {
     /// From a sample index on.
     pub fn new(next: u32, samples: u32, longest: u32) -> Self {
-        Passes { next, samples, longest, last: 1, looks: false }
+        Passes { next, samples, longest, last: 1, looks: false, plan: None }
     }
 
-    /// Whether none goes over a multiple of [`LOOKS`].
+    /// Whether none goes over a number of samples at which a noise goal is looked at.
     pub fn looking(self, looks: bool) -> Self {
         Passes { looks, ..self }
+    }
+
+    /// Whether the last one is that of a plan.
+    pub fn planned(self, plan: Option<Plan>) -> Self {
+        Passes { plan, ..self }
     }
 
     /// The next one, up to `end` where a pass is to be gone on with.
@@ -61,8 +74,10 @@ impl Passes {
         let start = self.next;
         let of_guide = start.checked_next_power_of_two().map_or(u32::MAX, |next| next.max(1) - start);
         let of_guide = if of_guide == 0 { start } else { of_guide };
-        let of_look = if self.looks { LOOKS - start % LOOKS } else { u32::MAX };
-        let rest = self.samples.saturating_sub(start).min(self.longest).min(of_guide).min(of_look);
+        let of_look = if self.looks { next_look(start) - start } else { u32::MAX };
+        let of_plan = self.plan.map_or(u32::MAX, |plan| plan.whole.saturating_sub(start));
+        let end = end.or(self.plan.filter(|plan| plan.whole == start).map(|plan| plan.end));
+        let rest = self.samples.saturating_sub(start).min(of_plan).min(self.longest).min(of_guide).min(of_look);
         // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
         let whole = match rest {
             0 => 0,
@@ -154,6 +169,8 @@ pub struct Painter<'a> {
     pub lamps: Option<usize>,
     /// When the rendering ends at the latest.
     pub until: Option<Instant>,
+    /// The sample index whose light paths are not wanted any more.
+    pub light_until: u32,
     /// Samples that are on the film, and all that are asked for.
     pub done: AtomicU64,
     pub samples_total: u64,
@@ -205,7 +222,7 @@ impl Painter<'_> {
                 let helper = std::thread::Builder::new().spawn_scoped(scope, || cells.keep_all());
                 helper.map(drop).unwrap_or_else(|_| cells.keep_all());
             }
-            light = self.bring(plain, light..samples.end, &cells);
+            light = self.bring(plain, light..samples.end.min(self.light_until), &cells);
             self.pool.on_all(&|batch: &mut Batch| {
                 let mut totals = self.room_for_totals();
                 while !self.stopped.load(Ordering::Relaxed)
@@ -225,7 +242,7 @@ impl Painter<'_> {
         film.light_samples = light;
         let pieces = deal.left();
         let brings = self.bringers().next().is_some();
-        let is_whole = pieces.is_empty() && (light == samples.end || !brings);
+        let is_whole = pieces.is_empty() && (light >= samples.end.min(self.light_until) || !brings);
         (!is_whole).then_some(Unfinished { end: samples.end, pieces })
     }
 

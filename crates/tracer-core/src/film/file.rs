@@ -16,7 +16,7 @@
 use super::layers::SavedLayer;
 use super::mattes::longest_record;
 use super::record::{Records, read_tile, record};
-use super::{Crop, Film, FilmGroups, FilmLayer, MattesKept, Part, Piece, TILE, Tile, TileGroups, Unfinished};
+use super::{Crop, Film, FilmGroups, FilmLayer, MattesKept, Octave, Part, Piece, TILE, Tile, TileGroups, Unfinished};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use rayon::prelude::*;
@@ -29,7 +29,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 /// No head is longer, and no tile.
 const LONGEST_HEAD: u32 = 1 << 26;
 const LONGEST_TILE: u32 = 1 << 18;
@@ -89,6 +89,7 @@ pub struct FilmHead {
     pub(super) part: Option<Part>,
     pub(super) unit: f64,
     pub(super) light_samples: u32,
+    pub(super) octave: Octave,
     pub(super) unfinished: Option<Unfinished>,
     pub(super) costs: Costs,
     pub(super) reuse: bool,
@@ -116,6 +117,7 @@ impl FilmHead {
             part: film.part,
             unit: film.unit,
             light_samples: film.light_samples,
+            octave: film.octave,
             unfinished: film.unfinished.clone(),
             costs: film.costs,
             reuse: film.reuse,
@@ -147,7 +149,7 @@ impl FilmHead {
         numbers.push(self.clamp.map_or(0, f32::to_bits));
         numbers.extend([self.reuse, self.caustics, self.halves, self.backdrop].map(u32::from));
         numbers.push(self.mattes.bits());
-        numbers.extend([whole, *self.samples.end(), self.light_samples]);
+        numbers.extend([whole, *self.samples.end(), self.light_samples, self.octave.samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
         numbers.extend([end, pieces.len() as u32]);
         numbers.extend(
@@ -157,7 +159,8 @@ impl FilmHead {
         out.extend(Part::numbers(self.part).into_iter().flat_map(u32::to_le_bytes));
         let counters = counters_as_array(self.counters);
         let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
-        out.extend(counters.into_iter().chain(costs.map(f64::to_bits)).flat_map(u64::to_le_bytes));
+        let reals = costs.into_iter().chain(self.octave.differences).map(f64::to_bits);
+        out.extend(counters.into_iter().chain(reals).flat_map(u64::to_le_bytes));
         out.extend((self.layers.len() as u32).to_le_bytes());
         for SavedLayer { name, units } in &self.layers {
             text(name, &mut out);
@@ -188,7 +191,7 @@ impl FilmHead {
         let [halves, backdrop] = [next()? != 0, next()? != 0];
         let mattes = MattesKept::from_bits(next()?)?;
         let samples = next()?..=next()?;
-        let (light_samples, end, count) = (next()?, next()?, next()?);
+        let (light_samples, of_octave, end, count) = (next()?, next()?, next()?, next()?);
         let mut pieces = Vec::new();
         for _ in 0..count {
             pieces.push(Piece { places: next()?..next()?, samples: next()?..next()? });
@@ -204,6 +207,7 @@ impl FilmHead {
         let real = |from: &mut &[u8]| long(from).map(f64::from_bits);
         let unit = real(from)?;
         let costs = Costs { total: real(from)?, reuse: real(from)?, caustics: real(from)?, clamp: real(from)? };
+        let octave = Octave { samples: of_octave, differences: [real(from)?, real(from)?, real(from)?] };
         let mut layers = Vec::new();
         for _ in 0..number(from)? {
             let name = text(from)?;
@@ -224,6 +228,7 @@ impl FilmHead {
             part: Part::from_numbers(part, crop),
             unit,
             light_samples,
+            octave,
             unfinished: (end > 0).then_some(Unfinished { end, pieces }),
             costs,
             reuse,
@@ -263,6 +268,7 @@ impl FilmHead {
             && self.samples.end() >= self.samples.start()
             && *self.samples.end() <= end
             && self.light_samples <= end
+            && (self.octave.is_sound() && self.octave.samples <= whole)
             // What is added to them later does not overflow.
             && counters_as_array(self.counters).iter().all(|&count| count < 1 << 60)
     }
@@ -474,8 +480,8 @@ impl<R: Read> SavedFilm<R> {
         let mut film = Film::new(head.size, nothing, head.seed, head.unit, head.clamp);
         let columns = (head.crop.x + head.crop.width).div_ceil(TILE) - head.crop.x / TILE;
         (film.crop, film.part, film.tiles, film.tile_columns) = (head.crop, head.part, tiles, columns);
-        (film.whole, film.unfinished, film.light_samples) =
-            (*head.samples.start(), head.unfinished, head.light_samples);
+        (film.whole, film.unfinished) = (*head.samples.start(), head.unfinished);
+        (film.light_samples, film.octave) = (head.light_samples, head.octave);
         (film.counters, film.costs) = (head.counters, head.costs);
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
         (film.backdrop, film.mattes, film.groups) = (head.backdrop, head.mattes, head.groups);

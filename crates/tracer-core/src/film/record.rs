@@ -88,7 +88,8 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     out.extend([0; 4]);
     let [taken, splats] = [tile.taken.is_some(), tile.splats.is_some()];
     let [layers, half, missed] = [tile.layers.is_some(), tile.half.is_some(), tile.missed.is_some()];
-    let parts = [taken, splats, layers, half, missed, tile.mattes.is_some(), tile.groups.is_some()];
+    let octave = tile.octave.iter().any(|mean| mean.to_bits() != 0);
+    let parts = [taken, splats, layers, half, missed, tile.mattes.is_some(), tile.groups.is_some(), octave];
     out.push(parts.iter().rev().fold(0, |bits, &part| bits << 1 | u8::from(part)));
     let sums = |sums: &Sums, out: &mut Vec<u8>| (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
     sums(&tile.sums, &mut out);
@@ -116,6 +117,9 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
     }
     if let Some(groups) = &tile.groups {
         groups.record(&mut out);
+    }
+    if octave {
+        out.extend(tile.octave.iter().flat_map(|mean| mean.to_le_bytes()));
     }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
@@ -170,5 +174,10 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, held: Held, tile: &mut Tile)
     if flags & 64 != 0 {
         tile.groups = Some(Box::new(TileGroups::read(from, held.groups)?));
     }
-    (flags < 128 && from.is_empty()).then_some(())
+    if flags & 128 != 0 {
+        for mean in &mut tile.octave {
+            *mean = f32::from_le_bytes(*from.split_off(..4)?.first_chunk()?);
+        }
+    }
+    (tile.octave.iter().all(|mean| mean.is_finite()) && from.is_empty()).then_some(())
 }

@@ -29,6 +29,7 @@ mod matrix;
 mod mattes;
 mod metals;
 mod motion;
+mod noise;
 mod patterns;
 mod planes;
 mod random_scenes;

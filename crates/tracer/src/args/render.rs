@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use scene_format::desc::Integrator;
 use std::path::PathBuf;
 use std::time::Duration;
-use tracer_core::{Crop, Layer};
+use tracer_core::{Crop, Layer, Plan};
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -52,6 +52,9 @@ pub struct RenderArgs {
     /// End after this time, all written: 60s, 5m, 1h
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub time: Option<Duration>,
+    /// End where a rendering with --time has ended, as its report says
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["noise", "time", "samples", "part", "resume"])]
+    pub plan: Option<Plan>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,

@@ -6,7 +6,7 @@ use crate::command_line::quoted;
 use crate::write::sha256;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use tracer_core::{Crop, Film, LayerSet, Note, PROGRAM};
+use tracer_core::{Crop, Film, LayerSet, Note, PROGRAM, Plan};
 
 /// What a picture was made with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +25,9 @@ pub struct Record {
     pub size: [u32; 2],
     /// Fewest and most samples of a pixel.
     pub samples: [u32; 2],
+    /// Where it was ended within a pass ([`Plan`]).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<String>,
     /// Of all random choices.
     pub seed: u32,
     /// Stops.
@@ -91,6 +94,7 @@ impl Record {
             set: all(notes, "set").map(str::to_owned).collect(),
             size: film.size(),
             samples: [fewest, most],
+            plan: film.plan().map(|plan| plan.to_string()),
             seed: film.seed(),
             exposure: first(notes, "exposure").parse().unwrap_or_default(),
             crop: [x, y, width, height],
@@ -135,8 +139,14 @@ impl Record {
             && 1 <= fewest
             && fewest <= most
             && most <= 1_000_000_000
+            && record.plan.as_ref().is_none_or(|plan| plan.parse::<Plan>().is_ok())
             && record.exposure.abs() <= 64.0;
         if is_sound { Ok(record) } else { Err("what it tells of how it was made is damaged".into()) }
+    }
+
+    /// Where it was ended within a pass.
+    pub fn plan(&self) -> Option<Plan> {
+        self.plan.as_ref()?.parse().ok()
     }
 
     /// What of the picture was rendered.
@@ -153,7 +163,10 @@ impl Record {
             option("--set", set.clone());
         }
         option("--size", format!("{}x{}", self.size[0], self.size[1]));
-        option("--samples", self.samples[0].to_string());
+        match &self.plan {
+            Some(plan) => option("--plan", plan.clone()),
+            None => option("--samples", self.samples[0].to_string()),
+        }
         option("--seed", self.seed.to_string());
         option("--exposure", self.exposure.to_string());
         let [x, y, width, height] = self.crop;
@@ -189,6 +202,7 @@ mod tests {
             set: vec!["camera=\"oben\"".to_owned()],
             size: [40, 24],
             samples: [2, 2],
+            plan: None,
             seed: 1,
             exposure: -0.5,
             crop: [8, 0, 16, 24],
@@ -216,6 +230,7 @@ mod tests {
             Record { samples: [0, 0], ..record() },
             Record { samples: [3, 2], ..record() },
             Record { samples: [2, u32::MAX], ..record() },
+            Record { plan: Some("3,2,1,0".to_owned()), ..record() },
             Record { exposure: 1e9, ..record() },
             Record { crop: [8, 0, 40, 24], ..record() },
             Record { crop: [8, 0, 0, 24], ..record() },

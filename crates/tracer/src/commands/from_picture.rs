@@ -66,7 +66,7 @@ pub fn rendered(record: &Record, layers: LayerSet, text: &str, folder: &Path) ->
     let mut desc = load(&record.scene, text, folder, &record.set)?;
     let [width, height] = record.size;
     (desc.image.width, desc.image.height) = (width.into(), height.into());
-    desc.render.samples = record.samples[0].into();
+    desc.render.samples = record.plan().map_or(record.samples[0], |plan| plan.end).into();
     desc.render.seed = record.seed.into();
     desc.effects.exposure = record.exposure.into();
     // They have ended where the samples tell.

@@ -30,9 +30,9 @@ pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> 
     let record = record(&told, &args.picture)?;
     check_output(args, &told)?;
     let [fewest, most] = record.samples;
-    if fewest != most {
+    if fewest != most && record.plan.is_none() {
         return Err(Failure::could_not(format!(
-            "{shown} cannot be made again: it was ended while some pixels had {fewest} samples and others {most}"
+            "{shown} cannot be made again: it was interrupted while some pixels had {fewest} samples and others {most}"
         )));
     }
     use_threads(args.threads)?;
@@ -221,6 +221,7 @@ fn again(
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
         halves: is_denoised,
+        plan: record.plan(),
         mattes: scene.mattes.kept(),
         ..RenderOptions::default()
     };

@@ -25,6 +25,7 @@ use crate::shell::Shell;
 use crate::write::{Place, save};
 use crate::{interrupt, lanes, layer_view, memory};
 use frames::{AtEnd, Frames};
+use goals::Afterwards;
 use kept::{Kept, Places};
 use rescue::{Pictures, Rescued, pictures, rescue};
 use scene_format::SceneDesc;
@@ -126,7 +127,17 @@ fn one(
     let done = pixels * u64::from(before.samples);
     let asked = part.map_or(scene.samples, |part| part.end - part.first);
     let all = pixels * u64::from(asked);
-    let goals = goals::goals(&desc, crop, outputs.len(), started);
+    let channels = 4
+        + tracer_core::film_layers(&desc.output).channels()
+        + scene.mattes.channels()
+        + 3 * begun.as_ref().map_or(tracer_core::most_light_groups(&desc), |film| film.light_groups().len());
+    let afterwards = Afterwards {
+        outputs: &outputs,
+        channels,
+        is_denoised: denoiser.is_some(),
+        threads: rayon::current_num_threads(),
+    };
+    let goals = goals::goals(&desc, crop, &afterwards, started);
     let watch = Watch::new(shell, all).going_on(done, all, checkpoints.as_ref()).until(goals);
     let options = RenderOptions {
         crop: Some(crop),
@@ -134,6 +145,7 @@ fn one(
         threads: args.threads.map_or(0, usize::from),
         level: Some(level),
         until: goals.until,
+        plan: args.plan,
         halves: args.denoise.is_on(),
         mattes: scene.mattes.kept(),
         statistics: args.stats,
@@ -150,9 +162,10 @@ fn one(
 
     let (fewest, most) = film.samples().into_inner();
     let interrupted = fewest < asked && interrupt::requested().is_some();
-    if part.is_none() {
+    if part.is_none() && args.plan.is_none() {
         goals::end(&mut desc, &film, interrupted, shell);
     }
+    let args = &RenderArgs { plan: film.plan().filter(|_| !interrupted), ..args.clone() };
     if most == 0 {
         shell.say("interrupted before the first sample: no picture is written");
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
@@ -234,7 +247,8 @@ fn one(
             0 => "all samples were there".to_owned(),
             samples => rate(samples as f64 / seconds.render),
         };
-        let noise = noise(film.relative_noise(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
+        let noise =
+            noise(film.relative_noise(), film.noise_rate(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
         shell.say(&format!("{names} in {:.2} s, {speed}{noise}", seconds.total));
     }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {

@@ -47,7 +47,10 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
         option("--frame", frame.to_string());
     }
     option("--size", format!("{}x{}", desc.image.width.value, desc.image.height.value));
-    option("--samples", desc.render.samples.value.to_string());
+    match args.plan {
+        Some(plan) => option("--plan", plan.to_string()),
+        None => option("--samples", desc.render.samples.value.to_string()),
+    }
     option("--seed", desc.render.seed.value.to_string());
     if let Some(exposure) = args.exposure {
         option("--exposure", exposure.to_string());

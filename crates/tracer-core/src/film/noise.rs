@@ -1,0 +1,200 @@
+//! How noisy a film is.
+//!
+//! The samples of a pixel are stratified: the more of them, the better they are than independent ones, by a factor of
+//! eight in the variance at the borders of things after 64 of them. So what a pixel's samples scatter by
+//! ([`Film::variance`]) is an upper bound. The noise of the whole picture is told by what is seen instead. At each power
+//! of two h, when all pixels have so many samples, their means are put down; of 2 h samples the first half and the
+//! second are nets of the sampler with scrambles of their own, and how much the two pictures differ tells the variance:
+//!
+//! with V(n) = c n^-r for the variance of n samples from a power of two on, and V(2 h) that of the mean of both halves,
+//!
+//! D(2 h) = 2 V(h) - 2 C,  V(2 h) = (V(h) + C)/2,  so  V(2 h) = D(2 h) 2^-r/(2 (2 - 2^(1-r))),
+//!
+//! where C is the halves' covariance (below zero where r > 1: together they are a better net than two). The rate r is
+//! that at which D has fallen, at least one, that of independent samples, and at most two. With k samples more than h,
+//! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
+//! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
+
+use super::{Film, PIXELS, Tile, luminance};
+use rayon::prelude::*;
+
+/// What is known of the noise from the last octave of samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Octave {
+    /// The samples of each pixel when it ended, a power of two; 0: there was none.
+    pub samples: u32,
+    /// D: mean square difference between the luminance of the two halves of the samples, in squares of the film's unit;
+    /// at so many samples, at half as many, and at a fourth. Zero where it is not known.
+    pub differences: [f64; 3],
+}
+
+impl Octave {
+    /// r: how fast the variance falls with the number of samples.
+    fn rate(&self) -> f64 {
+        let [now, half, fourth] = self.differences;
+        let fell = if fourth > 0.0 { (fourth / now).log2() / 2.0 } else { (half / now).log2() };
+        if fell.is_finite() { fell.clamp(1.0, 2.0) } else { 1.0 }
+    }
+
+    /// V of twice the samples of which D is of the halves, over D.
+    fn of_difference(rate: f64) -> f64 {
+        (-rate).exp2() / (2.0 * (2.0 - (1.0 - rate).exp2()))
+    }
+
+    /// What the square of the difference between the first h samples and k more is to be multiplied by to be the
+    /// variance of all of them; `None` where they are too few to tell.
+    fn of_more(&self, more: u32, rate: f64) -> Option<f64> {
+        let (h, k) = (f64::from(self.samples), f64::from(more));
+        let n = h + k;
+        let (of_first, of_more) = (h.powf(-rate), k.powf(-rate));
+        let independent = ((h / n).powi(2) * of_first + (k / n).powi(2) * of_more) / (of_first + of_more);
+        (4 * u64::from(more) >= self.samples.into())
+            .then(|| independent * (4.0 * Self::of_difference(rate)).powf(k / h))
+    }
+
+    /// Whether it is one that a file can hold.
+    pub fn is_sound(&self) -> bool {
+        (self.samples == 0 || self.samples.is_power_of_two())
+            && self.differences.iter().all(|&d| d >= 0.0 && d.is_finite())
+    }
+}
+
+impl Film {
+    /// Puts down what the film has, where all pixels have the same power of two of samples. Parts know nothing of the
+    /// samples of others.
+    pub(crate) fn end_octave(&mut self) {
+        let samples = self.whole;
+        if self.part.is_some() || !samples.is_power_of_two() || self.unfinished.is_some() {
+            return;
+        }
+        let Octave { samples: before, differences: [last, half, _] } = self.octave;
+        let light = self.light_count();
+        let put_down = |tile: &mut Tile| {
+            let mut sum = 0.0;
+            for pixel in 0..PIXELS {
+                let mean = tile.luminance(pixel, light);
+                // Of the first half and of the second.
+                sum += 4.0 * (mean - f64::from(tile.octave[pixel])).powi(2);
+                tile.octave[pixel] = mean as f32;
+            }
+            sum
+        };
+        let sums: Vec<f64> = self.tiles.par_iter_mut().map(put_down).collect();
+        let difference = sums.iter().sum::<f64>() / self.count();
+        let differences = if before > 0 && samples == 2 * before { [difference, last, half] } else { [0.0; 3] };
+        self.octave = Octave { samples, differences };
+    }
+
+    /// Pixels that it holds; one where there are none.
+    fn count(&self) -> f64 {
+        (f64::from(self.crop.width) * f64::from(self.crop.height)).max(1.0)
+    }
+
+    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero
+    /// below two samples.
+    pub fn variance(&self, x: u32, y: u32) -> f64 {
+        let (tile, pixel) = self.place(x, y);
+        if tile.samples[pixel] < 2 {
+            return 0.0;
+        }
+        let n = f64::from(tile.samples[pixel]);
+        let mean = luminance(tile.sums.mean(pixel, tile.samples[pixel]));
+        let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
+        // Light paths come one by one: the variance of such a sum is about the sum of squares.
+        let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
+        let passes = f64::from(self.light_count().max(1));
+        let of_light = splats / (passes * passes);
+        (of_samples + of_light) * self.unit * self.unit
+    }
+
+    /// The standard error of a pixel relative to its own luminance, as [`Film::variance`] has it; zero where it is
+    /// black.
+    pub fn noise(&self, x: u32, y: u32) -> f64 {
+        // In the sums' own unit: squares of the scene's might leave the range of numbers.
+        let (variance, mean) =
+            (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)) / self.unit);
+        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+    }
+
+    /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
+    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged and
+    /// of less than two samples it is what independent samples would have, which is more.
+    pub fn relative_noise(&self) -> f64 {
+        // In the sums' own unit: squares of the scene's might leave the range of numbers.
+        let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
+        let variance = self.seen_variance().unwrap_or_else(|| {
+            let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
+            self.pixels().map(variance).sum::<f64>() / self.count()
+        });
+        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+    }
+
+    /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones.
+    pub fn noise_rate(&self) -> f64 {
+        self.octave.rate()
+    }
+
+    /// Mean variance of the pixels in the sums' own unit, as the octaves tell it.
+    fn seen_variance(&self) -> Option<f64> {
+        let Octave { samples, differences } = self.octave;
+        if differences[0] <= 0.0 || self.has_gaps {
+            return None;
+        }
+        let (rate, light) = (self.octave.rate(), self.light_count());
+        let of_octave = differences[0] * Octave::of_difference(rate);
+        let (mut last, mut factor) = (samples, None);
+        let mut sum = 0.0;
+        for (x, y) in self.pixels() {
+            let (tile, pixel) = self.place(x, y);
+            let n = tile.samples[pixel];
+            if n != last {
+                (last, factor) = (n, self.octave.of_more(n.saturating_sub(samples), rate));
+            }
+            sum += match factor {
+                Some(factor) => {
+                    // From the mean of all to that of those which came after.
+                    let times = f64::from(n) / f64::from(n - samples);
+                    let difference = (tile.luminance(pixel, light) - f64::from(tile.octave[pixel])) * times;
+                    factor * difference * difference
+                }
+                None => of_octave * f64::from(samples) / f64::from(n.max(1)),
+            };
+        }
+        Some(sum / self.count())
+    }
+}
+
+impl Tile {
+    /// Mean luminance of a pixel in the sums' own unit, with what the light paths of so many sample indices brought.
+    fn luminance(&self, pixel: usize, light: u32) -> f64 {
+        let of_light = self.splats.as_ref().map_or(0.0, |splats| luminance(splats.sums.mean(pixel, light)));
+        luminance(self.sums.mean(pixel, self.samples[pixel])) + of_light
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where both halves are independent, as where they are nets that together are a better one, what is seen at a power
+    /// of two is what the law says, and between two of them it goes from the one to the other.
+    #[test]
+    fn the_law_is_found_again() {
+        for rate in [1.0, 1.3, 1.5, 2.0] {
+            let variance = |n: u32| f64::from(n).powf(-rate);
+            // D of the halves of n samples, by V(n) = (V(n/2) + C)/2.
+            let difference = |n: u32| 4.0 * (variance(n / 2) - variance(n));
+            let octave = Octave { samples: 64, differences: [64, 32, 16].map(difference) };
+            assert!((octave.rate() - rate).abs() < 1e-12);
+            let seen = octave.differences[0] * Octave::of_difference(rate);
+            assert!((seen / variance(64) - 1.0).abs() < 1e-12, "{rate}: {seen}");
+            // At 128 samples, of which the second half is the next net.
+            let all = octave.of_more(64, rate).map(|factor| factor * difference(128));
+            assert!(all.is_some_and(|all| (all / variance(128) - 1.0).abs() < 1e-12), "{rate}: {all:?}");
+            assert!(octave.of_more(15, rate).is_none() && octave.of_more(16, rate).is_some());
+        }
+        // What has not fallen, or is not known.
+        let rate = |differences| Octave { samples: 8, differences }.rate();
+        assert_eq!([[1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [0.0; 3], [1e-9, 1.0, 0.0]].map(rate), [1.0, 1.0, 1.0, 2.0]);
+    }
+}
