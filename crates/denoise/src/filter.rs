@@ -62,8 +62,14 @@ struct Sums {
     right: [[Row; 3]; UNKNOWNS],
 }
 
-/// A pass over both halves.
-pub fn filter(prepared: &Prepared, halves: &[Colours; 2], variance: &Plane, pass: &Pass) -> Filtered {
+/// A pass over both halves; what is left is zero where it does not go on.
+pub fn filter(
+    prepared: &Prepared,
+    halves: &[Colours; 2],
+    variance: &Plane,
+    pass: &Pass,
+    goes_on: &(dyn Fn() -> bool + Sync),
+) -> Filtered {
     let border = pass.step * pass.reach + PATCH;
     let padded = |plane: &Plane| plane.padded(border, TILE);
     let field = Field {
@@ -87,7 +93,7 @@ pub fn filter(prepared: &Prepared, halves: &[Colours; 2], variance: &Plane, pass
     let planes = plane_a.par_chunks_mut(strip).zip(plane_b.par_chunks_mut(strip));
     means.zip(planes).enumerate().for_each(|(k, ((mean_a, mean_b), (plane_a, plane_b)))| {
         let mut work = Work::new();
-        for left in (0..width).step_by(TILE) {
+        for left in (0..width).step_by(TILE).take_while(|_| goes_on()) {
             work.weigh(&field, left, k * ROWS);
             work.give(&field, [left, k * ROWS], 0, mean_a, plane_a);
             work.give(&field, [left, k * ROWS], 1, mean_b, plane_b);

@@ -108,9 +108,17 @@ pub struct Told {
 /// # Ok::<(), tracer_denoise::WrongSize>(())
 /// ```
 pub fn denoise(input: &Input<'_>) -> Result<Denoised, WrongSize> {
+    Ok(denoise_while(input, &|| true)?.unwrap_or_else(|| unreachable!("it goes on")))
+}
+
+/// The same, as long as it is to go on; it is asked some thousand times a second. `None` where it was not.
+///
+/// # Errors
+/// As of [`denoise`].
+pub fn denoise_while(input: &Input<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<Option<Denoised>, WrongSize> {
     input.check()?;
     if input.width * input.height == 0 {
-        return Ok(Denoised { pixels: Vec::new(), told: Told::default() });
+        return Ok(Some(Denoised { pixels: Vec::new(), told: Told::default() }));
     }
     let prepared = Prepared::new(input);
     let mut chosen = Chosen::nothing(&prepared);
@@ -119,7 +127,10 @@ pub fn denoise(input: &Input<'_>) -> Result<Denoised, WrongSize> {
             1 => prepared.variance.clone(),
             _ => prepared::variance_of(&chosen.halves, input.share),
         };
-        let filtered = filter::filter(&prepared, &chosen.halves, &variance, pass);
+        let filtered = filter::filter(&prepared, &chosen.halves, &variance, pass, goes_on);
+        if !goes_on() {
+            return Ok(None);
+        }
         chosen = choice::choose(&prepared, &chosen, &filtered);
     }
     let halves = &chosen.halves;
@@ -132,7 +143,7 @@ pub fn denoise(input: &Input<'_>) -> Result<Denoised, WrongSize> {
         }
     });
     let told = told(input, &prepared, &chosen, &pixels);
-    Ok(Denoised { pixels, told })
+    Ok(Some(Denoised { pixels, told }))
 }
 
 /// What became of the picture: sums in `f64`, one after the other, so that threads cannot show.

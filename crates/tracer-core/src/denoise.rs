@@ -2,7 +2,7 @@
 
 use crate::film::{Crop, Film};
 use rayon::prelude::*;
-use tracer_denoise::{Input, denoise as filtered};
+use tracer_denoise::{Input, denoise_while as filtered};
 use tracer_kernels::layers::{Layer, LayerSet};
 
 /// The layers that guide it; the film needs them, beside halves ([`crate::RenderOptions::halves`]).
@@ -39,9 +39,12 @@ pub enum DenoiseError {
     /// It was rendered without what denoising needs.
     #[error("it was rendered without what denoising needs ({0})")]
     Lacks(String),
-    /// A pixel has no sample of one of the halves.
+    /// A pixel has samples, and none of one of the halves.
     #[error("denoising needs two samples per pixel at least, one for each half")]
     Samples,
+    /// It was not to go on ([`denoise_while`]).
+    #[error("denoising was ended early")]
+    Ended,
     /// What another denoiser gives back has another number of pixels.
     #[error("what the denoiser gives back has another number of pixels")]
     Size,
@@ -50,7 +53,7 @@ pub enum DenoiseError {
 /// Denoises a film, over the threads of rayon's current pool; the same for any number of them.
 ///
 /// # Errors
-/// When the film does not hold two halves and the layers [`GUIDES`], or a pixel has no sample of one of the halves.
+/// When the film does not hold two halves and the layers [`GUIDES`], or a pixel has samples of one of the halves only.
 ///
 /// # Examples
 ///
@@ -74,6 +77,14 @@ pub enum DenoiseError {
 /// # }
 /// ```
 pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
+    denoise_while(film, &|| true)
+}
+
+/// The same, as long as it is to go on; it is asked some thousand times a second.
+///
+/// # Errors
+/// As of [`denoise`]; when it was not to go on.
+pub fn denoise_while(film: &Film, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<Denoised, DenoiseError> {
     let Halves { pictures, share } = Halves::of(film)?;
     let Crop { width, height, .. } = film.crop();
     let (pixels, at) = (width as usize * height as usize, places(film));
@@ -81,7 +92,7 @@ pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
         let (lamps, [first, second]) = (film.lamps_of_halves(x, y), film.samples_of_halves(x, y).map(f64::from));
         let behind = if film.has_backdrop() { film.background(x, y) } else { [0.0; 3] };
         // Never less than none, but for rounding.
-        let seen = |c: usize| (lamps[0][c] * first + lamps[1][c] * second) / (first + second) - behind[c];
+        let seen = |c: usize| (lamps[0][c] * first + lamps[1][c] * second) / (first + second).max(1.0) - behind[c];
         [0, 1, 2].map(|c| finite(seen(c).max(0.0)))
     };
     let lamps: Vec<f32> = (0..pixels).flat_map(|k| lamps(at(k))).collect();
@@ -89,7 +100,7 @@ pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
     // All of them are there: else the film would lack them.
     let layer = |layer| film.layer(layer).map(|image| image.values).unwrap_or_default();
     let [albedo, normal, depth] = [Layer::Albedo, Layer::Normal, Layer::Depth].map(layer);
-    let denoised = filtered(&Input {
+    let input = Input {
         width: width as usize,
         height: height as usize,
         halves: [&pictures[0], &pictures[1]],
@@ -99,9 +110,9 @@ pub fn denoise(film: &Film) -> Result<Denoised, DenoiseError> {
         normal: &normal,
         depth: &depth,
         variance: &variance,
-    });
-    let tracer_denoise::Denoised { pixels, told } =
-        denoised.unwrap_or_else(|wrong| unreachable!("the pictures of one film: {wrong}"));
+    };
+    let denoised = filtered(&input, goes_on).unwrap_or_else(|wrong| unreachable!("the pictures of one film: {wrong}"));
+    let tracer_denoise::Denoised { pixels, told } = denoised.ok_or(DenoiseError::Ended)?;
     let tracer_denoise::Told { change, error_before, error_after } = told;
     Ok(Denoised { radiance: pixels, told: DenoiseTold { change, error_before, error_after: Some(error_after) } })
 }
@@ -130,6 +141,10 @@ impl Halves {
         let Crop { width, height, .. } = film.crop();
         let (pixels, at) = (width as usize * height as usize, places(film));
         let of_pixel = |(x, y): (u32, u32)| {
+            // What parts were missing for is black.
+            if film.samples_of_halves(x, y) == [0, 0] && film.has_gaps() {
+                return Some([[0.0; 3]; 2]);
+            }
             let (radiance, lamps) = (film.radiance_of_halves(x, y)?, film.lamps_of_halves(x, y));
             Some([0, 1].map(|half| [0, 1, 2].map(|c| radiance[half][c] - lamps[half][c])))
         };

@@ -2,11 +2,12 @@
 
 use crate::args::DenoiseName;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::shell::Shell;
 use serde::Serialize;
 use std::time::Instant;
 use tracer_core::{DenoiseError, DenoiseTold, Denoised, Film, GUIDES, Image, LayerSet, Look, Noisy, Scene};
-use tracer_core::{denoise, denoise_lacks, develop, develop_denoised};
+use tracer_core::{denoise_lacks, denoise_while, develop, develop_denoised};
 use tracer_oidn::{NAMED_BY, NotFound, Oidn, Picture};
 
 /// Bytes of a pixel that denoising takes while it is at work: measured at 1920x1080.
@@ -81,7 +82,11 @@ impl Denoiser {
 
     fn of_film(&self, film: &Film) -> Result<Denoised, Fault> {
         match self {
-            Denoiser::BuiltIn => Ok(denoise(film)?),
+            Denoiser::BuiltIn => {
+                // A signal that has ended the rendering does not end this, too.
+                let is_ended = interrupt::requested().is_some();
+                Ok(denoise_while(film, &|| is_ended || interrupt::requested().is_none())?)
+            }
             Denoiser::Oidn(oidn) => {
                 let noisy = Noisy::of(film)?;
                 let Noisy { width, height, color, albedo, normal, .. } = &noisy;
@@ -175,6 +180,8 @@ pub struct Developed {
     pub denoised: Option<DenoiseReport>,
     /// Why it has its noise still, where a library should have taken it out and has failed.
     pub fault: Option<String>,
+    /// A signal has ended the denoising: the picture has its noise.
+    pub is_ended: bool,
 }
 
 impl Developed {
@@ -200,11 +207,16 @@ pub fn picture(
     shell: &Shell,
 ) -> Result<Developed, Failure> {
     let started = Instant::now();
-    let mut fault = None;
+    let (mut fault, mut is_ended) = (None, false);
     let denoised = match denoiser.map(|denoiser| denoiser.of_film(film)).transpose() {
         Ok(denoised) => denoised,
         Err(Fault::Film(error @ DenoiseError::Samples)) => {
             shell.say(&format!("warning: the picture is not denoised: {error}"));
+            None
+        }
+        Err(Fault::Film(DenoiseError::Ended)) => {
+            shell.say("interrupted: the picture is not denoised");
+            is_ended = true;
             None
         }
         Err(Fault::Film(error)) => return Err(Failure::wrong(format!("the picture cannot be denoised: {error}"))),
@@ -224,7 +236,7 @@ pub fn picture(
         let DenoiseTold { change, error_before, error_after } = denoised.told;
         DenoiseReport { by: denoiser.told(), change, error_before, error_after, seconds }
     });
-    Ok(Developed { image, denoised: report, fault })
+    Ok(Developed { image, denoised: report, fault, is_ended })
 }
 
 #[cfg(test)]

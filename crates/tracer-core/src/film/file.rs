@@ -104,7 +104,8 @@ pub struct FilmHead {
 impl FilmHead {
     /// Of a film, with what is to be told beside it.
     pub(super) fn of(film: &Film) -> Self {
-        let most = film.unfinished.as_ref().filter(|rest| !rest.pieces.is_empty()).map_or(film.whole, |rest| rest.end);
+        // Of a pass that was ended early somebody wants to know how far it came.
+        let most = film.unfinished.as_ref().map_or(film.whole, |_| film.first() + film.samples().end());
         FilmHead {
             program: PROGRAM.to_owned(),
             notes: Vec::new(),
@@ -112,7 +113,7 @@ impl FilmHead {
             crop: film.crop,
             seed: film.seed,
             clamp: film.clamp,
-            samples: film.whole..=most,
+            samples: film.whole..=most.max(film.whole),
             counters: film.counters,
             part: film.part,
             unit: film.unit,

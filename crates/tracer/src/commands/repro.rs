@@ -233,7 +233,10 @@ fn again(
     }
     let layers = layer_set(&desc.output.layers);
     let developed = denoising::picture(&film, &scene.look, layers, denoiser.as_ref(), shell)?;
-    let Developed { mut image, denoised, fault } = developed;
+    let Developed { mut image, denoised, fault, is_ended } = developed;
+    if is_ended {
+        return Ok(None);
+    }
     if let Some(fault) = fault {
         return Err(Failure::could_not(format!("the picture cannot be denoised again: {fault}")));
     }

@@ -117,6 +117,25 @@ fn signals_write_picture_and_checkpoint() {
     }
 }
 
+/// A signal while noise is taken out: the picture is written as it is, and the exit code says that it is not all.
+#[cfg(unix)]
+#[test]
+fn signals_end_denoising() {
+    let sandbox = Sandbox::new();
+    let line = ["render", "scene.ron", "-o", "a.png", "--size", "700x500", "-s", "2", "--denoise", "-j", "1", "-v"];
+    let mut child = sandbox.command(&line);
+    let mut child = child.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("the program starts");
+    std::thread::sleep(Duration::from_millis(1500));
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().expect("a pipe"), &mut said).expect("text");
+    assert_eq!(child.wait().expect("it ends").code(), Some(143), "{said}");
+    // On a busy machine it was rendering still.
+    assert!(said.contains("the picture is not denoised") || said.contains("a.png holds"), "{said}");
+    assert_eq!(sandbox.files(), ["a.png", "scene.ron"]);
+}
+
 #[test]
 fn a_finished_picture_is_extended() {
     let sandbox = Sandbox::new();

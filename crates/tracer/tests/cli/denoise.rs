@@ -68,6 +68,13 @@ fn parts_are_denoised_when_they_are_merged() {
     assert_eq!(sandbox.read("all.exr"), sandbox.read("one.exr"));
     let report = json(&sandbox, "r.json");
     assert!(report["denoise"]["change"].as_f64().is_some() && report["picture"]["layers"][0] == "normal", "{report}");
+    // Rows that are missing are black, and the others are denoised.
+    for k in ["1/2", "2/2"] {
+        let part = ["-s", "8", "--denoise", "--part", k, "--split", "rows"];
+        render(&sandbox, &[&part[..], &["-o", &format!("rows{}.tracer", &k[..1])]].concat()).ends(0);
+    }
+    let merge = ["merge", "rows1.tracer", "-o", "rows.png", "--denoise", "--allow-missing"];
+    sandbox.run(&merge).ends(0).says(&["missing: samples 0 to 7 of rows", "denoised in "]);
     // They may be merged without, too: then with the layers that were asked for.
     sandbox.run(&[&parts[..], &["-o", "noisy.exr"]].concat()).ends(0);
     let names: Vec<String> = channels(&sandbox, "noisy.exr").into_keys().collect();

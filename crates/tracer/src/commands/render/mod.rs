@@ -177,6 +177,10 @@ fn one(
         .then(|| denoising::picture(&film, &scene.look, written_layers, denoiser.as_ref(), shell))
         .transpose()?;
     let is_noisy = made.as_ref().is_some_and(|made| made.is_noisy(shell));
+    let is_ended = made.as_ref().is_some_and(|made| made.is_ended);
+    if is_ended && frames.is_some() {
+        return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
+    }
     let (mut image, denoised) = made.map(|Developed { image, denoised, .. }| (image, denoised)).unzip();
     if let Some(image) = image.as_mut().filter(|_| outputs::has_exr(&outputs)) {
         image.mattes = scene.mattes.develop(&film);
@@ -264,6 +268,9 @@ fn one(
         let goes_on = goes_on.map_or(String::new(), |name| format!("; --resume {name} goes on"));
         shell.say(&format!("interrupted: {names} holds {held} of {asked} samples per pixel{goes_on}"));
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
+    }
+    if let Some(code) = interrupt::requested().filter(|_| is_ended) {
+        return Ok(ExitCode::from(code));
     }
     let failed = elsewhere || is_noisy || matches!(kept, Some(Err(_)));
     Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
