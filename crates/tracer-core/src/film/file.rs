@@ -546,8 +546,8 @@ fn tile_count(crop: Crop) -> usize {
 }
 
 impl Film {
-    /// Writes the film, with notes that [`SavedFilm::head`] gives back; gives its bytes. It has some twenty bytes a
-    /// pixel, forty where light paths fall: a quarter and a third of the memory.
+    /// Writes the film, with notes that [`SavedFilm::head`] gives back; gives its bytes. It has some 23 bytes a
+    /// pixel, 43 where light paths fall: a quarter and a third of the memory.
     ///
     /// # Errors
     /// When it cannot be written; when it was merged with gaps.

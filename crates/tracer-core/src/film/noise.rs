@@ -59,6 +59,11 @@ impl Octave {
     }
 }
 
+/// A number to 16 binary digits, as files have it: to 1e-5 of itself, which is below any noise that is asked for.
+fn shortened(x: f32) -> f32 {
+    f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
+}
+
 impl Film {
     /// Puts down what the film has, where all pixels have the same power of two of samples. Parts know nothing of the
     /// samples of others.
@@ -75,7 +80,7 @@ impl Film {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
                 sum += 4.0 * (mean - f64::from(tile.octave[pixel])).powi(2);
-                tile.octave[pixel] = mean as f32;
+                tile.octave[pixel] = shortened(mean as f32);
             }
             sum
         };

@@ -119,7 +119,7 @@ pub(super) fn record(place: usize, tile: &Tile) -> Vec<u8> {
         groups.record(&mut out);
     }
     if octave {
-        out.extend(tile.octave.iter().flat_map(|mean| mean.to_le_bytes()));
+        pack(|k| (tile.octave[k].to_bits() >> 8).into(), &mut out);
     }
     let length = (out.len() - 8) as u32;
     out[4..8].copy_from_slice(&length.to_le_bytes());
@@ -175,9 +175,12 @@ pub(super) fn read_tile(mut from: &[u8], most: u32, held: Held, tile: &mut Tile)
         tile.groups = Some(Box::new(TileGroups::read(from, held.groups)?));
     }
     if flags & 128 != 0 {
-        for mean in &mut tile.octave {
-            *mean = f32::from_le_bytes(*from.split_off(..4)?.first_chunk()?);
-        }
+        let mut fits = true;
+        unpack(from, |k, bits| match u32::try_from(bits) {
+            Ok(bits) if bits < 1 << 24 => tile.octave[k] = f32::from_bits(bits << 8),
+            _ => fits = false,
+        })?;
+        fits.then_some(())?;
     }
     (tile.octave.iter().all(|mean| mean.is_finite()) && from.is_empty()).then_some(())
 }
