@@ -75,6 +75,8 @@ pub struct Source {
     pub name: String,
     /// The whole text.
     pub text: String,
+    /// Where another source includes this one, and what is said there.
+    pub included: Option<Label>,
 }
 
 /// How grave a diagnostic is.
@@ -197,6 +199,24 @@ impl Diagnostic {
     pub fn at_line(mut self, path: impl Into<PathBuf>, line: u64) -> Self {
         self.elsewhere = Some(FileLine { path: path.into(), line });
         self
+    }
+}
+
+/// Files within each other that are told of, at most.
+const MOST_INCLUDED: usize = 256;
+
+/// Says of a fault in an included file how one gets there, where nobody did before.
+pub fn say_where_included(fault: &mut Diagnostic, sources: &[Source]) {
+    let of = |span: Span| sources.get(span.source as usize).and_then(|source| source.included.as_ref());
+    let mut at = fault.span;
+    for _ in 0..MOST_INCLUDED {
+        let Some(label) = of(at) else { return };
+        let leads_out = |label: &Label| of(label.span).is_none() && label.span.source != fault.span.source;
+        if fault.labels.iter().any(|known| leads_out(known) || known.span == label.span) {
+            return;
+        }
+        at = label.span;
+        fault.labels.push(label.clone());
     }
 }
 

@@ -44,7 +44,7 @@ pub use light_groups::most_light_groups;
 use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
-use scene_format::diagnostic::{Span, keep_first};
+use scene_format::diagnostic::{Span, keep_first, say_where_included};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -174,6 +174,7 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
         nearby::suggest(&desc.base_dir, &desc.sources, &nearby::by_place(desc), &mut diagnostics);
+        diagnostics.iter_mut().for_each(|fault| say_where_included(fault, &desc.sources));
         return Err(CompileError { diagnostics });
     }
     Ok(Gathered { loaded, assigned, curved, solid_objects, files, mattes, finished, background, placed, diagnostics })
