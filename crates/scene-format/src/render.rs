@@ -3,6 +3,10 @@
 //! Nothing is printed here: the functions return strings, and the caller says whether there are colours and how wide
 //! the terminal is.
 
+mod sarif;
+
+pub use sarif::Sarif;
+
 use crate::diagnostic::{Diagnostic, Edit, Severity, Source, Span};
 use annotate_snippets::renderer::{DEFAULT_TERM_WIDTH, DecorStyle};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
