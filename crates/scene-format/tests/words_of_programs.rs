@@ -154,10 +154,7 @@ fn faults_in_repetitions_name_their_indices() {
              j\")])])",
             " (i = 2, j = 1)",
         ),
-        (
-            "Box(size: 1, placements: [Repeat(count: 4, index: \"k\", items: [[Scale(\"=2 - k\")]])])",
-            " (k = 2)",
-        ),
+        ("Box(size: 1, placements: [Repeat(count: 4, index: \"k\", items: [[Scale(\"=2 - k\")]])])", " (k = 2)"),
     ];
     for (object, indices) in cases {
         let errors = errors(&format!("Scene(background: 1, objects: [{object}])"), &[]);

@@ -15,8 +15,8 @@ mod repro;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use cache::CacheArgs;
-pub use check::{CheckArgs, DiagnosticsForm};
 use check::forms;
+pub use check::{CheckArgs, DiagnosticsForm};
 pub use denoise::{DenoiseArgs, DenoiseName};
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;

@@ -175,7 +175,8 @@ mod tests {
     /// What the schema asks of the objects that are written here (SARIF 2.1.0, sections 3.13 to 3.57).
     #[test]
     fn a_document_has_what_the_standard_asks_for() {
-        let text = "Scene(\n  background: 1, // ä\n  objects: [Sphere(center: (0, 0, 0), radus: 1), Sphere(center: 1)],\n)";
+        let text =
+            "Scene(\n  background: 1, // ä\n  objects: [Sphere(center: (0, 0, 0), radus: 1), Sphere(center: 1)],\n)";
         let Err(LoadError::Invalid { diagnostics, sources, .. }) =
             load_str("a b.ron", text, Syntax::Ron, Path::new(""), &[])
         else {

@@ -100,22 +100,35 @@ fn who_is_shut_in_is_told() {
         "Sphere(center: (0, 1, 6), radius: 2)",
         "Box(center: (0, 1, 6), size: 2)",
         "Box(size: 2, transform: [Rotate(axis: (0, 1, 0), degrees: 30), Translate((0, 1, 6))])",
+        "Cylinder(from: (-3, 1, 6), to: (2, 1, 6), radius: 1)",
+        "Cone(from: (0, -1, 6), to: (0, 5, 6), radius: 1)",
     ] {
         assert_eq!(code(lamp, &format!("{ball}, {solid}")), ["W0306", "W0308"], "{solid}");
     }
     // A lamp in a ball; in a box that is moved.
-    for solid in ["Sphere(center: (0, 3, 0), radius: 1)", "Box(size: 2, placements: [[Translate((0, 3, 0))]])"] {
+    for solid in [
+        "Sphere(center: (0, 3, 0), radius: 1)",
+        "Box(size: 2, placements: [[Translate((0, 3, 0))]])",
+        "Cylinder(from: (-1, 3, 0), to: (1, 3, 0), radius: 0.51)",
+        "Cone(from: (0, 2, 0), to: (0, 8, 0), radius: 1)",
+    ] {
         assert_eq!(code(&format!("background: 0.5, {lamp}"), &format!("{ball}, {solid}")), ["W0307"], "{solid}");
     }
     // What shines in a ball.
     let shining =
         "Sphere(center: (0, 3, 0), radius: 0.5, material: Emissive(radiance: 5)), Sphere(center: (0, 3, 0), radius: 1)";
     assert_eq!(code("background: 0.5,", &format!("{ball}, {shining}")), ["W0307"]);
+    // A pane without thickness bends light once.
+    let pane = "Rectangle(size: 3, material: Transparent(ior: 1.5))";
+    assert_eq!(code("background: 0.5,", &format!("{ball}, {pane}")), ["W0310"]);
     // Glass lets light through, a room holds camera and lamp, and a lamp may stick out.
     for solid in [
         "Sphere(center: (0, 3, 0), radius: 1, material: Transparent(ior: 1.5))",
         "Box(center: (0, 0, 0), size: 20)",
         "Sphere(center: (0, 3, 0), radius: 0.4)",
+        "Cylinder(from: (-1, 3, 0), to: (1, 3, 0), radius: 0.49)",
+        "Cylinder(from: (-1, 3, 0), to: (1, 3, 0), radius: 1, caps: false)",
+        "Cone(from: (0, 2, 0), to: (0, 4, 0), radius: 1)",
         "Box(center: (0, 3, 0), size: 0.9)",
     ] {
         assert!(code(lamp, &format!("{ball}, {solid}")).is_empty(), "{solid}");
