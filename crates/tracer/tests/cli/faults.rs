@@ -459,6 +459,16 @@ fn missing_files_of_included_scenes_are_told_with_the_way_there() {
     }
 }
 
+/// Of a mesh file that is text the very line is shown.
+#[test]
+fn faults_of_meshes_show_their_line() {
+    let sandbox = Sandbox::new();
+    sandbox.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 one 0\nf 1 2 3\n");
+    sandbox.write("a.ron", "Scene(background: 1, objects: [Mesh(file: \"a.obj\")])");
+    let ran = sandbox.run(&["check", "a.ron"]).ends(2);
+    ran.says(&["E0510", "a.ron:1:43", "a.obj:3:5", "3 | v 0 one 0\n  |     ^^^"]);
+}
+
 /// One document on standard output, whatever is wrong with how many scenes.
 #[test]
 fn check_writes_sarif() {
