@@ -150,8 +150,7 @@ fn faults_in_repetitions_name_their_indices() {
     let cases = [
         ("Repeat(count: 3, items: [Sphere(center: (0, 0, 0), radius: \"=i\")])", " (i = 0)"),
         (
-            "Repeat(count: 5, items: [Repeat(count: 2, index: \"j\", items: [Sphere(center: (0, 0, 0), radius: \"=3 - i - \
-             j\")])])",
+            "Repeat(count: 5, items: [Repeat(count: 2, index: \"j\", items: [Box(size: \"=3 - i - j\")])])",
             " (i = 2, j = 1)",
         ),
         ("Box(size: 1, placements: [Repeat(count: 4, index: \"k\", items: [[Scale(\"=2 - k\")]])])", " (k = 2)"),

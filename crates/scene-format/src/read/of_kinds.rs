@@ -112,7 +112,8 @@ const AMONG_LIGHTS: Hints = &[(
 const AMONG_MATERIALS: Hints = &[
     (
         &["diffusetransmission", "difftransmitter", "translucentbsdf"],
-        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: 1.5)`",
+        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: \
+         1.5)`",
     ),
     (
         &["mask", "interface", "holdout", "transparentbsdf", "alphamask"],
