@@ -5,7 +5,7 @@ use super::files::FileError;
 use super::format::MeshFormat;
 use scene_format::Diagnostic;
 use scene_format::codes;
-use scene_format::diagnostic::Span;
+use scene_format::diagnostic::{Excerpt, Span};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,8 @@ pub enum MeshError {
         message: String,
         /// What was expected; may be empty.
         expected: String,
+        /// The line, where it can be shown.
+        excerpt: Option<Excerpt>,
     },
     /// The file cannot be read without an extension of glTF that is not known here.
     #[error("{}: the file requires the glTF extension `{name}`", path.display())]
@@ -85,15 +87,16 @@ impl MeshError {
     /// A fault in a line of `text`.
     #[cold]
     pub(super) fn at_line(path: &Path, text: &[u8], fault: Fault) -> MeshError {
-        let place = Place::Line(fault.line_in(text));
-        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
+        let (place, excerpt) = (Place::Line(fault.line_in(text)), Excerpt::around(text, fault.at));
+        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected, excerpt }
     }
 
     /// A fault at a byte of a binary file.
     #[cold]
     pub(super) fn at_byte(path: &Path, fault: Fault) -> MeshError {
         let place = Place::Byte(fault.at as u64);
-        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected }
+        let excerpt = None;
+        MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected, excerpt }
     }
 
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh), `E0511` (empty
@@ -114,7 +117,7 @@ impl MeshError {
                     .expected(format!("a mesh file that ends in {extensions}"))
                     .hint(hint)
             }
-            MeshError::Broken { path, place, message, expected } => {
+            MeshError::Broken { path, place, message, expected, excerpt } => {
                 let (at, line) = match *place {
                     Place::Line(line) => (String::new(), line),
                     Place::Byte(byte) => (format!(" at byte {byte}"), 0),
@@ -122,6 +125,7 @@ impl MeshError {
                 Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken{at}: {message}"))
                     .expected(expected.clone())
                     .at_line(path, line)
+                    .showing(excerpt.clone())
             }
             MeshError::Extension { path, name } => {
                 let message = format!("the mesh file requires the glTF extension `{name}`, which is not known here");

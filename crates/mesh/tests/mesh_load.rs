@@ -264,7 +264,7 @@ fn a_broken_mtl_file_is_an_error_of_its_line() {
         ),
     ] {
         match with_mtl(mtl, &["m"]) {
-            Err(MeshError::Broken { path, place: found, message: said, expected: wanted }) => {
+            Err(MeshError::Broken { path, place: found, message: said, expected: wanted, .. }) => {
                 assert!(path.ends_with("my model.mtl"));
                 assert_eq!((found, said.as_str(), wanted.as_str()), (Place::Line(line), message, expected));
             }

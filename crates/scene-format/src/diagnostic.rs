@@ -1,6 +1,7 @@
 //! Diagnostics as data: what is wrong, where, what was expected, and how to mend it.
 
 use crate::codes::{self, Code};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -75,6 +76,8 @@ pub struct Source {
     pub name: String,
     /// The whole text.
     pub text: String,
+    /// Where another source includes this one, and what is said there.
+    pub included: Option<Label>,
 }
 
 /// How grave a diagnostic is.
@@ -94,6 +97,42 @@ pub struct FileLine {
     pub path: PathBuf,
     /// 1-based; 0 when the whole file is meant.
     pub line: u64,
+    /// The line, where it can be shown.
+    pub excerpt: Option<Excerpt>,
+}
+
+/// A line of a file that no [`Source`] holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Excerpt {
+    /// The line without its end; a long one is cut.
+    pub text: String,
+    /// The bytes of `text` that are at fault.
+    pub at: Range<usize>,
+}
+
+/// Bytes of a line that are shown, at most.
+const SHOWN_BYTES: usize = 200;
+
+impl Excerpt {
+    /// The line around a byte of a text, with the word that begins there at fault. `None`: it cannot be shown, since it
+    /// is no UTF-8 or the byte stands too far along it.
+    pub fn around(text: &[u8], at: usize) -> Option<Excerpt> {
+        // What is wrong at the end of a file is so in its last line.
+        let whole = text.strip_suffix(b"\n").unwrap_or(text);
+        let at = at.min(whole.len());
+        let start = whole.get(..at)?.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+        let line = whole.get(start..)?.split(|&byte| byte == b'\n').next()?;
+        let line = line.get(..line.len().min(SHOWN_BYTES))?;
+        // A character may be cut in two.
+        let valid = std::str::from_utf8(line).map_or_else(|error| error.valid_up_to(), str::len);
+        let line = std::str::from_utf8(line.get(..valid)?).ok()?.trim_end_matches('\r');
+        let from = at - start;
+        let rest = line.get(from..)?;
+        let length = rest.find(char::is_whitespace).unwrap_or(rest.len());
+        let shown = |c: char| if c.is_control() && c != '\t' { ' ' } else { c };
+        let is_plain = line.chars().all(|c| !c.is_control() || c.is_ascii());
+        is_plain.then(|| Excerpt { text: line.chars().map(shown).collect(), at: from..from + length })
+    }
 }
 
 /// A replacement of the bytes of `span` that mends the fault.
@@ -195,8 +234,34 @@ impl Diagnostic {
 
     /// Adds the place in another file.
     pub fn at_line(mut self, path: impl Into<PathBuf>, line: u64) -> Self {
-        self.elsewhere = Some(FileLine { path: path.into(), line });
+        self.elsewhere = Some(FileLine { path: path.into(), line, excerpt: None });
         self
+    }
+
+    /// Shows the line of the other file.
+    pub fn showing(mut self, excerpt: Option<Excerpt>) -> Self {
+        if let Some(file) = &mut self.elsewhere {
+            file.excerpt = excerpt;
+        }
+        self
+    }
+}
+
+/// Files within each other that are told of, at most.
+const MOST_INCLUDED: usize = 256;
+
+/// Says of a fault in an included file how one gets there, where nobody did before.
+pub fn say_where_included(fault: &mut Diagnostic, sources: &[Source]) {
+    let of = |span: Span| sources.get(span.source as usize).and_then(|source| source.included.as_ref());
+    let mut at = fault.span;
+    for _ in 0..MOST_INCLUDED {
+        let Some(label) = of(at) else { return };
+        let leads_out = |label: &Label| of(label.span).is_none() && label.span.source != fault.span.source;
+        if fault.labels.iter().any(|known| leads_out(known) || known.span == label.span) {
+            return;
+        }
+        at = label.span;
+        fault.labels.push(label.clone());
     }
 }
 
@@ -218,4 +283,24 @@ pub fn keep_first(diagnostics: &mut Diagnostics) {
     let error = rest.iter().find(|fault| fault.severity == Severity::Error).map(|fault| too_many(fault.span));
     diagnostics.truncate(MAX_DIAGNOSTICS);
     diagnostics.extend(error);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn excerpts_are_lines_with_the_word_at_fault() {
+        let of = |text: &[u8], at: usize| Excerpt::around(text, at).map(|found| (found.text, found.at));
+        let line = |text: &str, at: Range<usize>| Some((text.to_owned(), at));
+        assert_eq!(of(b"v 0 0\r\nv 1 x 2\n", 11), line("v 1 x 2", 4..5));
+        assert_eq!(of(b"v 0 0\nv 1\n", 10), line("v 1", 3..3));
+        assert_eq!(of(b"v 0 0\nv 1\n", 99), line("v 1", 3..3));
+        assert_eq!(of("# \u{e4}\nf 1".as_bytes(), 7), line("f 1", 2..3));
+        assert_eq!(of(b"", 0), line("", 0..0));
+        // No text, and too far along the line.
+        assert_eq!(of(b"\xff\xfe 1", 3), None);
+        assert_eq!(of("\u{e4}".repeat(300).as_bytes(), 400), None);
+        assert_eq!(of(&[b'a'; 500], 0).map(|(text, _)| text.len()), Some(SHOWN_BYTES));
+    }
 }

@@ -3,7 +3,7 @@
 //!
 //! What is wrong with a file, or with a circle of them, is told by the reader at the place that names it.
 
-use crate::diagnostic::{Diagnostic, Label, Severity, Source, Span};
+use crate::diagnostic::{Label, Severity, Source, Span};
 use crate::files::{self, MAX_FILE_BYTES, MOST_FILES, joined};
 use crate::overrides::Override;
 use crate::syntax::{Sink, Syntax, parse, ron};
@@ -121,7 +121,8 @@ impl Library {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let from = Span { source: source as u32, ..name.span() };
         self.known.insert(path.clone(), self.files.len());
-        let source = Source { name: whole.display().to_string(), text };
+        let included = Label { span: from, text: format!("{} is included here", path.display()) };
+        let source = Source { name: whole.display().to_string(), text, included: Some(included) };
         self.files.push(Included { path: path.into(), folder, source, syntax, fault, from });
     }
 
@@ -172,26 +173,6 @@ impl Library {
                 tree.nodes.extend(inner.nodes.iter().map(|node| Node { source: number as u16, ..node }));
             }
             tree.included.push(root);
-        }
-    }
-
-    /// Says of a fault in an included file how one gets there, where the reader did not; `first`: the number of the
-    /// first such source.
-    pub fn say_where(&self, fault: &mut Diagnostic, first: usize) {
-        let file = |span: Span| (span.source as usize).checked_sub(first).and_then(|k| self.files.get(k));
-        let told = |fault: &Diagnostic, from: Span| fault.labels.iter().any(|label| label.span == from);
-        let mut at = fault.span;
-        for _ in 0..MOST_FILES {
-            let Some(included) = file(at) else { return };
-            if fault.labels.iter().any(|label| file(label.span).is_none() && label.span.source != fault.span.source) {
-                return;
-            }
-            at = included.from;
-            if told(fault, at) {
-                return;
-            }
-            let label = Label { span: at, text: format!("{} is included here", included.path.display()) };
-            fault.labels.push(label);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::codes;
 use crate::desc::{self, Moments, SceneDesc};
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, say_where_included};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
@@ -118,8 +118,12 @@ fn load_string(
     }
     let syntax = syntax.unwrap_or_else(|| Syntax::guess(&text));
     let library = Library::of(&text, syntax, base_dir, overrides);
-    let mut sources = vec![Source { name: name.to_owned(), text }];
-    sources.extend(overrides.iter().map(|set| Source { name: set.option.to_owned(), text: set.argument.clone() }));
+    let mut sources = vec![Source { name: name.to_owned(), text, included: None }];
+    sources.extend(overrides.iter().map(|set| Source {
+        name: set.option.to_owned(),
+        text: set.argument.clone(),
+        included: None,
+    }));
     sources.extend(library.files.iter().map(|file| file.source.clone()));
     let texts = Texts { sources, syntax, base_dir: base_dir.to_owned(), overrides: overrides.to_vec(), library };
     let (read, moves) = match texts.read(0.0) {
@@ -175,7 +179,7 @@ impl Texts {
         for file in &library.files {
             sink.files.add(FileKind::Scene, &file.path, file.from);
         }
-        sink.diagnostics.iter_mut().for_each(|fault| library.say_where(fault, 1 + overrides.len()));
+        sink.diagnostics.iter_mut().for_each(|fault| say_where_included(fault, sources));
         if sink.errors > 0
             && let Some(fault) = foreign::whole(text, *syntax)
         {
@@ -344,7 +348,7 @@ fn too_large(name: String) -> LoadError {
             .hint("put many copies of a mesh into a placements file beside the scene");
     LoadError::Invalid {
         diagnostics: vec![diagnostic],
-        sources: vec![Source { name, text: String::new() }],
+        sources: vec![Source { name, text: String::new(), included: None }],
         files: Vec::new(),
         undecided: None,
     }
@@ -376,7 +380,7 @@ fn in_utf16(name: &str, text: String) -> LoadError {
         .hint("save it as UTF-8 in your editor; in PowerShell: `.. | Out-File -Encoding utf8 FILE`");
     LoadError::Invalid {
         diagnostics: vec![diagnostic],
-        sources: vec![Source { name: name.to_owned(), text }],
+        sources: vec![Source { name: name.to_owned(), text, included: None }],
         files: Vec::new(),
         undecided: None,
     }
@@ -396,7 +400,7 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
     .hint("save it as UTF-8 in your editor");
     LoadError::Invalid {
         diagnostics: vec![diagnostic],
-        sources: vec![Source { name: name.to_owned(), text }],
+        sources: vec![Source { name: name.to_owned(), text, included: None }],
         files: Vec::new(),
         undecided: None,
     }

@@ -8,7 +8,7 @@ use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::files::MOST_FILES;
-use crate::read::{command_line, shortened};
+use crate::read::{command_line, shortened, synonyms};
 use crate::schema::{Content, EnumDef, StructDef, Type, VariantDef, fits};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax, ron, span};
@@ -311,6 +311,7 @@ impl Setter {
                 fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
                 Err(fault)
             }
+            (Type::Vector | Type::Pair, _) => self.find_part(item, step, rest, noun),
             (Type::List(inner), What::Index(index)) => {
                 if !matches!(item.kind(), Kind::List) {
                     return Err(self.no_parts(item, step, noun));
@@ -362,7 +363,7 @@ impl Setter {
             let mut fault = self
                 .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
                 .expected(format!("one of {}", suggest::list(&names)));
-            fault.did_you_mean(suggest::nearest(name, names.iter().copied()), str::to_owned);
+            fault.did_you_mean(meant_field(name, def), str::to_owned);
             // `fov`, without the group that it is a field of.
             let group = Scene::DEF
                 .fields
@@ -444,7 +445,7 @@ impl Setter {
                     let mut fault = self
                         .fault(codes::BAD_SET_PATH, step, format!("{} has no field `{}`", def.noun, shortened(name)))
                         .expected(format!("one of {}", suggest::list(&words)));
-                    fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
+                    fault.did_you_mean(meant_field(name, def), str::to_owned);
                     if let Some(option) = command_line(name, def) {
                         (fault.hint, fault.edit) = (option.to_owned(), None);
                     }
@@ -477,6 +478,12 @@ impl Setter {
             (Type::Map(_) | Type::List(_), _) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
                 .hint("set it as a whole")),
+            (Type::Vector | Type::Pair, _) => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
+                .hint(match kind {
+                    Type::Vector => "set it as a whole: (x, y, z)",
+                    _ => "set it as a whole: (x, y)",
+                })),
             _ => Err(self.fault(codes::BAD_SET_PATH, step, format!("{} has no parts", crate::read::plain(noun)))),
         }
     }
@@ -523,6 +530,12 @@ impl Setter {
     fn fault(&self, code: codes::Code, step: &Step<'_>, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(code, span(self.source, step.start, step.end), message)
     }
+}
+
+/// The field that is meant by a name that is none: what other programs call so, else the nearest.
+fn meant_field(name: &str, def: &'static StructDef) -> Option<&'static str> {
+    let of_others = synonyms(name, def).into_iter().next();
+    of_others.or_else(|| suggest::nearest(name, def.fields.iter().map(|field| field.name)))
 }
 
 /// The variant of this name (`true`), or the first one with a field of this name.

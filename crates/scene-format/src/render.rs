@@ -3,6 +3,10 @@
 //! Nothing is printed here: the functions return strings, and the caller says whether there are colours and how wide
 //! the terminal is.
 
+mod sarif;
+
+pub use sarif::Sarif;
+
 use crate::diagnostic::{Diagnostic, Edit, Severity, Source, Span};
 use annotate_snippets::renderer::{DEFAULT_TERM_WIDTH, DecorStyle};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -238,8 +242,17 @@ fn group<'g>(diagnostic: &'g Diagnostic, lines: &'g [Lines<'g>], others: &'g str
     }
     if let Some(file) = &diagnostic.elsewhere {
         let path = file.path.display().to_string();
-        let place = if file.line == 0 { path } else { format!("{path}:{}", file.line) };
-        group = group.element(Level::NOTE.with_name(Some("in")).message(place));
+        group = match &file.excerpt {
+            Some(excerpt) => {
+                let annotation = AnnotationKind::Primary.span(excerpt.at.clone());
+                let snippet = Snippet::source(excerpt.text.as_str()).line_start(file.line as usize);
+                group.element(snippet.path(path).annotation(annotation))
+            }
+            None => {
+                let place = if file.line == 0 { path } else { format!("{path}:{}", file.line) };
+                group.element(Level::NOTE.with_name(Some("in")).message(place))
+            }
+        };
     }
     if !diagnostic.expected.is_empty() {
         group = group.element(Level::NOTE.with_name(Some("expected")).message(&diagnostic.expected));

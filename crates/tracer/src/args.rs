@@ -2,6 +2,7 @@
 
 mod bench;
 mod cache;
+mod check;
 mod denoise;
 mod farm;
 mod fmt;
@@ -14,6 +15,8 @@ mod repro;
 
 pub use bench::{BenchAccelerationArgs, BenchFiguresArgs};
 pub use cache::CacheArgs;
+use check::forms;
+pub use check::{CheckArgs, DiagnosticsForm};
 pub use denoise::{DenoiseArgs, DenoiseName};
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
@@ -126,18 +129,6 @@ pub enum When {
     Never,
 }
 
-/// How diagnostics are printed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum DiagnosticsForm {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON object a line, for editors.
-    Json,
-    /// Annotations of GitHub's Actions.
-    Github,
-}
-
 /// The syntax of a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SyntaxName {
@@ -196,7 +187,7 @@ pub struct SceneArgs {
     #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(long, value_parser = forms(), value_name = "FORM", default_value = "text")]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
 }
@@ -236,51 +227,6 @@ const SCHEMA_EXAMPLES: &str = "\
 Examples:
   tracer schema > scene.schema.json
   tracer schema | jq .properties.camera";
-
-const CHECK_EXAMPLES: &str = "\
-Examples:
-  tracer check room.ron --fix
-  tracer check scenes ball.toml --deny-warnings
-
-Diagnostics go to standard error. Exit code 2 when there is an error.";
-
-/// `tracer check`
-#[derive(Debug, Args)]
-#[command(after_help = CHECK_EXAMPLES)]
-pub struct CheckArgs {
-    /// Scene files, folders of them, or - for standard input
-    #[arg(required = true, value_name = "SCENE")]
-    pub scenes: Vec<PathBuf>,
-    /// Set a field of each scene: camera.fov=40 (repeatable)
-    #[arg(long = "set", value_name = "PATH=VALUE")]
-    pub set: Vec<String>,
-    /// Syntax of the scenes [default: by their names]
-    #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
-    #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
-    pub syntax: Option<SyntaxName>,
-    /// How to print what is wrong: text, json or github
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
-    #[arg(hide_possible_values = true, hide_default_value = true)]
-    pub diagnostics: DiagnosticsForm,
-    /// Take warnings for errors
-    #[arg(long)]
-    pub deny_warnings: bool,
-    /// Mend in the files what can be mended for certain
-    #[arg(long, conflicts_with = "set")]
-    pub fix: bool,
-}
-
-impl CheckArgs {
-    /// The same for one scene.
-    pub fn of(&self, scene: PathBuf) -> SceneArgs {
-        SceneArgs {
-            set: self.set.clone(),
-            syntax: self.syntax,
-            diagnostics: self.diagnostics,
-            ..SceneArgs::plain(scene)
-        }
-    }
-}
 
 const INFO_EXAMPLES: &str = "\
 Examples:
@@ -328,7 +274,7 @@ pub struct ConvertArgs {
     #[arg(long)]
     pub force: bool,
     /// How to print what is wrong: text, json or github
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(long, value_parser = forms(), value_name = "FORM", default_value = "text")]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
 }

@@ -11,7 +11,7 @@ pub mod exit {
     /// What was asked for could not be done (unreadable, read-only, disk full); `compare`: the pictures differ by more
     /// than allowed.
     pub const FAILED: u8 = 1;
-    /// The scene or the command line is wrong.
+    /// The scene or the command line is wrong, or names a file that is there already and is not to be replaced.
     pub const WRONG: u8 = 2;
     /// Interrupted by Ctrl-C.
     pub const INTERRUPTED: u8 = 130;
@@ -65,6 +65,11 @@ impl From<io::Error> for Failure {
 
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
-        if error.is_broken_pipe() { Failure::PipeClosed } else { Failure::CouldNot(error.into()) }
+        match error {
+            _ if error.is_broken_pipe() => Failure::PipeClosed,
+            // Who names a file that is there names another one, or says that it may go.
+            WriteError::There { .. } => Failure::Wrong(error.into()),
+            _ => Failure::CouldNot(error.into()),
+        }
     }
 }

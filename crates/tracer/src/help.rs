@@ -20,6 +20,79 @@ const TEMPLATE_OF_COMMANDS: &str = "{about}\n{usage-heading} {usage}\n{subcomman
 const MORE: [&str; 8] =
     ["inspect", "repro", "bench-acceleration", "bench-figures", "lsp", "schema", "completions", "man"];
 
+/// The parts of a command's whole help, under headings.
+const WHOLE: &str = "{about}\n\n{usage-heading} {usage}\n\n{all-args}{after-help}";
+
+/// Headings of the whole help of `tracer render` and commands with the same options, and what stands under each.
+const HEADINGS: [(&str, &[&str]); 7] = [
+    ("Picture", &["output", "size", "crop", "exposure", "layers", "show", "format", "bits", "no_metadata", "open"]),
+    ("Quality", &["samples", "noise", "time", "seed", "integrator", "threads"]),
+    ("Denoising", &["denoise"]),
+    ("Animation", &["frames", "skip_existing"]),
+    ("Parts and checkpoints", &["part", "split", "checkpoint", "every", "resume"]),
+    ("What is kept and told", &["cache", "cache_size", "cache_verify", "report", "stats", "quiet"]),
+    ("Scene", &["set", "camera", "frame", "syntax", "diagnostics"]),
+];
+
+/// What holds where an option is not written, of those whose short help has no room for it.
+const DEFAULTS: [(&str, &str); 14] = [
+    ("size", "the scene's `image`"),
+    ("crop", "all of it"),
+    ("exposure", "the scene's, 0"),
+    ("layers", "the scene's alone"),
+    ("format", "png"),
+    ("bits", "8"),
+    ("samples", "the scene's"),
+    ("noise", "none"),
+    ("time", "no limit"),
+    ("seed", "the scene's"),
+    ("integrator", "the scene's"),
+    ("camera", "the scene's `camera`"),
+    ("frame", "the scene's, 0"),
+    ("diagnostics", "text"),
+];
+
+/// The words of the command line with all that help has to say: what `--help` shows, where `-h` shows a screen.
+pub fn whole() -> Command {
+    Cli::command().after_help(without_more(&Cli::command())).mut_subcommands(|command| {
+        let inner: Vec<String> = command.get_subcommands().map(|inner| inner.get_name().to_owned()).collect();
+        inner.into_iter().fold(whole_of(command), |command, name| command.mut_subcommand(name, whole_of))
+    })
+}
+
+fn whole_of(command: Command) -> Command {
+    let ids: Vec<String> = command.get_arguments().map(|arg| arg.get_id().to_string()).collect();
+    // Where there are few options, they need no headings.
+    let many = ids.len() > 15;
+    let after = without_more(&command);
+    let command = command.help_template(WHOLE).after_help(after);
+    ids.into_iter().fold(command, |command, id| {
+        command.mut_arg(&id, |arg| {
+            let heading = HEADINGS.iter().find(|(_, ids)| ids.contains(&&*id)).map(|(heading, _)| *heading);
+            let heading = heading.filter(|_| many && !arg.is_positional());
+            let arg = if heading.is_some() { arg.help_heading(heading) } else { arg };
+            let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+            match DEFAULTS.iter().find(|(of, _)| *of == id) {
+                Some((_, default)) if many && !help.contains("[default") => {
+                    arg.help(format!("{help} [default: {default}]")).hide_default_value(true)
+                }
+                _ => arg,
+            }
+        })
+    })
+}
+
+/// What stands behind a command's help, without the lines that say where the rest is.
+fn without_more(command: &Command) -> String {
+    let after = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+    let lines =
+        after.lines().filter(|line| !line.starts_with("More: ")).map(|line| match line.split_once("`tracer ") {
+            Some((before, rest)) if rest.contains(" --help` has ") => before.trim_end(),
+            _ => line,
+        });
+    lines.collect::<Vec<_>>().join("\n").trim_end().to_owned()
+}
+
 /// The words of the command line. (Manual pages and completions are made from [`Cli`] itself.)
 pub fn command() -> Command {
     MORE.into_iter()
@@ -140,14 +213,26 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
 pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let words: Vec<String> = arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     let tip = match error.kind() {
-        ErrorKind::InvalidSubcommand => context(&error, ContextKind::InvalidSubcommand).and_then(|word| of_file(&word)),
+        ErrorKind::InvalidSubcommand => {
+            let word = context(&error, ContextKind::InvalidSubcommand);
+            if let Some(near) = word.as_deref().and_then(|word| near_command(word, &words)) {
+                error.insert(ContextKind::SuggestedSubcommand, ContextValue::String(near));
+            }
+            word.and_then(|word| of_file(&word))
+        }
         ErrorKind::UnknownArgument => {
             // An option of a command, without the command.
             let before = words.iter().all(|word| Cli::command().find_subcommand(word).is_none());
             let option = context(&error, ContextKind::InvalidArg);
             let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| format!("here it is {ours}"));
             let of_option = || option.as_deref().filter(|_| before).and_then(of_option);
-            elsewhere.or_else(of_option).or_else(|| one_more(&words, option.as_deref()?))
+            let of_others = || of_other_commands(words.first()?, option.as_deref().filter(|_| !before)?);
+            let tip = elsewhere.or_else(of_option).or_else(|| one_more(&words, option.as_deref()?)).or_else(of_others);
+            if tip.is_none() && error.get(ContextKind::Suggested).is_some() {
+                // That it might be a value behind `--` is hardly ever meant.
+                error.insert(ContextKind::Suggested, ContextValue::StyledStrs(Vec::new()));
+            }
+            tip
         }
         _ => None,
     };
@@ -155,6 +240,38 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(tip)]));
     }
     error
+}
+
+/// The command that a mistyped word is nearest to; within `golden` and `farm`, one of theirs.
+fn near_command(word: &str, words: &[String]) -> Option<String> {
+    let cli = Cli::command();
+    let of = words.first().and_then(|first| cli.find_subcommand(first)).unwrap_or(&cli);
+    let names: Vec<&str> = of.get_subcommands().map(Command::get_name).chain(["help"]).collect();
+    scene_format::nearest(word, names.iter().copied()).map(str::to_owned)
+}
+
+/// That other commands take an option that this one has not.
+fn of_other_commands(command: &str, option: &str) -> Option<String> {
+    let cli = Cli::command();
+    let option = option.split('=').next().unwrap_or(option);
+    let takers: Vec<&str> = cli.get_subcommands().filter(|of| takes(of, option)).map(Command::get_name).collect();
+    let listed = match takers.as_slice() {
+        [] => return None,
+        [only] => (*only).to_owned(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    };
+    Some(format!(
+        "tracer {command} has no {option}, which {listed} {}",
+        if takers.len() == 1 { "takes" } else { "take" }
+    ))
+}
+
+/// Whether a command takes an option.
+fn takes(command: &Command, option: &str) -> bool {
+    command.get_arguments().any(|arg| {
+        let long = arg.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long));
+        long || arg.get_short().is_some_and(|short| option == format!("-{short}"))
+    })
 }
 
 fn context(error: &clap::Error, kind: ContextKind) -> Option<String> {
@@ -202,14 +319,11 @@ fn one_more(words: &[String], more: &str) -> Option<String> {
 /// The commands that take an option.
 fn of_option(option: &str) -> Option<String> {
     let cli = Cli::command();
-    let takes = |command: &&Command| {
-        command.get_arguments().any(|arg| {
-            let long = arg.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long));
-            long || arg.get_short().is_some_and(|short| option == format!("-{short}"))
-        })
-    };
-    let names: Vec<String> =
-        cli.get_subcommands().filter(takes).map(|command| format!("tracer {}", command.get_name())).collect();
+    let names: Vec<String> = cli
+        .get_subcommands()
+        .filter(|command| takes(command, option))
+        .map(|command| format!("tracer {}", command.get_name()))
+        .collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     match names.as_slice() {
         [] => None,
@@ -227,6 +341,19 @@ mod tests {
         let help = command().render_help().to_string();
         let more = help.lines().find_map(|line| line.strip_prefix("More: ")).expect("a line of the other commands");
         assert!(more.split(' ').eq(MORE), "{more}");
+    }
+
+    #[test]
+    fn every_option_of_render_stands_under_a_heading() {
+        let whole = whole();
+        let render = whole.find_subcommand("render").expect("a command");
+        for arg in render.get_arguments().filter(|arg| !arg.is_positional()) {
+            let id = arg.get_id().as_str();
+            assert!(arg.get_help_heading().is_some(), "--{id} stands under none");
+        }
+        for (_, ids) in HEADINGS {
+            assert!(ids.iter().all(|id| render.get_arguments().any(|arg| arg.get_id() == id)), "{ids:?}");
+        }
     }
 
     #[test]

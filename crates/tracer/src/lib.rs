@@ -37,7 +37,9 @@ use std::time::Instant;
 pub fn main() -> ExitCode {
     let started = Instant::now();
     let arguments = help::meant(std::env::args_os().collect());
-    let matches = help::command().color(color_of_help(&arguments)).try_get_matches_from(&arguments);
+    let asked = arguments.iter().take_while(|argument| *argument != "--").any(|argument| argument == "--help");
+    let words = if asked { help::whole() } else { help::command() };
+    let matches = words.color(color_of_help(&arguments)).try_get_matches_from(&arguments);
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {

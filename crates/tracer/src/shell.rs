@@ -3,7 +3,7 @@
 use crate::args::{DiagnosticsForm, When};
 use scene_format::codes::Code;
 use scene_format::diagnostic::{Source, Span};
-use scene_format::render::{Style, github_lines, json_lines, text};
+use scene_format::render::{Sarif, Style, github_lines, json_lines, text};
 use scene_format::{Diagnostic, Severity};
 use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
@@ -29,6 +29,15 @@ pub struct Shell {
     pub verbosity: Verbosity,
     /// Of a film: what was warned of already, and the frame at hand where it is not the first.
     told: Option<(&'static Told, Option<u32>)>,
+}
+
+/// What is to become one document.
+static FOUND: Mutex<Option<Sarif>> = Mutex::new(None);
+
+/// The SARIF document of all that was told in that form; `done`: whether the command came to its end.
+pub fn sarif(done: bool) -> String {
+    let found = FOUND.lock().unwrap_or_else(PoisonError::into_inner).take();
+    found.unwrap_or_default().document(env!("CARGO_PKG_VERSION"), done)
 }
 
 /// Warnings that were told, which are told once for all frames.
@@ -130,6 +139,10 @@ impl Shell {
             DiagnosticsForm::Text => text(&shown, sources, Style { color: self.color, width: width() }),
             DiagnosticsForm::Json => json_lines(&shown, sources),
             DiagnosticsForm::Github => github_lines(&shown, sources),
+            DiagnosticsForm::Sarif => {
+                let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+                return found.get_or_insert_default().add(&shown, sources);
+            }
         };
         let _ = std::io::stderr().lock().write_all(printed.as_bytes());
         let errors = shown.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();

@@ -30,13 +30,14 @@ codes! {
     /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong
     /// way at it. Seen from outside, the corners of a face go round counterclockwise.
     INSIDE_OUT "W0305" "glass that is inside out";
-    /// The camera stands inside an opaque ball or box in which there is no light: all that it sees is black.
+    /// The camera stands inside an opaque ball, box, cylinder or cone in which there is no light: all that it sees is
+    /// black.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Sphere(center: (0, 0, 5), radius: 1)])
     /// ```
     CAMERA_SHUT_IN "W0306" "the camera is shut in";
-    /// A light lies inside an opaque ball or box, and the camera does not: none of its light gets out.
+    /// A light lies inside an opaque ball, box, cylinder or cone, and the camera does not: none of its light gets out.
     ///
     /// ```text
     /// Scene(
@@ -49,8 +50,8 @@ codes! {
     ALL_BLACK "W0308" "the picture is black";
     /// The rendered picture shows nothing but the background: the camera looks past all objects.
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk, a plane or a cylinder without caps: light is bent there
-    /// once, and never back.
+    /// `Transparent` on a shape that has no inside, a disk, a rectangle, a plane or a cylinder without caps: light is
+    /// bent there once, and never back.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])

@@ -5,7 +5,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
-use crate::read::Reader;
+use crate::read::{Reader, named_color};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum, scene_struct};
@@ -112,6 +112,10 @@ impl Words for Background {
     const TYPE: Type = Type::OneOf(&[Type::Color, BackgroundWords::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if let Some(hex) = named_color(&item.text()).filter(|_| item.kind() == Kind::Word) {
+            let mended = format!("\"{hex}\"");
+            return reader.wrong_kind(item, at.noun, "a colour, or a picture: Environment(file: ..)", Some(mended));
+        }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
             let BackgroundWords::Environment(environment) = BackgroundWords::read(reader, item, at)?;
             return Some(Background::Environment(environment));

@@ -29,13 +29,39 @@ pub(crate) fn evaluate(text: &str, name: &mut dyn FnMut(&str) -> Named) -> Resul
     if parser.at < text.len() {
         let rest = parser.rest_word();
         let found = &text[rest.clone()];
-        return Err(parser.syntax(
-            rest,
-            &format!("`{found}` does not go on the expression"),
-            "an operator, or the end",
-        ));
+        let hint = operator_of_others(found).unwrap_or_default();
+        let message = format!("`{found}` does not go on the expression");
+        let fault = parser.syntax(rest, &message, "an operator, or the end");
+        return Err(fault.map(|fault| Fault { hint: hint.to_owned(), ..fault }));
     }
     Ok(value)
+}
+
+/// How one does without an operator of other languages.
+fn operator_of_others(sign: &str) -> Option<&'static str> {
+    Some(match sign {
+        "?" | "if" | "else" | "then" => "a choice is written if(condition, a, b)",
+        "and" | "AND" | "&" => "both are meant by `&&`",
+        "or" | "OR" | "|" => "one of them is meant by `||`",
+        "not" | "NOT" => "the opposite is written with `!`",
+        "=" => "whether two are the same is asked by `==`",
+        "mod" | "div" => "the rest of a division is written with `%`: x%2",
+        _ => return None,
+    })
+}
+
+/// What other languages call constants, or the place where their functions stand.
+fn name_of_others(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "PI" | "Pi" | "M_PI" => "that is `pi`",
+        "tau" | "TAU" => "that is 2*pi",
+        "e" | "E" | "M_E" => "that is exp(1)",
+        "math" | "Math" | "np" | "numpy" | "std" => "functions stand alone: sin(x)",
+        "True" | "TRUE" => "that is `true`",
+        "False" | "FALSE" => "that is `false`",
+        "not" => "the opposite is written with `!`",
+        _ => return None,
+    })
 }
 
 /// What other programs call frames and time.
@@ -253,6 +279,10 @@ impl Parser<'_, '_> {
 
     fn power(&mut self) -> Result<Value, Failure> {
         let value = self.postfix()?;
+        if self.take(&["**"]).is_some() {
+            let fault = self.syntax(self.at - 2..self.at, "`**` is no operator", "an operator, or the end");
+            return Err(fault.map(|fault| Fault { hint: "a power is written with `^`: x^2".to_owned(), ..fault }));
+        }
         if self.take(&["^"]).is_none() {
             return Ok(value);
         }
@@ -400,7 +430,7 @@ impl Parser<'_, '_> {
                 if let Some(function) = function {
                     fault.message = format!("`{name}` is a function");
                     fault.hint = format!("write {}", function.call);
-                } else if let Some(ours) = moment_of_others(name) {
+                } else if let Some(ours) = moment_of_others(name).or_else(|| name_of_others(name)) {
                     fault.hint = ours.to_owned();
                 } else if let Some(near) = suggest::nearest(name, known.iter().copied().chain(MOMENT)) {
                     fault.hint = format!("did you mean `{near}`?");

@@ -87,6 +87,29 @@ fn collect<'t, 's>(
 }
 
 impl Setter {
+    /// A number of a vector: `position.x`, `position[0]`.
+    pub(super) fn find_part(
+        &self,
+        item: Item<'_, '_>,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+        noun: &str,
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let number = match step.what {
+            What::Index(index) => Some(index),
+            What::Name(name) => ["x", "y", "z"].iter().position(|axis| *axis == name),
+        };
+        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
+        let part = number.filter(|_| bare && rest.is_empty()).and_then(|number| item.children().nth(number));
+        match part {
+            Some(part) => Ok(Some(Edited::Replace(part.index()))),
+            None if bare && rest.is_empty() => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("{} has no such part", crate::read::plain(noun)))
+                .expected("`x`, `y`, `z`, or a number from 0 in brackets")),
+            None => Err(self.no_parts(item, step, noun)),
+        }
+    }
+
     /// Goes on from the light of a group, where `lights.NAME` is none of the scene's own `lights`; `None`: it is for
     /// nobody here.
     pub(super) fn find_light_in_group(

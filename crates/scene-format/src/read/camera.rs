@@ -1,12 +1,13 @@
 //! Cameras: by name, by matrix, and what only a whole camera can tell.
 
+use super::hints::kind_elsewhere;
 use super::{Reader, Step, shortened};
 use crate::codes;
 use crate::desc::matrix::Rows;
 use crate::desc::{Camera, CameraChoice, Chosen, Effects, FisheyeMapping, NamedCamera, Projection, Vec3};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span, Spanned};
 use crate::plane::{cross, dot};
-use crate::schema::{FieldDef, Type};
+use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
@@ -62,6 +63,22 @@ pub(crate) fn are_cameras(item: Item<'_, '_>) -> bool {
     item.kind() == Kind::Map
         && fields.peek().is_some()
         && fields.all(|(key, value)| !is_field(&key.text()) && is_camera(value))
+}
+
+/// What is said of a projection that is written as a kind of camera; `None`: the name is none.
+pub(super) fn projection_elsewhere(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<String> {
+    let kind =
+        Projection::DEF.variant(name).map(|kind| kind.name).or_else(|| kind_elsewhere(name, &Projection::DEF))?;
+    let written = match kind {
+        "Orthographic" => "Orthographic(height: 8)",
+        "Fisheye" => "Fisheye(fov: 180)",
+        "Panorama" => "Panorama",
+        _ => return None,
+    };
+    (def.name == "Camera").then(|| match syntax {
+        Syntax::Ron => format!("write Camera(projection: {written})"),
+        _ => format!("how it projects is its `projection`, {kind}"),
+    })
 }
 
 impl Reader<'_> {

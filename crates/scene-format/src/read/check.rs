@@ -93,7 +93,8 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
             MaterialRef::Inline(material) => material.value.shines().is_some(),
             MaterialRef::Named { .. } | MaterialRef::Default => false,
         };
-        if dark && black && !reader.materials.any_shines() && !scene.objects.0.iter().any(shines) {
+        let is_wrong = reader.sink.diagnostics.iter().any(|fault| fault.path.starts_with("background"));
+        if dark && black && !is_wrong && !reader.materials.any_shines() && !scene.objects.0.iter().any(shines) {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(

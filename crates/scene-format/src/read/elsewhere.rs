@@ -3,7 +3,7 @@
 
 use super::Reader;
 use super::shape_fields::one_ring;
-use super::value::hex_color;
+use super::value::{hex_color, is_picture};
 use crate::codes;
 use crate::desc::is_texture;
 use crate::desc::matrix::unnamed_rows;
@@ -43,7 +43,7 @@ const COLORS: [(&str, &str); 26] = [
 ];
 
 /// The hexadecimal value of a colour's name.
-pub(super) fn named_color(name: &str) -> Option<&'static str> {
+pub(crate) fn named_color(name: &str) -> Option<&'static str> {
     COLORS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known)).map(|(_, hex)| *hex)
 }
 
@@ -102,6 +102,9 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
     match item.kind() {
         Kind::Tuple => {
             let name = item.name()?.to_ascii_lowercase();
+            if let ("hex" | "html" | "rgbhex", true, Some(hex)) = (&*name, at.rule.color, hex_of_call(item)) {
+                return Some(format!("\"#{hex}\""));
+            }
             let inner = numbers(item).filter(|numbers| numbers.len() == count && WORDS.contains(&name.as_str()))?;
             let values: Vec<f64> = inner.iter().map(|number| decode::number(number)).collect();
             let bytes = values.iter().all(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value));
@@ -125,6 +128,17 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
         Kind::Word if at.rule.color => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
         _ => None,
     }
+}
+
+/// The digits of `hex("ff0000")`.
+fn hex_of_call(item: Item<'_, '_>) -> Option<String> {
+    let mut children = item.children();
+    let (only, None) = (children.next().filter(|only| only.kind() == Kind::Text)?, children.next()) else {
+        return None;
+    };
+    let text = only.text();
+    let digits = text.trim_start_matches('#').trim_start_matches("0x");
+    (digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit())).then(|| digits.to_owned())
 }
 
 /// What may be written for a number: what stands in `Some(..)` or `float(..)`, and degrees for `radians(..)`.
@@ -167,9 +181,20 @@ pub(super) fn field_elsewhere(
     };
     match name {
         _ if let Some(mended) = one_ring(name, value, def) => Some((None, mended)),
+        "texture" | "map" | "map_kd" | "map_Kd" | "image" | "albedo_map" | "color_map" | "diffuse_texture"
+            if def.field("albedo").is_some() && value.kind() == Kind::Text && is_picture(&value.text()) =>
+        {
+            let file = Fields(value.syntax()).name("file");
+            let texture = match value.syntax() {
+                Syntax::Ron => format!("Texture({file}{})", value.lexeme()),
+                Syntax::Toml => format!("{{ Texture = {{ {file}{} }} }}", value.lexeme()),
+                Syntax::Json => format!("{{ \"Texture\": {{ {file}{} }} }}", value.lexeme()),
+            };
+            Some((None, format!("{}{texture}", name_of("albedo"))))
+        }
         "diameter" => convert("radius", |d| d / 2.0),
         "radians" => convert("degrees", f64::to_degrees),
-        "resolution" | "size" | "dimensions" if def.name == "Image" => {
+        "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {
             let [width, height] = sides(value)?;
             Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))
         }

@@ -1,7 +1,9 @@
 //! What was meant by a word that is not there: the words of other programs, and the right place.
 
+use super::of_kinds::{self, LIGHTS, TRANSFORMS};
 use super::pattern_fields::of_pattern;
 use super::shape_fields::of_shape;
+use super::synonyms::{squeezed, synonyms};
 use crate::desc::{Material, Object, Scene};
 use crate::schema::{EnumDef, FieldDef, StructDef};
 use crate::syntax::Syntax;
@@ -13,10 +15,10 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
     let ron = syntax == Syntax::Ron;
     let has = |field| def.field(field).is_some();
     let words = match name.to_ascii_lowercase().as_str() {
-        "color" | "colour" | "albedo" | "texture" if has("material") && ron => {
+        "color" | "colour" | "albedo" | "texture" | "pigment" | "rgb" | "hex" | "diffuse" if has("material") && ron => {
             Some("colours belong to a material: `material: Diffuse(albedo: ..)`")
         }
-        "color" | "colour" | "albedo" | "texture" if has("material") => {
+        "color" | "colour" | "albedo" | "texture" | "pigment" | "rgb" | "hex" | "diffuse" if has("material") => {
             Some("colours belong to a material: `material = { Diffuse = { albedo = .. } }`")
         }
         "size" | "width" | "radius" | "extent" if def.name == "Plane" => {
@@ -24,10 +26,10 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         }
         "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
         "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
-        "position" | "center" | "translate" | "translation" if has("transform") && ron => {
+        "position" | "center" | "translate" | "translation" | "move" | "offset" if has("transform") && ron => {
             Some("write it as a transform: `transform: [Translate((x, y, z))]`")
         }
-        "position" | "center" | "translate" | "translation" if has("transform") => {
+        "position" | "center" | "translate" | "translation" | "move" | "offset" if has("transform") => {
             Some("write it as a transform: `transform = [{ Translate = [x, y, z] }]`")
         }
         "matrix" | "to_world" | "matrix_world" if has("transform") && ron => {
@@ -37,10 +39,16 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
             "write it as a transform: `transform = [{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } \
              }]`",
         ),
-        "rotate" | "rotation" if has("transform") && ron => {
+        "rotate" | "rotation" | "rotatex" | "rotatey" | "rotatez" | "rotate_x" | "rotate_y" | "rotate_z" | "turn"
+        | "euler" | "orientation"
+            if has("transform") && ron =>
+        {
             Some("write it as a transform: `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`")
         }
-        "rotate" | "rotation" if has("transform") => {
+        "rotate" | "rotation" | "rotatex" | "rotatey" | "rotatez" | "rotate_x" | "rotate_y" | "rotate_z" | "turn"
+        | "euler" | "orientation"
+            if has("transform") =>
+        {
             Some("write it as a transform: `transform = [{ Rotate = { axis = [0, 1, 0], degrees = 90 } }]`")
         }
         _ => None,
@@ -59,21 +67,30 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
         });
     }
     // Of things width and height are their own, not the picture's.
-    if matches!(name, "width" | "height")
-        && def.name != "Scene"
-        && Scene::DEF.fields.iter().all(|field| !is_group(field, def))
-    {
+    if matches!(name, "width" | "height") && def.name != "Scene" && !is_group_of_scene(def) {
         return None;
     }
-    let group = Scene::DEF
-        .fields
-        .iter()
-        .find(|field| field.kind.group().is_some_and(|group| group.name != def.name && group.field(name).is_some()))?;
-    let group = group.name;
-    Some(match toml {
-        true => format!("`{name}` is a field of [{group}]"),
-        false => format!("`{name}` is a field of `{group}`"),
+    let named = |group: &&FieldDef| group.kind.group().filter(|group| group.name != def.name);
+    let exact = |group: &&FieldDef| named(group).is_some_and(|group| group.field(name).is_some());
+    let group = Scene::DEF.fields.iter().find(exact);
+    // `spp` beside the groups, or in another of them.
+    let vague = ["type", "kind", "mode", "format", "end", "length", "count", "rate", "distance", "radius", "path"];
+    let of_groups = name.len() > 2 && !vague.contains(&name) && (def.name == "Scene" || is_group_of_scene(def));
+    let called = || {
+        let mut groups = Scene::DEF.fields.iter().filter(|_| of_groups);
+        groups.find_map(|field| Some((field.name, *synonyms(name, named(&field)?).first()?)))
+    };
+    let (group, ours) = group.map(|group| (group.name, None)).or_else(|| called().map(|(g, ours)| (g, Some(ours))))?;
+    let place = if toml { format!("[{group}]") } else { format!("`{group}`") };
+    Some(match ours {
+        None => format!("`{name}` is a field of {place}"),
+        Some(ours) => format!("that is `{ours}` here, a field of {place}"),
     })
+}
+
+/// Whether these are the fields of one of the scene's groups.
+fn is_group_of_scene(def: &'static StructDef) -> bool {
+    Scene::DEF.fields.iter().any(|field| is_group(field, def))
 }
 
 /// Whether this field of the scene has these fields.
@@ -88,12 +105,28 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("CatmullRom", &["cubic_spline", "cubicspline", "quadratic_spline", "spline", "smooth", "cubic", "natural"]),
         ("SideBySide", &["sidebyside", "side_by_side", "sbs", "left_right", "leftright", "horizontal", "lr"]),
         ("TopBottom", &["topbottom", "top_bottom", "over_under", "overunder", "tab", "vertical", "above", "tb"]),
-        ("SphereLight", &["pointlight", "light", "lamp", "spherearealight"]),
+        ("SphereLight", &["pointlight", "light", "lamp", "spherearealight", "lightsource"]),
         ("Matrix", &["matrix", "matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"]),
         ("Matrix", &["transform", "concattransform", "concat_transform"]),
         ("Align", &["orient", "aligned", "align_to", "alignto", "rotate_to", "rotateto", "point_at", "reorient"]),
         ("FitTo", &["fit", "resize", "normalize", "normalise", "unitize", "scale_to", "scaleto", "dimensions"]),
         ("DropTo", &["drop", "ground", "place_on", "rest_on"]),
+        ("Silver", &["ag"]),
+        ("Gold", &["au"]),
+        ("Copper", &["cu"]),
+        ("Aluminum", &["al", "alu", "aluminium"]),
+        ("Iron", &["fe"]),
+        ("Chromium", &["cr", "chrome"]),
+        ("Nickel", &["ni"]),
+        ("Titanium", &["ti"]),
+        ("Platinum", &["pt"]),
+        ("Full", &["bdpt", "bidirectional", "photon", "photonmapping", "photonmapper", "sppm", "vcm", "mlt", "pssmlt"]),
+        ("Translate", &["move", "translation", "position", "offset", "shift", "place", "displace"]),
+        ("Rotate", &["turn", "rotation", "spin", "rotateaxis", "angleaxis", "axisangle"]),
+        ("Scale", &["scaling", "size", "stretch", "enlarge", "zoom"]),
+        ("Panorama", &["spherical", "environment", "equirectangular", "latlong", "panoramic", "omnidirectional"]),
+        ("Perspective", &["thinlens", "pinhole", "persp"]),
+        ("Orthographic", &["ortho", "parallel", "telecentric"]),
         ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
@@ -128,11 +161,21 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("PathLength", &["bounces", "path_depth", "raydepth", "ray_depth", "segments"]),
         ("Nodes", &["traversal", "cost", "heatmap", "boxes"]),
     ];
-    let lower = name.to_ascii_lowercase();
+    let plain = squeezed(name);
+    // `DiffuseBSDF`, `Glass BSDF`
+    let bare = plain.strip_suffix("bsdf").filter(|bare| !bare.is_empty() && def.noun == "material");
     let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, others, _)| (kind, others));
     let mut all = SYNONYMS.iter().map(|(kind, others)| (kind, others)).chain(told);
-    let found = all.find(|(kind, others)| def.variant(kind).is_some() && others.contains(&lower.as_str()));
+    let same = |other: &str| squeezed(other) == plain || bare == Some(other);
+    let found = all.find(|(kind, others)| {
+        def.variant(kind).is_some()
+            && (others.iter().any(|other| same(other)) || bare.is_some_and(|b| same_word(kind, b)))
+    });
     found.map(|(kind, _)| *kind)
+}
+
+fn same_word(kind: &str, bare: &str) -> bool {
+    kind.eq_ignore_ascii_case(bare)
 }
 
 /// How the language says what other programs have a kind for, or what to do where it does not. A hint goes with the
@@ -148,12 +191,14 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "light" => LIGHTS,
         "transform" => TRANSFORMS,
         "layer" => LAYERS,
-        _ => return None,
+        _ => &[],
     };
-    table.iter().find(|(names, _)| names.contains(&lower.as_str())).map(|(_, hint)| *hint)
+    let found = table.iter().find(|(names, _)| names.contains(&lower.as_str()) || names.contains(&&*squeezed(name)));
+    found.map(|(_, hint)| *hint).or_else(|| of_kinds::elsewhere(name, def))
 }
 
-type Hints = &'static [(&'static [&'static str], &'static str)];
+/// Names, and what is said of them.
+pub(super) type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
     (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
@@ -271,86 +316,6 @@ const MAPPINGS: Hints = &[
     ),
 ];
 
-const LIGHTS: Hints = &[
-    (
-        &["directional", "distant", "sun", "directionallight", "distantlight", "sunlight", "parallel", "parallellight"],
-        "a sun is a large sphere light far away",
-    ),
-    (
-        &[
-            "sky",
-            "sunsky",
-            "sunandsky",
-            "environment",
-            "environmentmap",
-            "envmap",
-            "envlight",
-            "environmentlight",
-            "hdri",
-            "infinite",
-            "infinitelight",
-            "ibl",
-            "domelight",
-            "dome",
-            "constant",
-            "ambient",
-            "ambientlight",
-            "skylight",
-        ],
-        "light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`",
-    ),
-    (
-        &[
-            "quadlight",
-            "rectanglelight",
-            "rectlight",
-            "arealight",
-            "area",
-            "disklight",
-            "quad",
-            "meshlight",
-            "emission",
-            "emissive",
-            "emitter",
-        ],
-        "a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`",
-    ),
-    (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.01, intensity: .. in W/sr"),
-    (
-        &["spotlight", "spot", "ies", "goniometric", "goniometriclight", "projector", "projectionlight"],
-        "there is no spotlight: put a `SphereLight` into a tube or box of objects, open to one side",
-    ),
-];
-
-const TRANSFORMS: Hints = &[
-    (
-        &["matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"],
-        "its rows are these, and a fourth, 0, 0, 0, 1, which is left out",
-    ),
-    (
-        &["transform", "concattransform", "concat_transform"],
-        "pbrt lists columns, so the first row takes the first number of each four; its x is mirrored: change the signs \
-         of the first row, then \
-         of the first column",
-    ),
-    (
-        &["matrix"],
-        "POV-Ray and glTF list columns, so that rows and columns change places; POV-Ray's x is mirrored: change the \
-         signs of the first row, \
-         then of the first column",
-    ),
-    (
-        &["lookat", "look_at", "track", "trackto", "track_to"],
-        "Align(from: (0, 0, 1), to: (1, 0, 0)) turns one direction to another; the camera alone has `look_at`",
-    ),
-    (&["shear", "skew"], "a `Matrix` may shear: Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)))"),
-    (&["mirror", "reflect", "flip"], "a negative factor mirrors: Scale((-1, 1, 1))"),
-    (
-        &["quaternion", "euler", "euler_xyz"],
-        "turn about one axis after the other: Rotate(axis: (0, 1, 0), degrees: 90)",
-    ),
-];
-
 /// What is said of fields for the brightness of a light that there are not.
 pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static str> {
     if !def.exactly_one.contains(&"radiance") {
@@ -360,7 +325,14 @@ pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static s
         "color" | "colour" | "rgb" => {
             Some("a light's colour is in its brightness, per channel: `radiance: (1, 0.9, 0.8)`")
         }
-        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" => {
+        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" | "ke" | "l" | "le"
+        | "emissive" | "candela" | "nits" | "irradiance" | "intensity"
+            if def.field("intensity").is_none() =>
+        {
+            Some("how bright it is is said by `radiance`, or by `power` in W")
+        }
+        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" | "l" | "le"
+        | "nits" | "emissive" | "candela" | "irradiance" => {
             Some("how bright a light is is said by `radiance`, by `power` in W, or for spheres by `intensity` in W/sr")
         }
         "watts" | "watt" | "flux" | "lumens" | "lumen" => Some("the light that is given in all is `power`, in W"),
@@ -423,7 +395,7 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
              faces: [[0, 1, 2]])"
         }
         "dof" | "depth_of_field" | "aperture" | "focus_distance" | "focus" | "f_stop" | "fstop" | "focal_distance"
-        | "lens_radius" | "bokeh"
+        | "lens_radius" | "lensradius" | "focaldistance" | "aperture_radius" | "apertureradius" | "bokeh"
             if camera =>
         {
             "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
@@ -439,6 +411,67 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         {
             "there is no fog: only surfaces are seen"
         }
+        "hfov" | "xfov" | "fov_x" | "fovx" | "horizontal_fov" if has("fov_axis") => {
+            "`fov` is measured up and down; across it is `fov: 60, fov_axis: Horizontal`"
+        }
+        "aspect" | "aspect_ratio" | "resolution" | "film" | "right" | "film_size" if def.name == "Camera" => {
+            "the picture's size, and with it its shape, is `image: Image(width: 640, height: 480)`, or --size"
+        }
+        "iso" | "ev" | "sensitivity" if def.name == "Camera" => {
+            "how bright the picture is is `exposure`, in stops, a field of `effects`"
+        }
+        "name" if def.name == "Camera" => "a camera has its name in `cameras`: { \"front\": Camera(..) }",
+        "rr_depth" | "russian_roulette" | "rrdepth" | "roulette" if has("max_bounces") => {
+            "paths end by chance where little would come of them: leave it out"
+        }
+        "time_limit" | "timeout" | "max_time" if has("max_bounces") => {
+            "how long it may take is said on the command line: tracer render scene.ron --time 60s"
+        }
+        "noise_threshold" | "noise" | "adaptive" | "adaptive_threshold" | "error_threshold" if has("max_bounces") => {
+            "how noisy it may be is said on the command line: tracer render scene.ron --noise 2%"
+        }
+        "gpu" | "device" | "tile_size" | "tiles" | "bucket_size" if has("max_bounces") => {
+            "it is made by all of the processor's threads; how does not show in the picture: leave it out"
+        }
+        "sampler" | "sampling_pattern" | "aa" | "antialias" | "antialiasing" | "light_samples" | "aa_samples"
+            if has("max_bounces") || def.name == "Scene" =>
+        {
+            "there is one sampler, and only `samples` of `render` says how many samples a pixel gets"
+        }
+        "filter" | "pixel_filter" | "reconstruction_filter" | "rfilter"
+            if has("max_bounces") || def.name == "Image" =>
+        {
+            "a pixel is the mean of the samples within it: leave it out"
+        }
+        "format" | "filename" | "bits" | "gamma" | "dpi" | "file" | "output" if def.name == "Image" => {
+            "how it is written is said on the command line: tracer render scene.ron -o picture.png, .exr, --bits 16"
+        }
+        "aspect" | "aspect_ratio" if def.name == "Image" => "both sides are written: `width: 640, height: 480`",
+        "gamma" | "bloom" | "glare" | "vignette" if def.name == "Scene" || def.name == "Effects" => {
+            "pictures are sRGB, and of the rest there are only the fields of `effects`: leave it out"
+        }
+        "falloff" | "decay" | "attenuation" | "cast_shadows" | "castshadow" if has("radiance") => {
+            "light falls off with the square of the distance, as it does: leave it out"
+        }
+        "finish" | "shininess" | "specular" | "phong" | "reflection" | "gloss" if has("material") => {
+            "how a surface shines belongs to its material: Conductor(..), Mirror(..), BlinnPhong(..)"
+        }
+        "ior" | "eta" | "refraction" | "index_of_refraction" | "int_ior" if has("material") => {
+            "that belongs to a material: `material: Transparent(ior: 1.5)`"
+        }
+        "emitter" | "is_light" | "area_light" | "arealight" | "areasource" if has("material") => {
+            "what shines has the material Emissive(radiance: 5)"
+        }
+        "interior" | "exterior" | "medium" | "media" if surface || def.name == "Scene" => {
+            "only surfaces are seen, nothing within them; glass is the material Transparent(ior: 1.5)"
+        }
+        "instances" | "instance" | "nodes" if def.name == "Scene" => {
+            "copies of an object are its `placements`: Grid(..), Ring(..), Scatter(..), or a list of transforms"
+        }
+        "global_settings" | "settings" | "options" | "config" if def.name == "Scene" => {
+            "how to render is `render: Render(samples: 64)`"
+        }
+        "ior" | "eta" | "refraction" if has("albedo") => "what refracts is Transparent(ior: 1.5)",
         "zoom" if camera => "how much is seen is said by `fov` in degrees, or by `focal_length` in millimetres",
         "orthographic" | "ortho" | "ortho_scale" | "xmag" | "ymag" | "screenwindow" if camera => {
             "parallel rays: `projection: Orthographic(height: 8)`, the height that the picture shows"
@@ -471,7 +504,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "`animation: Animation(frames: 48)` counts frames from 0; which are rendered is said on the command line: \
              --frames 0-47"
         }
-        "duration" | "seconds" if has("frames") => "the duration is `frames` over `fps`",
+        "duration" | "seconds" if has("frames") || def.name == "Scene" => {
+            "how long it lasts is `frames` over `fps`: `animation: Animation(frames: 48, fps: 24)`"
+        }
         "motion_keys" | "motion_steps" if has("frames") => {
             "each sample sees the scene at a moment of its own while the camera's `shutter` is open: leave it out"
         }

@@ -12,7 +12,7 @@ use crate::files::{MOST_FILES, joined};
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::suggest;
-use crate::tree::{Item, Kind, Root};
+use crate::tree::{Item, Kind, NOWHERE, Root};
 use crate::words::Words;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -32,9 +32,16 @@ pub(crate) struct GivenVars(pub Vec<(Spanned<Arc<str>>, Value)>);
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct GivenMaterials(pub Vec<(Spanned<Arc<str>>, MaterialRef)>);
 
+/// What is taken of a file by `include`: nothing else of it is read.
+const OF_LIBRARY: &[&str] = &["version", "include", "vars", "textures", "materials", "cameras", "objects", "lights"];
+/// What is taken by `Include`.
+const OF_SCENE: &[&str] = &["version", "include", "vars", "textures", "materials", "objects", "lights"];
+
 /// A file that is being read.
 #[derive(Debug)]
 pub(super) struct Open {
+    /// The fields of its scene that are taken.
+    taken: &'static [&'static str],
     /// Where its tree begins.
     root: u32,
     pub name: String,
@@ -190,13 +197,29 @@ impl Reader<'_> {
     }
 
     /// Reads a file that is open, with paths of its own in messages.
-    fn within<T>(&mut self, name: Item<'_, '_>, file: &Root, read: impl FnOnce(&mut Self) -> T) -> T {
+    fn within<T>(
+        &mut self,
+        name: Item<'_, '_>,
+        file: &Root,
+        taken: &'static [&'static str],
+        read: impl FnOnce(&mut Self) -> T,
+    ) -> T {
         let path = std::mem::take(&mut self.path);
-        self.open.push(Open { root: file.root, name: file.name.clone(), from: name.span() });
+        self.open.push(Open { taken, root: file.root, name: file.name.clone(), from: name.span() });
         let value = read(self);
         self.open.pop();
         self.path = path;
         value
+    }
+
+    /// Leaves out the fields of an included scene that are not taken: its background's picture is not looked at.
+    pub(super) fn leave_out_untaken(&self, fields: &mut super::Fields<'_, '_>) {
+        let Some(open) = self.open.last().filter(|_| fields.def.name == Scene::DEF.name) else { return };
+        for (field, slot) in fields.def.fields.iter().zip(&mut fields.slots) {
+            if !open.taken.contains(&field.name) {
+                *slot = NOWHERE;
+            }
+        }
     }
 
     /// Takes values, textures, materials and cameras of a file.
@@ -215,7 +238,7 @@ impl Reader<'_> {
             (self.named.damaged, self.vars.damaged) = (true, true);
             return self.report(fault);
         }
-        self.within(name, file, |reader| {
+        self.within(name, file, OF_LIBRARY, |reader| {
             if !super::check::newer_version(root, reader.sink) {
                 Scene::read(reader, root, &ROOT);
             }
@@ -233,7 +256,7 @@ impl Reader<'_> {
         let named = std::mem::replace(&mut self.named, textures::Scope::of_file(&file.name));
         let given = words.vars.0.iter().map(|(name, value)| (Arc::clone(&name.value), value.clone())).collect();
         let vars = std::mem::replace(&mut self.vars, vars::Table::with(given));
-        let scene = self.within(name, file, |reader| {
+        let scene = self.within(name, file, OF_SCENE, |reader| {
             if super::check::newer_version(root, reader.sink) {
                 return None;
             }

@@ -13,6 +13,7 @@ mod hints;
 mod include;
 mod marks;
 mod materials;
+mod of_kinds;
 mod outlines;
 mod part;
 mod pattern_fields;
@@ -33,6 +34,7 @@ mod vector;
 
 pub(crate) use camera::are_cameras;
 pub(crate) use check::{Whole, scene};
+pub(crate) use elsewhere::named_color;
 pub(crate) use everyday::everyday;
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
@@ -40,6 +42,7 @@ pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
+pub(crate) use synonyms::synonyms;
 use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, plain, shortened};
 pub(crate) use value::{expected, expected_for, hex_color, linear_from_srgb, none};
@@ -84,6 +87,8 @@ pub(crate) struct Reader<'r> {
     typed: u32,
     /// Items that repetitions have made.
     repeated: u64,
+    /// The indices of the repetitions that are being read, the outermost first.
+    indices: Vec<(String, u32)>,
     /// Included files that are being read, one within the other.
     open: Vec<include::Open>,
     /// The number of the first source that is an included file.
@@ -166,6 +171,7 @@ impl<'r> Reader<'r> {
             renamed: NOWHERE,
             typed: NOWHERE,
             repeated: 0,
+            indices: Vec::new(),
             open: Vec::new(),
             first_included: u32::MAX,
             groups: 0,
@@ -194,6 +200,10 @@ impl<'r> Reader<'r> {
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         let path = self.path();
         let mut diagnostic = diagnostic.at_path(path);
+        // What is doubtful is so each time, and told alike.
+        if diagnostic.severity == Severity::Error {
+            diagnostic.message += &self.where_repeated();
+        }
         if !self.open.is_empty() {
             // What is included twice is wrong twice, and told once.
             let known = |other: &Diagnostic| other.span == diagnostic.span && other.message == diagnostic.message;
@@ -227,8 +237,13 @@ impl<'r> Reader<'r> {
         let message = format!("{} is called `{}` here, not `{name}`", article_free(def.noun), def.name);
         let mut fault = Diagnostic::error(codes::UNKNOWN_VARIANT, item.head(), message)
             .expected(format!("{}(..), or brackets without a name", def.name));
-        fault.edit = Some(Edit { span: item.head(), replacement: def.name.to_owned() });
-        fault.hint = format!("write `{}`", def.name);
+        match camera::projection_elsewhere(name, def, item.syntax()) {
+            Some(way) => fault.hint = way,
+            None => {
+                fault.edit = Some(Edit { span: item.head(), replacement: def.name.to_owned() });
+                fault.hint = format!("write `{}`", def.name);
+            }
+        }
         self.report(fault);
     }
 
@@ -324,6 +339,7 @@ impl<'r> Reader<'r> {
         if !item.is_damaged() {
             self.missing_fields(item, def, &fields, &excused);
         }
+        self.leave_out_untaken(&mut fields);
         Some(fields)
     }
 

@@ -45,6 +45,15 @@ pub(super) fn of_mapping(
         "scale" | "frequency" | "freq" | "density" | "tiling" | "tiles" | "count" | "fineness" => "scale",
         "offset" | "translate" | "translation" | "shift" | "position" | "origin" => "offset",
         "rotate" | "rotation" | "angle" if kind == "Uv" => "rotation",
+        "uscale" | "vscale" | "u_scale" | "v_scale" | "su" | "sv" | "udelta" | "vdelta" | "to_uv" | "repeat"
+            if kind == "Uv" =>
+        {
+            let written = match syntax {
+                Syntax::Ron => "Uv(scale: (u, v), offset: (u, v))".into(),
+                syntax => syntax.of_toml("{ Uv = { scale = [u, v], offset = [u, v] } }"),
+            };
+            return Some((format!("its `mapping` says how it lies: {written}"), None));
+        }
         "size" | "cell_size" | "period" | "spacing" | "wavelength" => {
             let written = mapping(kind, "scale", "..", syntax);
             return Some((format!("its `mapping` says how fine it is: {written}, one over the size of a cell"), None));

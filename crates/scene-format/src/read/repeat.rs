@@ -116,8 +116,9 @@ impl Reader<'_> {
         }
         self.chosen |= count == 0;
         for k in 0..count {
-            let (errors, told) = (self.sink.errors, self.sink.diagnostics.len());
+            let errors = self.sink.errors;
             self.vars.enter(&index, f64::from(k));
+            self.indices.push((index.clone(), k));
             if let Some(vars) = fields.get(2) {
                 self.at_field(2, |reader| reader.vars_within(vars, &REPEAT.fields[2]));
             }
@@ -131,20 +132,23 @@ impl Reader<'_> {
                 });
             }
             self.vars.leave();
+            self.indices.pop();
             self.repeated += made.max(1);
             if self.sink.errors == errors && self.repeated > MOST_ITEMS {
                 self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
                 return None;
             }
             if self.sink.errors > errors {
-                // What is wrong the first time is wrong whatever the index.
-                for fault in self.sink.diagnostics.iter_mut().skip(told).filter(|_| k > 0) {
-                    fault.message += &format!(" ({index} = {k})");
-                }
                 return None;
             }
         }
         Some(())
+    }
+
+    /// Where repetitions are, ` (i = 3, j = 0)`, the outermost first; empty outside of them.
+    pub(super) fn where_repeated(&self) -> String {
+        let indices: Vec<String> = self.indices.iter().map(|(index, k)| format!("{index} = {k}")).collect();
+        if indices.is_empty() { String::new() } else { format!(" ({})", indices.join(", ")) }
     }
 
     /// Reads with a field on the path.

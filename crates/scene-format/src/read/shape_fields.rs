@@ -90,6 +90,10 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
             "how long it is is said by its ends: `from: (0, 0, 0), to: (0, 2, 0)`"
         }
         ("height" | "length", _) if ends => "how long it is is said by its ends, `from` and `to`",
+        ("radius" | "r" | "half_extents" | "half_size" | "halfsize" | "edge" | "side" | "length", "Box") => {
+            "its sides along x, y and z are its `size`, from face to face; round edges have a radius, its `rounding`"
+        }
+        ("radius" | "r", "Rectangle" | "Polygon") => "what has a radius is a `Disk`, or a `Sphere`",
         (_, "Box") if side => "its sides along x, y and z are its `size`",
         (_, "Rectangle") if side => "its sides are its `size`: two numbers, or one for both",
         _ => return None,

@@ -5,18 +5,34 @@ use crate::schema::StructDef;
 /// Ours, and theirs. A word may stand for several: which one is said by the value.
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("objects", &["children", "items", "members", "contents", "shapes"]),
-    ("position", &["eye", "origin", "from", "pos", "location"]),
-    ("look_at", &["target", "lookat", "to"]),
+    (
+        "position",
+        &[
+            "eye",
+            "origin",
+            "from",
+            "pos",
+            "location",
+            "look_from",
+            "eye_point",
+            "translate",
+            "translation",
+            "viewpoint",
+            "camera_position",
+        ],
+    ),
+    ("look_at", &["target", "lookat", "to", "interest", "aim", "center_of_interest"]),
+    ("up", &["sky", "up_vector", "vup", "world_up", "up_direction", "upvec"]),
     ("matrix", &["to_world", "matrix_world", "transform", "world_matrix", "camera_to_world", "c2w", "pose"]),
     ("cameras", &["views", "viewpoints", "camera_list"]),
     ("animation", &["anim", "animate", "timeline", "film", "motion"]),
     ("frames", &["frame_count", "num_frames", "frame_end", "final_frame", "count", "length", "end"]),
     ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
     ("frame", &["frame_current", "current_frame", "frame_number"]),
-    ("center", &["centre", "position", "pos", "origin", "location", "loc"]),
+    ("center", &["c", "middle", "centre", "position", "pos", "origin", "location", "loc"]),
     ("point", &["center", "centre", "position", "pos", "origin", "location", "through"]),
     ("radius", &["r", "size", "base_radius", "bottom_radius", "radius1", "outer_radius", "outer"]),
-    ("fov", &["field_of_view", "angle", "vfov"]),
+    ("fov", &["field_of_view", "angle", "vfov", "yfov", "fovy", "view_angle", "vertical_fov"]),
     ("focal_length", &["focal", "focallength"]),
     ("sensor_width", &["sensor", "film_width", "sensor_size", "film_size", "horizontal_aperture"]),
     ("near", &["clip", "near_clip", "znear", "clip_start", "near_plane"]),
@@ -32,17 +48,42 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("focus_on", &["focal_point", "focus_object", "focus_point", "focus"]),
     ("depth_of_field", &["dof", "bokeh", "depth_blur"]),
     ("blades", &["aperture_blades", "num_blades"]),
-    ("width", &["w", "x", "thickness", "line_width"]),
-    ("height", &["h", "y"]),
-    ("samples", &["spp", "samples_per_pixel"]),
-    ("max_bounces", &["max_depth", "depth", "bounces"]),
-    ("albedo", &["color", "colour", "diffuse", "base_color", "reflectance"]),
-    ("reflectance", &["color", "colour", "albedo"]),
-    ("ior", &["index", "eta", "refractive_index"]),
-    ("file", &["path", "filename", "mesh", "src"]),
+    ("width", &["w", "x", "thickness", "line_width", "xresolution", "xres", "resolution_x", "res_x"]),
+    ("height", &["h", "y", "yresolution", "yres", "resolution_y", "res_y"]),
+    (
+        "samples",
+        &["spp", "samples_per_pixel", "sample_count", "pixel_samples", "num_samples", "nsamples", "max_samples"],
+    ),
+    ("max_bounces", &["max_depth", "depth", "bounces", "max_trace_level", "ray_depth", "path_depth", "max_ray_depth"]),
+    (
+        "clamp",
+        &["clamp_indirect", "clamp_direct", "max_radiance", "firefly_clamp", "radiance_clamp", "max_component_value"],
+    ),
+    ("albedo", &["color", "colour", "diffuse", "base_color", "reflectance", "rgb", "hex", "kd", "pigment", "texture"]),
+    ("albedo", &["base_color_factor", "base_color_texture", "diffuse_color", "map", "map_kd", "image", "tint"]),
+    ("reflectance", &["color", "colour", "albedo", "rgb", "hex", "kr", "tint", "base_color", "specular_reflectance"]),
+    (
+        "transmittance",
+        &["color", "colour", "tint", "kt", "rgb", "hex", "specular_transmittance", "base_color", "filter"],
+    ),
+    ("metal", &["material", "preset"]),
+    ("material", &["bsdf", "shader", "mat", "surface", "materials"]),
+    ("materials", &["bsdfs", "shaders", "material", "mats"]),
+    ("lights", &["emitters", "light_sources", "lamps", "luminaires"]),
+    ("objects", &["meshes", "models", "primitives", "geometry", "entities", "geometries"]),
+    ("vars", &["variables", "parameters", "params", "constants", "declare", "define", "defines", "consts"]),
+    ("include", &["imports", "includes", "import", "libraries"]),
+    ("placements", &["instances", "copies", "array", "duplicates", "instance_transforms"]),
+    ("tone_map", &["tonemap", "tonemapping", "tone_mapping", "view_transform", "tonemapper"]),
+    (
+        "ior",
+        &["index", "eta", "refractive_index", "int_ior", "index_of_refraction", "refraction", "ni", "refraction_index"],
+    ),
+    ("file", &["path", "filename", "mesh", "src", "url", "uri", "source", "file_name", "image"]),
     ("degrees", &["angle", "deg"]),
-    ("exponent", &["shininess", "alpha", "glossiness"]),
-    ("transform", &["transforms"]),
+    ("exponent", &["shininess", "alpha", "glossiness", "ns", "phong_size", "hardness", "specular_exponent"]),
+    ("specular", &["ks", "phong", "specularity", "specular_color"]),
+    ("transform", &["transforms", "trs", "transformation", "transformations"]),
     ("points", &["vertices", "positions", "verts", "corners", "outline", "profile"]),
     ("faces", &["indices", "triangles", "polygons"]),
     ("inner_radius", &["innerradius", "inner", "hole"]),
@@ -65,8 +106,20 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("distortion", &["turbulence", "turb", "warp", "wobble", "bend"]),
     ("feature", &["type", "kind", "mode", "output"]),
     ("jitter", &["randomness", "random"]),
-    ("a", &["color1", "colour1", "color_1", "color_a", "colour_a", "colora", "col1", "c1", "dark", "low", "even"]),
-    ("b", &["color2", "colour2", "color_2", "color_b", "colour_b", "colorb", "col2", "c2", "light", "high", "odd"]),
+    (
+        "a",
+        &[
+            "color1", "colour1", "color_1", "color_a", "colour_a", "colora", "col1", "c1", "dark", "low", "even",
+            "tex1", "first",
+        ],
+    ),
+    (
+        "b",
+        &[
+            "color2", "colour2", "color_2", "color_b", "colour_b", "colorb", "col2", "c2", "light", "high", "odd",
+            "tex2", "second",
+        ],
+    ),
     ("weight", &["factor", "fac", "amount", "mask", "blend", "t", "alpha"]),
     ("input", &["factor", "fac", "texture", "value", "t", "pattern"]),
     ("stops", &["color_map", "colour_map", "colors", "colours", "elements", "points", "entries", "keys", "palette"]),
@@ -89,14 +142,18 @@ const OF_TORUS: &[(&str, &[&str])] = &[
     ("tube_radius", &["r", "minor", "minor_radius", "tube", "radius_minor", "section_radius", "thickness_radius"]),
 ];
 
+/// A word without what programs join words by: `lookAt`, `look_at` and `lookat` are one.
+pub(super) fn squeezed(name: &str) -> String {
+    name.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).map(|c| c.to_ascii_lowercase()).collect()
+}
+
 /// What other programs call a field of ours by this name, the most likely first.
-pub(super) fn synonyms(name: &str, def: &'static StructDef) -> Vec<&'static str> {
+pub(crate) fn synonyms(name: &str, def: &'static StructDef) -> Vec<&'static str> {
     let torus = def.name == "Torus";
     let of_torus = OF_TORUS.iter().filter(|(_, others)| torus && others.contains(&name));
-    let lower = name.to_ascii_lowercase();
-    let ambiguous = torus && matches!(&*lower, "r" | "outer" | "outer_radius" | "inner" | "inner_radius");
-    let all = SYNONYMS
-        .iter()
-        .filter(|(field, others)| !ambiguous && def.field(field).is_some() && others.contains(&lower.as_str()));
+    let plain = squeezed(name);
+    let ambiguous = torus && matches!(&*plain, "r" | "outer" | "outerradius" | "inner" | "innerradius");
+    let same = |others: &[&str]| others.iter().any(|other| squeezed(other) == plain);
+    let all = SYNONYMS.iter().filter(|(field, others)| !ambiguous && def.field(field).is_some() && same(others));
     of_torus.chain(all).map(|(field, _)| *field).collect()
 }

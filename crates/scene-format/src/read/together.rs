@@ -26,10 +26,17 @@ const MAX: &[&str] = &["max", "maximum", "pmax", "p_max", "upper", "corner2", "c
 const INNER: &[&str] = &["inner", "inner_radius", "interior_radius"];
 const OUTER: &[&str] = &["outer", "outer_radius", "exterior_radius"];
 
+const UV_SCALES: &[&[&str]] = &[&["uscale", "u_scale", "su"], &["vscale", "v_scale", "sv"]];
+
 const ROWS: &[Row] = &[
     ("Box", &[MIN, MAX], &["center", "size"], "center: (x, y, z), size: (x, y, z)", middle_and_sides),
     ("Box", &[&["width", "w"], &["height", "h"], &["depth", "length", "d"]], &["size"], "size: (x, y, z)", size),
     ("Rectangle", &[&["width", "w"], &["height", "h", "depth", "length"]], &["size"], "size: (x, y)", size),
+    ("Checkerboard", &[&["color0", "color_0"], &["color1", "color_1"]], &["a", "b"], "a: .., b: ..", two_colors),
+    ("Checkerboard", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
+    ("Lines", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
+    ("Dots", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
+    ("Texture", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
     // Where the outer edge of the ring is, or its middle: nobody knows.
     ("Torus", &[INNER, OUTER], &["radius", "tube_radius"], "radius: .., tube_radius: ..", unclear),
 ];
@@ -109,6 +116,25 @@ fn size(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let sides: Vec<String> =
         values.iter().map(|value| value.number().map(|_| value.lexeme().to_owned())).collect::<Option<_>>()?;
     Some(format!("{}{}", Fields(syntax).name("size"), bracketed(&sides, syntax)))
+}
+
+/// Two colours, whatever they are.
+fn two_colors(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [a, b] = values else { return None };
+    let name = |field: &str| Fields(syntax).name(field);
+    Some(format!("{}{}, {}{}", name("a"), a.lexeme(), name("b"), b.lexeme()))
+}
+
+/// How often a texture lies along each side.
+fn uv_scale(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let numbers: Vec<String> =
+        values.iter().map(|value| value.number().map(|_| value.lexeme().to_owned())).collect::<Option<_>>()?;
+    let scale = bracketed(&numbers, syntax);
+    let mapping = match syntax {
+        Syntax::Ron => format!("Uv(scale: {scale})"),
+        syntax => syntax.of_toml(format!("{{ Uv = {{ scale = {scale} }} }}")).into_owned(),
+    };
+    Some(format!("{}{mapping}", Fields(syntax).name("mapping")))
 }
 
 /// Two corners.

@@ -165,9 +165,12 @@ impl Reader<'_> {
 fn reserved(name: &str, at: Span, def: &'static StructDef) -> Diagnostic {
     let message = format!("`{name}` is kept for later versions of the language");
     let mut fault = Diagnostic::error(codes::RESERVED_WORD, at, message).expected(field_list(def));
-    if name == "keyframes" {
-        fault.hint = "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"".to_owned();
+    fault.hint = match name {
+        "keyframes" => "what changes stands in expressions: \"=keyframes(time, 0, 1, 2, 5)\"",
+        "let" => "values by name stand in `vars`",
+        _ => "what a list is to hold several times is made by an item `Repeat`, with a `count` and `items`",
     }
+    .to_owned();
     fault
 }
 

@@ -407,7 +407,7 @@ pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
 }
 
 /// Whether a text looks like the path of a picture.
-fn is_picture(text: &str) -> bool {
+pub(super) fn is_picture(text: &str) -> bool {
     let (_, suffix) = text.rsplit_once('.').unwrap_or_default();
     ["png", "jpg", "jpeg", "hdr", "exr"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
 }
@@ -484,6 +484,13 @@ impl Reader<'_> {
                 syntax => syntax.of_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
             };
             fault.hint = format!("a picture is written {}", shortened(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if is_picture(&text) && at.name == "background" {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Environment(file: {})", item.lexeme()),
+                syntax => syntax.of_toml(format!("{{ Environment = {{ file = {} }} }}", item.lexeme())).into_owned(),
+            };
+            fault.hint = format!("a picture of all directions is written {}", shortened(&replacement));
             fault.edit = Some(Edit { span: item.span(), replacement });
         } else {
             fault.hint = match item.syntax() {

@@ -259,7 +259,8 @@ impl Reader<'_> {
                     (Some(_), Some(_)) if item.kind() == Kind::Tuple => {
                         // Translate(1, 2, 3): the vector's own brackets are missing.
                         let lexeme = item.lexeme();
-                        let inner = lexeme.get(chosen.variant.name.len()..).unwrap_or("").trim();
+                        // The name may be another program's.
+                        let inner = lexeme.find('(').and_then(|open| lexeme.get(open..)).unwrap_or("").trim();
                         let replacement = format!("{}({inner})", chosen.variant.name);
                         let mut fault = Diagnostic::error(
                             codes::WRONG_COUNT,

@@ -131,8 +131,12 @@ impl Reader<'_> {
         };
         if factor.iter().any(|f| f.abs() < crate::schema::MIN_LENGTH) {
             self.report(
-                Diagnostic::error(codes::SINGULAR_TRANSFORM, item.head(), "a scale of zero leaves nothing of the mesh")
-                    .expected("factors other than zero; negative ones mirror"),
+                Diagnostic::error(
+                    codes::SINGULAR_TRANSFORM,
+                    item.head(),
+                    "a scale of zero leaves nothing of the object",
+                )
+                .expected("factors other than zero; negative ones mirror"),
             );
             return None;
         }

@@ -5,6 +5,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::{self, Named, Value};
 use crate::syntax::ron_literal::number_kind;
+use std::borrow::Cow;
 
 /// Signs that go on an expression after a number.
 pub(super) const OPERATORS: &[u8] = b"+-*/^%";
@@ -14,8 +15,10 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
     let line = super::line_ahead(text, start);
     let bytes = line.as_bytes();
     let word = line.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(line.len());
+    let chooses = line.contains('?');
     let known = expression::is_known(&line[..word]) && !matches!(&line[..word], "true" | "false");
-    if !known && !bytes.first().is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')) {
+    let named = known || chooses && expression::is_name(&line[..word]);
+    if !named && !bytes.first().is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')) {
         return None;
     }
     let (mut depth, mut end) = (0usize, line.len());
@@ -37,13 +40,34 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
                 return None;
             }
             b'+' | b'-' | b'*' | b'/' | b'^' | b'%' | b'.' | b'_' | b' ' => {}
+            b'?' | b':' | b'<' | b'>' | b'=' | b'!' | b'&' | b'|' if chooses => {}
             byte if byte.is_ascii_alphanumeric() => {}
             _ => return None,
         }
     }
     let body = line[..end].trim_end();
+    if chooses {
+        return (depth == 0 && choice(body).is_some()).then_some(body.len());
+    }
     let is_plain = number_kind(body).is_some() || !known && !body[1..].bytes().any(|byte| OPERATORS.contains(&byte));
-    (!is_plain && depth == 0 && is_expression(body)).then_some(body.len())
+    (!is_plain && depth == 0 && is_expression(&ours(body))).then_some(body.len())
+}
+
+/// Arithmetic with the operators of other languages, in ours: `2**3`, `a < 1 ? 2 : 3`.
+fn ours(body: &str) -> Cow<'_, str> {
+    match choice(body) {
+        Some(choice) => Cow::Owned(choice),
+        None if body.contains("**") => Cow::Owned(body.replace("**", "^")),
+        None => Cow::Borrowed(body),
+    }
+}
+
+/// `if(c, a, b)` for `c ? a : b`.
+fn choice(body: &str) -> Option<String> {
+    let (condition, values) = body.split_once('?')?;
+    let (a, b) = values.split_once(':')?;
+    let parts = [condition, a, b].map(str::trim);
+    parts.iter().all(|part| is_expression(part)).then(|| format!("if({})", parts.join(", ")))
 }
 
 /// Whether a text is written as expressions are, whatever its names stand for.
@@ -100,6 +124,7 @@ pub(super) fn without_quotes(body: &str, span: Span) -> Diagnostic {
 
 /// What is said of arithmetic without quotes. An edit is offered where all its names are known.
 pub(super) fn fault(text: &str, body: &str, span: Span) -> Diagnostic {
+    let body = &*ours(body);
     let mended = format!("\"={body}\"");
     let mut fault = Diagnostic::error(codes::BARE_EXPRESSION, span, "arithmetic stands between quotes here")
         .expected("a number, or an expression: a text that begins with `=`")

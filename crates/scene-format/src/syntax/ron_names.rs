@@ -130,6 +130,13 @@ impl Parser<'_> {
         self.skip_broken();
     }
 
+    /// What stands between single quotes here, before the sign that joins it to a value.
+    fn single_quoted(&self) -> Option<&str> {
+        let line = super::line_ahead(self.text, self.at);
+        let (inner, rest) = line.strip_prefix('\'')?.split_once('\'')?;
+        (rest.trim_start().starts_with([':', '=']) && !inner.contains(['"', '\\'])).then_some(inner)
+    }
+
     /// `"key": value` in `{ .. }`.
     pub(super) fn map_entry(&mut self) {
         let start = self.at;
@@ -146,6 +153,16 @@ impl Parser<'_> {
             {
                 node.kind = Kind::Key;
             }
+        } else if let Some(inner) = self.single_quoted() {
+            let end = start + inner.len() + 2;
+            let found = self.span(start, end);
+            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between double quotes")
+                .expected("{ \"name\": value }")
+                .hint(format!("write \"{inner}\""));
+            fault.edit = Some(Edit { span: found, replacement: format!("\"{inner}\"") });
+            self.sink.push(fault);
+            self.builder.leaf(Kind::Key, start, end);
+            self.at = end;
         } else if length > 0 {
             // A name may have spaces; it ends before the colon.
             let line = super::line_ahead(self.text, start);

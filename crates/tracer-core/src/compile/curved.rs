@@ -285,6 +285,7 @@ pub fn warn_of_open_glass(desc: &SceneDesc, diagnostics: &mut Diagnostics) {
             }
             (Some(Written { unit, noun, .. }), _) if !unit.is_closed() => Some((noun, "close it: `caps: true`")),
             (_, Some(shape)) if !shape.is_closed() => Some((shape.noun(), shape.way_to_close())),
+            _ if matches!(object.value, Object::Rectangle(_)) => Some(("rectangle", "a pane of glass is a thin `Box`")),
             _ if matches!(object.value, Object::HeightField(_)) => Some(("height field", "")),
             _ => None,
         };

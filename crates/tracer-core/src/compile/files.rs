@@ -5,7 +5,7 @@ use super::nearby;
 use crate::texture::Reading;
 use rayon::prelude::*;
 use scene_format::desc::Material;
-use scene_format::diagnostic::{Source, Span};
+use scene_format::diagnostic::{Source, Span, say_where_included};
 use scene_format::{Diagnostics, FileKind, NamedFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -30,6 +30,7 @@ fn check(files: &[NamedFile], base_dir: &Path, sources: &[Source], from: &Source
     faults.sort_by_key(|fault| fault.span);
     let wanted: BTreeMap<Span, &Path> = files.iter().map(|file| (file.span, &*file.path)).collect();
     nearby::suggest(base_dir, sources, &wanted, &mut faults);
+    faults.iter_mut().for_each(|fault| say_where_included(fault, sources));
     faults
 }
 

@@ -44,7 +44,7 @@ pub use light_groups::most_light_groups;
 use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
-use scene_format::diagnostic::{Span, keep_first};
+use scene_format::diagnostic::{Source, Span, keep_first, say_where_included};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -174,9 +174,15 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
         nearby::suggest(&desc.base_dir, &desc.sources, &nearby::by_place(desc), &mut diagnostics);
-        return Err(CompileError { diagnostics });
+        return Err(CompileError { diagnostics: with_ways(diagnostics, &desc.sources) });
     }
     Ok(Gathered { loaded, assigned, curved, solid_objects, files, mattes, finished, background, placed, diagnostics })
+}
+
+/// The same, those in included files with the way there.
+fn with_ways(mut diagnostics: Diagnostics, sources: &[Source]) -> Diagnostics {
+    diagnostics.iter_mut().for_each(|fault| say_where_included(fault, sources));
+    diagnostics
 }
 
 /// Warns of what is surely not meant, as far as it is seen without a frame; of shapes in one place one is left.
@@ -334,7 +340,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         },
         files: files.into_iter().collect(),
         mattes,
-        warnings: diagnostics,
+        warnings: with_ways(diagnostics, &desc.sources),
         moments: None,
         times: CompileTimes { assets, tables: tables_seconds, tree },
     })

@@ -245,6 +245,19 @@ enum Solid {
     },
     /// From the world to the cube of a size of one about the origin.
     Cube(DAffine3),
+    /// From the world to the closed cone about the z axis from -1 to 1, with these radii at its ends.
+    Cone(DAffine3, [f64; 2]),
+}
+
+/// The ball's largest reach in units of the cone along normals of its side; between so many of them it is no more by
+/// half a percent.
+fn reach_across(to_unit: &DAffine3, slope: f64) -> f64 {
+    const NORMALS: u32 = 64;
+    let reach = |k: u32| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(NORMALS)).sin_cos();
+        (to_unit.matrix3.transpose() * DVec3::new(cos, sin, -slope)).length()
+    };
+    1.005 * (0..NORMALS).map(reach).fold(0.0, f64::max)
 }
 
 impl Solid {
@@ -252,6 +265,14 @@ impl Solid {
     fn holds(&self, point: DVec3, radius: f64) -> bool {
         match self {
             Solid::Ball { center, radius: of_solid } => point.distance(*center) + radius < *of_solid,
+            Solid::Cone(to_unit, [first, last]) => {
+                let p = to_unit.transform_point3(point);
+                let slope = 0.5 * (last - first);
+                // R(z) - |(x, y)| is what is left to the side, along its normal (x, y, -slope).
+                let side = 0.5 * (first + last) + slope * p.z - p.truncate().length();
+                1.0 - p.z.abs() > radius * to_unit.matrix3.row(2).length()
+                    && side > if radius > 0.0 { radius * reach_across(to_unit, slope) } else { 0.0 }
+            }
             Solid::Cube(to_unit) => {
                 let p = to_unit.transform_point3(point);
                 // The distance of a side is what is left to it in units over the length of its row.
@@ -261,7 +282,7 @@ impl Solid {
     }
 }
 
-/// The camera or lamps within opaque balls and boxes. One that holds the camera and a lamp is a room.
+/// The camera or lamps within opaque balls, boxes, cylinders and cones. One that holds the camera and a lamp is a room.
 fn shut_in(
     desc: &SceneDesc,
     placed: &Placed,
@@ -278,6 +299,12 @@ fn shut_in(
         let shines = material.is_some_and(|material| material.shines().is_some());
         let opaque = !shines && !material.is_some_and(Material::transmits);
         if let Some(curved) = curved.next_if(|curved| curved.number == index as u32) {
+            if let shapes::UnitShape::Cone { radii, caps: true, .. } = curved.unit
+                && opaque
+            {
+                let maps = curved.maps.iter().take(MOST_COPIES);
+                solids.extend(maps.map(|map| (Solid::Cone(map.inverse(), radii), index)));
+            }
             let Some((center, radius)) = curved.plain_ball() else { continue };
             if shines {
                 lamps.push((center, radius, object.span, format!("objects[{index}], which shines,")));

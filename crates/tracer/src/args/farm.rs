@@ -42,7 +42,7 @@ const SLURM_EXAMPLES: &str = "\
 Examples:
   tracer farm slurm scene.ron -o scene.exr --parts 64 --time-limit 4h -j 16
   tracer farm slurm a.ron -o a.exr --parts 8 --sbatch-arg=--mem=8G --dry-run
-The same line goes on. `tracer man farm-slurm` has --seed, --denoise and more.";
+The same line goes on. `tracer farm slurm --help` has --denoise and more.";
 
 /// `tracer farm slurm`
 #[derive(Clone, Debug, Args)]

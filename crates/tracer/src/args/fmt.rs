@@ -1,6 +1,6 @@
 //! The words of `tracer fmt`.
 
-use super::{DiagnosticsForm, SyntaxName};
+use super::{DiagnosticsForm, SyntaxName, forms};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ pub struct FmtArgs {
     #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
     pub syntax: Option<SyntaxName>,
     /// How to print what is wrong: text, json or github
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = DiagnosticsForm::Text)]
+    #[arg(long, value_parser = forms(), value_name = "FORM", default_value = "text")]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub diagnostics: DiagnosticsForm,
 }

@@ -14,7 +14,7 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   tracer render film.ron --frames 0-47 -o shot_####.png
   tracer render fig4.ron -o a.exr -o a.png --resume a.checkpoint --every 5m
-`tracer man render` has --checkpoint, --crop, --layers, --report and more.";
+`tracer render --help` has --checkpoint, --crop, --layers, --report and more.";
 
 /// `tracer render`
 #[derive(Clone, Debug, Default, Args)]

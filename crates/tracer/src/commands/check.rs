@@ -5,7 +5,7 @@ use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
 use crate::loading::{Known, compile, is_dash, lights, load_to_look, use_threads, with_faults_of_files};
-use crate::shell::{Shell, counted};
+use crate::shell::{Shell, counted, sarif};
 use scene_format::diagnostic::{Severity, Source};
 use scene_format::{Diagnostics, LoadError, Syntax, codes, is_library, load_str};
 use std::io::Write;
@@ -13,6 +13,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
+    let checked = check_all(args, shell);
+    if args.diagnostics == DiagnosticsForm::Sarif {
+        std::io::stdout().lock().write_all(sarif(checked.is_ok()).as_bytes())?;
+    }
+    checked
+}
+
+fn check_all(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let scenes = scenes::named(&args.scenes)?;
     let mut wrong = 0;
     let many = scenes.len();

@@ -43,7 +43,7 @@ All is done.
 It could not be done, or pictures that were compared are not the same.
 .TP
 2
-The command line, a scene or another file is wrong.
+The command line, a scene or another file is wrong, or a file is there already that is not replaced unasked.
 .TP
 129, 130, 143
 It was interrupted by SIGHUP, SIGINT or SIGTERM; what there was of the picture is written.

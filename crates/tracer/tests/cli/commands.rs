@@ -31,9 +31,9 @@ fn version_and_help() {
     let sandbox = Sandbox::new();
     let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
     assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
-    let of_golden = ["run", "accept", "new"].map(|command| vec!["golden", command, "--help"]);
-    let of_farm = ["slurm", "status", "cancel"].map(|command| vec!["farm", command, "--help"]);
-    let of_all = COMMANDS.map(|command| vec![command, "--help"]).into_iter().chain([vec!["--help"]]);
+    let of_golden = ["run", "accept", "new"].map(|command| vec!["golden", command, "-h"]);
+    let of_farm = ["slurm", "status", "cancel"].map(|command| vec!["farm", command, "-h"]);
+    let of_all = COMMANDS.map(|command| vec![command, "-h"]).into_iter().chain([vec!["-h"]]);
     for arguments in of_all.chain(of_golden).chain(of_farm) {
         let help = Ran::of(sandbox.command(&arguments).env("COLUMNS", "80")).ends(0).silent().out_text();
         assert!(help.lines().count() <= 24, "{arguments:?} does not fit a screen:\n{help}");
@@ -87,6 +87,16 @@ fn help_is_a_command_too() {
     assert_eq!(help(&["help"]), help(&["--help"]));
     assert_eq!(help(&["help", "render"]), help(&["render", "--help"]));
     let render = help(&["render", "--help"]);
+    // All of it, under headings, with what holds where nothing is written; `-h` is a screen.
+    let short = help(&["render", "-h"]);
+    for option in ["--checkpoint", "--crop", "--layers", "--report", "--seed", "--syntax", "--cache-size", "--stats"] {
+        assert!(render.contains(option) && !short.contains(&format!("  {option}")), "{option}: {render}");
+    }
+    for word in ["Picture:", "Parts and checkpoints:", "[default: the scene's `image`]", "[default: text]"] {
+        assert!(render.contains(word), "{word}: {render}");
+    }
+    let all = help(&["--help"]);
+    assert!(COMMANDS.iter().all(|command| all.contains(&format!("\n  {command} "))), "{all}");
     for word in ["<SCENE>", "--color", "--verbose"] {
         assert!(render.contains(word), "{word}: {render}");
     }
@@ -205,7 +215,7 @@ fn templates_are_right_and_render() {
     sandbox.run(&["new", "first.ron"]).ends(0);
     assert!(sandbox.text("first.ron").contains("tracer render first.ron -o first.png"));
     sandbox.write("mine.ron", "mine");
-    sandbox.run(&["new", "mine.ron"]).ends(1).says(&["mine.ron is there already", "--force"]);
+    sandbox.run(&["new", "mine.ron"]).ends(2).says(&["mine.ron is there already", "--force"]);
     assert_eq!(sandbox.text("mine.ron"), "mine");
     sandbox.run(&["new", "scene.txt"]).ends(2).says(&[".ron, .toml or .json"]);
     sandbox.run(&["new", "x.ron", "--template", "castle"]).ends(2).says(&["ball", "materials", "room"]);

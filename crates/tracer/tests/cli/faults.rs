@@ -159,7 +159,7 @@ fn scenes_are_replaced_only_by_force() {
     let sandbox = Sandbox::new();
     sandbox.write("b.toml", "mine");
     for command in [&["convert", "scene.ron", "-o", "b.toml"][..], &["new", "b.toml"]] {
-        sandbox.run(command).ends(1).says(&["b.toml is there already", "--force"]);
+        sandbox.run(command).ends(2).says(&["b.toml is there already", "--force"]);
         assert_eq!(sandbox.text("b.toml"), "mine");
     }
     sandbox.run(&["convert", "scene.ron", "-o", "b.toml", "--force"]).ends(0).silent();
@@ -429,4 +429,81 @@ fn quiet_prints_errors_only() {
     sandbox.run(&["render", "odd.ron", "-o", "a.png"]).ends(0).says(&["warning", "spare"]);
     sandbox.run(&["render", "odd.ron", "-o", "a.png", "--quiet"]).ends(0).silent();
     sandbox.run(&["render", "odd.ron", "-o", "a.png", "--quiet", "--set", "camera.fov=0"]).ends(2).says(&["fov"]);
+}
+
+/// A file that an included scene names and that is not there is told with how one gets to that scene; what an include
+/// does not take, its background's picture among it, is not looked at.
+#[test]
+fn missing_files_of_included_scenes_are_told_with_the_way_there() {
+    let sandbox = Sandbox::new();
+    std::fs::create_dir(sandbox.path("parts")).expect("a folder");
+    let mesh = "Mesh(file: \"none.obj\")";
+    sandbox.write(
+        "parts/chair.ron",
+        format!("Scene(background: Environment(file: \"none.hdr\"), camera: Camera(fov: 400),\n  objects: [{mesh}])"),
+    );
+    sandbox.write("parts/room.ron", "Scene(objects: [Include(file: \"chair.ron\")])");
+    for fault in ["", ", fault: 1"] {
+        sandbox.write(
+            "house.ron",
+            format!("Scene(background: 1{fault}, objects: [\n    Include(file: \"parts/room.ron\")])"),
+        );
+        let ran = sandbox.run(&["check", "house.ron"]).ends(2);
+        let ran = ran.says(&[
+            "E0501",
+            "none.obj",
+            "parts/chair.ron is included here",
+            "house.ron:2:19: parts/room.ron is included",
+        ]);
+        assert!(!ran.err.contains("none.hdr"), "{}", ran.err);
+    }
+}
+
+/// Of a mesh file that is text the very line is shown.
+#[test]
+fn faults_of_meshes_show_their_line() {
+    let sandbox = Sandbox::new();
+    sandbox.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 one 0\nf 1 2 3\n");
+    sandbox.write("a.ron", "Scene(background: 1, objects: [Mesh(file: \"a.obj\")])");
+    let ran = sandbox.run(&["check", "a.ron"]).ends(2);
+    ran.says(&["E0510", "a.ron:1:43", "a.obj:3:5", "3 | v 0 one 0\n  |     ^^^"]);
+}
+
+/// One document on standard output, whatever is wrong with how many scenes.
+#[test]
+fn check_writes_sarif() {
+    let sandbox = Sandbox::new();
+    sandbox.write(
+        "bad.ron",
+        "Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radus: 1), Mesh(file: \"none.obj\")])",
+    );
+    let check = |scenes: &[&str], code: i32| -> serde_json::Value {
+        let ran = sandbox.run(&[&["check", "--diagnostics", "sarif"], scenes].concat()).ends(code);
+        serde_json::from_str(&ran.out_text()).expect("JSON")
+    };
+    let ids = |document: &serde_json::Value| -> Vec<String> {
+        let results = document["runs"][0]["results"].as_array().expect("results").iter();
+        results.map(|result| result["ruleId"].as_str().unwrap_or_default().to_owned()).collect()
+    };
+    assert_eq!(ids(&check(&["bad.ron", "scene.ron", "bad.ron"], 2)), ["E0201", "E0501", "E0201", "E0501"]);
+    let right = check(&["scene.ron"], 0);
+    assert!(ids(&right).is_empty() && right["runs"][0]["tool"]["driver"]["name"] == "tracer");
+    let missing = check(&["none.ron"], 2);
+    assert_eq!(missing["runs"][0]["invocations"][0]["executionSuccessful"], false);
+    // Others print as they go.
+    sandbox
+        .run(&["info", "scene.ron", "--diagnostics", "sarif"])
+        .ends(2)
+        .says(&["possible values: text, json, github"]);
+}
+
+/// Tips of the command line are ones that help.
+#[test]
+fn mistyped_commands_and_options_of_others_get_tips_that_help() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&["hlep"]).ends(2).says(&["'help'"]);
+    sandbox.run(&["golden", "rnu"]).ends(2).says(&["'run'"]);
+    sandbox.run(&["check", "-q"]).ends(2).says(&["tracer check has no -q, which render, merge and repro take"]);
+    let ran = sandbox.run(&["render", "scene.ron", "--foo"]).ends(2);
+    assert!(!ran.err.contains("as a value"), "{}", ran.err);
 }

@@ -117,7 +117,7 @@ fn what_is_no_folder() {
     sandbox.run(&["golden", "run", "some"]).ends(2).says(&["some/golden.toml", "line 1", "sample"]);
     sandbox.write("some/golden.toml", "");
     sandbox.run(&["golden", "run", "some"]).ends(2).says(&["there is no scene in some"]);
-    sandbox.run(&["golden", "new", "some"]).ends(1).says(&["some/golden.toml is there already"]);
+    sandbox.run(&["golden", "new", "some"]).ends(2).says(&["some/golden.toml is there already"]);
     sandbox.run(&["golden", "new", "other", "--scene", "no.ron"]).ends(2).says(&["there is no scene file no.ron"]);
     assert!(!sandbox.path("other").exists());
     sandbox.run(&["golden", "new", "other", "--size", "0x3"]).ends(2).says(&["640x480"]);

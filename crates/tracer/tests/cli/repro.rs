@@ -170,7 +170,7 @@ fn the_scene_comes_back_as_it_was_rendered() {
     sandbox.run(&["render", "scene.ron"]).ends(0);
     sandbox.run(&["new", "b.ron", "--from", "scene.png"]).ends(0).says(&["see it by: tracer render b.ron -o b.png"]);
     assert_eq!(sandbox.text("b.ron"), SCENE);
-    sandbox.run(&["new", "b.ron", "--from", "scene.png"]).ends(1).says(&["there already"]);
+    sandbox.run(&["new", "b.ron", "--from", "scene.png"]).ends(2).says(&["there already"]);
     sandbox.run(&["new", "scene.toml", "--from", "scene.png"]).ends(0);
     sandbox.run(&["render", "scene.toml", "-o", "t.png"]).ends(0);
     // With options it is what they made of it.

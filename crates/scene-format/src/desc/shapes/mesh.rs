@@ -90,7 +90,7 @@ scene_struct! {
 
 impl Told for Mesh {
     const ALSO: &'static [&'static str] =
-        &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "model", "shape"];
+        &["obj", "off", "ply", "stl", "gltf", "glb", "trianglemesh", "plymesh", "objmesh", "mesh2", "model", "shape"];
     const EXAMPLE: &'static str =
         "Mesh(file: \"tetrahedron.off\", placements: [[Translate((-1.5, 0, 0))], [Translate((1.5, 0, 0))]])";
 }

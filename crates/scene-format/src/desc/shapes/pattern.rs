@@ -34,7 +34,7 @@ scene_enum! {
             count: u32 => Rule::within("a whole number", 1.0, 1e7);
             /// A corner of the box.
             min: Vec3 => Rule::point();
-            /// The corner opposite; the same y gives copies on the ground.
+            /// The corner opposite, greater or less along each axis; the same y gives copies on the ground.
             max: Vec3 => Rule::point();
             /// Another number gives other places.
             seed: u32 = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);

@@ -5,7 +5,7 @@ use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
 use crate::loading::expect_scene;
 use crate::shell::Shell;
-use crate::write::{save, spare};
+use crate::write::{WriteError, save, spare};
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 use tracer_golden::settings::{FILE, Settings};
@@ -15,7 +15,10 @@ pub(super) fn run(args: &GoldenNewArgs, shell: &Shell) -> Result<ExitCode, Failu
     let shown = folder.display();
     args.scenes.iter().try_for_each(|scene| expect_scene(scene))?;
     let file = folder.join(FILE);
-    spare(&file, false).map_err(|_| Failure::could_not(format!("{} is there already; edit it", file.display())))?;
+    spare(&file, false).map_err(|error| match error {
+        WriteError::There { .. } => Failure::wrong(format!("{} is there already; edit it", file.display())),
+        error => error.into(),
+    })?;
     std::fs::create_dir_all(folder).map_err(|error| Failure::could_not(format!("cannot make {shown}: {error}")))?;
     let text = text(args, folder)?;
     // What cannot be read again is not written.

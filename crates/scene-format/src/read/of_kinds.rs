@@ -1,0 +1,226 @@
+//! Kinds of other programs that are something else here: a material among the objects, a sky among the lights.
+
+use super::hints::{Hints, kind_elsewhere};
+use super::synonyms::squeezed;
+use crate::desc::{Material, Object};
+use crate::schema::EnumDef;
+
+/// Lights of other programs.
+pub(super) const LIGHTS: Hints = &[
+    (
+        &["directional", "distant", "sun", "directionallight", "distantlight", "sunlight", "parallel", "parallellight"],
+        "a sun is a large sphere light far away",
+    ),
+    (
+        &[
+            "sky",
+            "sunsky",
+            "sunandsky",
+            "environment",
+            "environmentmap",
+            "envmap",
+            "envlight",
+            "environmentlight",
+            "hdri",
+            "infinite",
+            "infinitelight",
+            "ibl",
+            "domelight",
+            "dome",
+            "constant",
+            "ambient",
+            "ambientlight",
+            "skylight",
+        ],
+        "light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`",
+    ),
+    (
+        &[
+            "quadlight",
+            "rectanglelight",
+            "rectlight",
+            "arealight",
+            "area",
+            "disklight",
+            "quad",
+            "meshlight",
+            "emission",
+            "emissive",
+            "emitter",
+        ],
+        "a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`",
+    ),
+    (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.01, intensity: .. in W/sr"),
+    (
+        &["spotlight", "spot", "ies", "goniometric", "goniometriclight", "projector", "projectionlight"],
+        "there is no spotlight: put a `SphereLight` into a tube or box of objects, open to one side",
+    ),
+];
+
+/// Transforms of other programs.
+pub(super) const TRANSFORMS: Hints = &[
+    (
+        &["matrix_world", "matrixworld", "to_world", "toworld", "matrix4", "mat4", "affine"],
+        "its rows are these, and a fourth, 0, 0, 0, 1, which is left out",
+    ),
+    (
+        &["transform", "concattransform", "concat_transform"],
+        "pbrt lists columns, so the first row takes the first number of each four; its x is mirrored: change the signs \
+         of the first row, then \
+         of the first column",
+    ),
+    (
+        &["matrix"],
+        "POV-Ray and glTF list columns, so that rows and columns change places; POV-Ray's x is mirrored: change the \
+         signs of the first row, \
+         then of the first column",
+    ),
+    (
+        &["lookat", "look_at", "track", "trackto", "track_to"],
+        "Align(from: (0, 0, 1), to: (1, 0, 0)) turns one direction to another; the camera alone has `look_at`",
+    ),
+    (&["shear", "skew"], "a `Matrix` may shear: Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)))"),
+    (&["mirror", "reflect", "flip"], "a negative factor mirrors: Scale((-1, 1, 1))"),
+    (
+        &["quaternion", "euler", "euler_xyz"],
+        "turn about one axis after the other: Rotate(axis: (0, 1, 0), degrees: 90)",
+    ),
+];
+
+const AMONG_OBJECTS: Hints = &[
+    (
+        &["emitter", "emission", "lightsource", "glow", "lamplight"],
+        "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
+    ),
+    (
+        &["envmap", "environment", "environmentmap", "hdri", "sky", "sunsky", "skysphere", "skydome", "world", "ibl"],
+        "light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`",
+    ),
+    (&["perspective", "thinlens", "sensor", "pinhole"], "the camera is the scene's `camera`, beside `objects`"),
+    (
+        &["julia", "fractal", "blob", "superellipsoid", "isosurface", "quadric", "loopsubdiv"],
+        "make a mesh of it: \
+     name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+    ),
+];
+
+const AMONG_LIGHTS: Hints = &[(
+    &["hemispherelight", "hemisphere", "uniform", "constantlight", "imagelight", "textureenvironment"],
+    "light from all around is the scene's `background`: a colour, or `Environment(file: \"sky.hdr\")`",
+)];
+
+const AMONG_MATERIALS: Hints = &[
+    (
+        &["diffusetransmission", "difftransmitter", "translucentbsdf"],
+        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: \
+         1.5)`",
+    ),
+    (
+        &["mask", "interface", "holdout", "transparentbsdf", "alphamask"],
+        "leave the object out, or what is not seen of it",
+    ),
+    (
+        &[
+            "substrate",
+            "coatedconductor",
+            "principledbsdf",
+            "openpbr",
+            "openpbrsurface",
+            "standardsurface",
+            "metalmatte",
+        ],
+        "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: \
+         true)",
+    ),
+    (&["measured", "merl", "rgl"], "there are no measured materials; the nearest are `Conductor` and `BlinnPhong`"),
+    (&["twosided", "doublesided"], "all surfaces have two sides: write the material within it alone"),
+    (
+        &["texture", "checkerboard", "checker", "imagemap", "color", "colour", "rgb"],
+        "a colour or a texture belongs to \
+     a material: Diffuse(albedo: ..)",
+    ),
+];
+
+const BACKGROUNDS: Hints = &[
+    (
+        &["none", "null", "nil", "transparent", "off", "alpha", "clear", "nothing", "empty"],
+        "leave `background` out: then it is black; what is to be laid over other pictures has `output: Output(alpha: \
+         true)`",
+    ),
+    (
+        &[
+            "sky",
+            "sunsky",
+            "sun",
+            "skytexture",
+            "nishita",
+            "hosekwilkie",
+            "preetham",
+            "gradient",
+            "skysphere",
+            "physicalsky",
+        ],
+        "there is no sky by numbers: it is one colour, (0.5, 0.7, 1), or a picture, Environment(file: \"sky.hdr\")",
+    ),
+    (
+        &["color", "colour", "constant", "rgb", "solid", "uniform", "ambient", "vec3", "srgb"],
+        "a colour stands alone: `background: (0.5, 0.7, 1)`",
+    ),
+    (
+        &[
+            "hdri",
+            "envmap",
+            "environmentmap",
+            "environmentlight",
+            "infinite",
+            "infinitelight",
+            "ibl",
+            "skybox",
+            "skydome",
+            "image",
+            "texture",
+            "latlong",
+            "equirectangular",
+            "domelight",
+            "dome",
+            "world",
+            "bitmap",
+        ],
+        "a picture of all directions is Environment(file: \"sky.hdr\")",
+    ),
+];
+
+/// What is said of a word that is no kind of this one.
+pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
+    let plain = squeezed(name);
+    let rows = match def.noun {
+        "object" => AMONG_OBJECTS,
+        "light" => AMONG_LIGHTS,
+        "material" => AMONG_MATERIALS,
+        "background" => BACKGROUNDS,
+        _ => return None,
+    };
+    let found = rows.iter().find(|(names, _)| names.contains(&&*plain)).map(|(_, way)| *way);
+    found.or_else(|| of_another_list(name, def))
+}
+
+/// What is said of a material or a shape in the wrong place.
+fn of_another_list(name: &str, def: &'static EnumDef) -> Option<&'static str> {
+    let is_of = |other: &'static EnumDef| {
+        other.variants.iter().any(|variant| variant.name.eq_ignore_ascii_case(name))
+            || kind_elsewhere(name, other).is_some()
+    };
+    match def.noun {
+        "object" if is_of(&Material::DEF) => {
+            Some("that is a material, which an object has: `Sphere(center: .., radius: .., material: ..)`")
+        }
+        "light" if is_of(&Object::DEF) => {
+            Some("shapes stand in `objects`; one that shines has `material: Emissive(radiance: 5)`")
+        }
+        "light" if is_of(&Material::DEF) => {
+            Some("that is a material, which an object has; what shines is Emissive(..)")
+        }
+        "material" if is_of(&Object::DEF) => Some("that is a shape; it stands in `objects`, and has a material"),
+        _ => None,
+    }
+}

@@ -1,0 +1,201 @@
+//! Words that people bring from other programs, wherever they write them: one error, and what to write here.
+
+use scene_format::{Diagnostic, LoadError, Override, Severity, Syntax, load_str};
+use std::path::Path;
+
+fn errors(text: &str, sets: &[Override]) -> Vec<Diagnostic> {
+    match load_str("scene", text, Syntax::Ron, Path::new(""), sets) {
+        Err(LoadError::Invalid { diagnostics, .. }) => {
+            diagnostics.into_iter().filter(|fault| fault.severity == Severity::Error).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Each is told once, with these words in its hint.
+fn check(cases: &[(&str, &str)], scene: impl Fn(&str) -> String) {
+    let mut wrong = Vec::new();
+    for (written, told) in cases {
+        let errors = errors(&scene(written), &[]);
+        let hints: Vec<&str> = errors.iter().map(|fault| &*fault.hint).collect();
+        if errors.len() != 1 || !hints[0].contains(told) {
+            let messages: Vec<&str> = errors.iter().map(|fault| &*fault.message).collect();
+            wrong.push(format!("{written}: {messages:?}, hints {hints:?}, not {told:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+}
+
+const BALL: &str = "Sphere(center: (0, 0, 0), radius: 1)";
+
+#[test]
+fn among_the_objects() {
+    let cases = [
+        ("sphere_sweep(radius: 1)", "`Tube(points: .., radius: ..)`"),
+        ("PlyMesh(file: \"a.ply\")", "did you mean `Mesh`?"),
+        ("glass()", "that is a material"),
+        ("emitter()", "material: Emissive(radiance: 5)"),
+        ("envmap()", "`background`"),
+        ("sky()", "`background`"),
+        ("area_light()", "material: Emissive(radiance: 5)"),
+        ("point_light()", "`lights`"),
+        ("Box(size: 1, pigment: 1)", "`material: Diffuse(albedo: ..)`"),
+        ("Box(size: 1, finish: 1)", "Conductor(..)"),
+        ("Box(size: 1, rgb: (1, 0, 0))", "`material: Diffuse(albedo: ..)`"),
+        ("Box(size: 1, hex: \"#ff0000\")", "`material: Diffuse(albedo: ..)`"),
+        ("Box(size: 1, bsdf: Mirror())", "did you mean `material`?"),
+        ("Box(radius: 1)", "its `size`"),
+        ("Rectangle(radius: 1)", "a `Disk`"),
+        ("Box(size: 1, move: (1, 0, 0))", "`transform: [Translate((x, y, z))]`"),
+        ("Box(size: 1, rotateX: 30)", "`transform: [Rotate("),
+        ("Box(size: 1, ior: 1.5)", "`material: Transparent(ior: 1.5)`"),
+        ("Box(size: 1, interior: 1)", "Transparent(ior: 1.5)"),
+        ("Box(size: 1, instances: 3)", "there is `placements`"),
+        ("Box(size: 1, emitter: 3)", "Emissive(radiance: 5)"),
+        ("Box(size: 1, transform: [Move((1, 0, 0))])", "did you mean `Translate`?"),
+        ("Box(size: 1, transform: [Turn(30)])", "`Rotate(axis: .., degrees: ..)`"),
+        ("Sphere(center: (0, 0, 0), radius: 2**3)", "write \"=2^3\""),
+        ("Sphere(center: (0, 0, 0), radius: 1?2:3)", "write \"=if(1, 2, 3)\""),
+        ("Sphere(center: (0, 0, 0), radius: \"=2**3\")", "`^`"),
+        ("Sphere(center: (0, 0, 0), radius: \"=true?2:3\")", "if(condition, a, b)"),
+        ("Sphere(center: (0, 0, 0), radius: \"=1 < 2 and 3\")", "`&&`"),
+        ("Sphere(center: (0, 0, 0), radius: \"=math.sin(3)\")", "sin(x)"),
+        ("Sphere(center: (0, 0, 0), radius: \"=PI\")", "`pi`"),
+    ];
+    check(&cases, |object| format!("Scene(background: 1, objects: [{BALL}, {object}])"));
+    // What is offered is right.
+    let text = format!("Scene(background: 1, objects: [{BALL}, Box(size: 1, transform: [translate(1, 0, 0)])])");
+    let errors = errors(&text, &[]);
+    assert_eq!(errors[0].edit.as_ref().expect("an edit").replacement, "Translate((1, 0, 0))");
+}
+
+#[test]
+fn among_the_materials() {
+    let cases = [
+        ("DiffuseBSDF()", "did you mean `Diffuse`?"),
+        ("GlassBSDF()", "`Transparent(ior: ..)`"),
+        ("coatedconductor()", "BlinnPhong("),
+        ("twosided()", "two sides"),
+        ("mask()", "leave the object out"),
+        ("Sphere(radius: 1)", "that is a shape"),
+        ("Transparent(int_ior: 1.5)", "did you mean `ior`?"),
+        ("Transparent(ior: 1.5, color: 1)", "did you mean `transmittance`?"),
+        ("Diffuse(rgb: (1, 0, 0))", "did you mean `albedo`?"),
+        ("Diffuse(hex: \"#ff0000\")", "did you mean `albedo`?"),
+        ("Diffuse(map_Kd: \"a.png\")", "write `albedo: Texture(file: \"a.png\")`"),
+        ("Diffuse(albedo: hex(\"ff0000\"))", "write \"#ff0000\""),
+        ("Diffuse(ior: 1.5)", "Transparent(ior: 1.5)"),
+        ("Conductor(metal: Au)", "did you mean `Gold`?"),
+        ("Emissive(intensity: 3)", "`radiance`, or by `power`"),
+        ("Emissive(Ke: 3)", "`radiance`, or by `power`"),
+        ("BlinnPhong(Ns: 30, specular: 0.1)", "did you mean `exponent`?"),
+        ("Diffuse(albedo: Checkerboard(uscale: 2, vscale: 3))", "write `mapping: Uv(scale: (2, 3))`"),
+        ("Diffuse(albedo: Checkerboard(udelta: 2))", "Uv(scale: (u, v), offset: (u, v))"),
+        ("Diffuse(albedo: Checkerboard(color0: 0.1, color1: 0.9))", "write `a: 0.1, b: 0.9`"),
+    ];
+    check(&cases, |material| format!("Scene(background: 1, objects: [Box(size: 1, material: {material})])"));
+}
+
+#[test]
+fn in_the_camera() {
+    let cases = [
+        ("lookAt: (0, 0, 0)", "did you mean `look_at`?"),
+        ("look_from: (0, 0, 5)", "did you mean `position`?"),
+        ("fieldOfView: 40", "did you mean `fov`?"),
+        ("hfov: 40", "fov_axis: Horizontal"),
+        ("lensradius: 0.1", "ThinLens(aperture: 0.1, focus_distance: 5)"),
+        ("focaldistance: 5", "ThinLens(aperture: 0.1, focus_distance: 5)"),
+        ("up_vector: (0, 1, 0)", "did you mean `up`?"),
+        ("aspect: 1.5", "Image(width: 640, height: 480)"),
+        ("iso: 100", "`exposure`"),
+        ("name: \"a\"", "`cameras`"),
+        ("projection: Spherical", "did you mean `Panorama`?"),
+        ("spp: 3", "that is `samples` here, a field of `render`"),
+    ];
+    check(&cases, |camera| format!("Scene(background: 1, camera: Camera({camera}), objects: [{BALL}])"));
+}
+
+#[test]
+fn in_the_scene_and_its_groups() {
+    let cases = [
+        ("background: None", "`output: Output(alpha: true)`"),
+        ("background: Sky()", "Environment(file: \"sky.hdr\")"),
+        ("background: envmap(file: \"a.hdr\")", "Environment(file: \"sky.hdr\")"),
+        ("background: \"a.hdr\"", "Environment(file: \"a.hdr\")"),
+        ("background: black", "write \"#000000\""),
+        ("background: Color(1, 1, 1)", "`background: (0.5, 0.7, 1)`"),
+        ("background: 1, camera: Orthographic(height: 3)", "Camera(projection: Orthographic(height: 8))"),
+        ("background: 1, spp: 3", "that is `samples` here, a field of `render`"),
+        ("background: 1, maxdepth: 3", "that is `max_bounces` here, a field of `render`"),
+        ("background: 1, bsdfs: {}", "did you mean `materials`?"),
+        ("background: 1, emitters: []", "did you mean `lights`?"),
+        ("background: 1, variables: {}", "did you mean `vars`?"),
+        ("background: 1, repeat: 3", "`Repeat`"),
+        ("background: 1, render: Render(sampleCount: 3)", "did you mean `samples`?"),
+        ("background: 1, render: Render(maxDepth: 3)", "did you mean `max_bounces`?"),
+        ("background: 1, render: Render(integrator: bdpt)", "did you mean `Full`?"),
+        ("background: 1, render: Render(noise_threshold: 0.1)", "--noise 2%"),
+        ("background: 1, image: Image(xresolution: 3)", "did you mean `width`?"),
+        ("background: 1, image: Image(filename: \"a.png\")", "-o picture.png"),
+        ("background: 1, lights: [point_light(position: (0, 1, 0))]", "a small sphere"),
+        ("background: 1, lights: [area_light()]", "Rectangle(material: Emissive(radiance: 5))"),
+        ("background: 1, lights: [Disk()]", "shapes stand in `objects`"),
+    ];
+    check(&cases, |top| format!("Scene({top}, objects: [{BALL}])"));
+}
+
+/// Every index of the repetitions in which a fault is met is told.
+#[test]
+fn faults_in_repetitions_name_their_indices() {
+    let cases = [
+        ("Repeat(count: 3, items: [Sphere(center: (0, 0, 0), radius: \"=i\")])", " (i = 0)"),
+        (
+            "Repeat(count: 5, items: [Repeat(count: 2, index: \"j\", items: [Box(size: \"=3 - i - j\")])])",
+            " (i = 2, j = 1)",
+        ),
+        ("Box(size: 1, placements: [Repeat(count: 4, index: \"k\", items: [[Scale(\"=2 - k\")]])])", " (k = 2)"),
+    ];
+    for (object, indices) in cases {
+        let errors = errors(&format!("Scene(background: 1, objects: [{object}])"), &[]);
+        let messages: Vec<&str> = errors.iter().map(|fault| &*fault.message).collect();
+        assert!(matches!(messages[..], [only] if only.ends_with(indices)), "{object}: {messages:?}");
+    }
+}
+
+/// `--set` reaches the numbers of a vector that is written, and tells what to do where it cannot.
+#[test]
+fn parts_of_vectors_are_set() {
+    let text = format!("Scene(background: 1, camera: Camera(position: (1, 2, 3)), objects: [{BALL}])");
+    let load = |set: &str| load_str("scene", &text, Syntax::Ron, Path::new(""), &[Override::from(set)]);
+    for (set, position) in [
+        ("camera.position.x=7", [7.0, 2.0, 3.0]),
+        ("camera.position[2]=-7", [1.0, 2.0, -7.0]),
+        ("camera.position.y=\"=1+1.5\"", [1.0, 2.5, 3.0]),
+    ] {
+        assert_eq!(load(set).expect("right").scene.camera.position.value, position, "{set}");
+    }
+    for (set, hint) in [
+        ("camera.look_at.x=7", "set it as a whole: (x, y, z)"),
+        ("camera.look_from.x=7", "did you mean `position`?"),
+        ("camera.position.w=7", ""),
+        ("camera.position[3]=7", ""),
+    ] {
+        let errors = errors(&text, &[Override::from(set)]);
+        let hints: Vec<&str> = errors.iter().map(|fault| &*fault.hint).collect();
+        assert_eq!(hints, [hint], "{set}: {errors:?}");
+    }
+}
+
+/// A name that is misspelt two hundred times is told once, with the first lines.
+#[test]
+fn a_name_that_is_misspelt_everywhere_is_told_once() {
+    let boxes = "Box(size: 1, material: \"wod\"),\n".repeat(200);
+    let text = format!("Scene(background: 1, materials: {{ \"wood\": Diffuse() }}, objects: [\n{boxes}])");
+    let Err(LoadError::Invalid { diagnostics, sources, .. }) = load_str("s", &text, Syntax::Ron, Path::new(""), &[])
+    else {
+        panic!("wrong")
+    };
+    let shown = scene_format::render::text(&diagnostics, &sources, scene_format::render::Style::default());
+    assert_eq!(shown.matches("there is no material").count(), 1, "{shown}");
+    assert!(shown.contains("199 more like this, on lines 3, 4, 5"), "{shown}");
+}
