@@ -435,6 +435,10 @@ fn value(field: &FieldDef) -> String {
                 link("Texture")
             )
         }
+        Type::OneOf([Type::Number, Type::Later(_)]) => {
+            let (what, words) = (field.rule.what, field.rule.range.words());
+            format!("{what} {words}, a {}, or a name from `textures`", link("Texture"))
+        }
         Type::OneOf([Type::List(_), Type::File]) => {
             format!("list of lists of {}, or a file name", link("Transform"))
         }

@@ -478,8 +478,8 @@ fn without_what_has_no_image(world: &mut World) {
         .iter()
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
-            let plain = |material: &Material| material.color().is_none_or(Albedo::is_color);
-            let in_world = |material: &Material| material.color().is_some_and(lies_in_the_world);
+            let plain = |material: &Material| material.varying().into_iter().all(Albedo::is_color);
+            let in_world = |material: &Material| material.varying().into_iter().any(lies_in_the_world);
             let material = draw::material_of(world, &object.value);
             sphere && !material.is_none_or(plain) || material.is_some_and(in_world)
         })
