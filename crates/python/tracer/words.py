@@ -746,7 +746,7 @@ class Mirror(TypedDict, total=False):
     reflectance: Reflected share per channel.
     """
 
-    reflectance: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    reflectance: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
 class _TransparentRequired(TypedDict):
@@ -760,19 +760,19 @@ class Transparent(_TransparentRequired, total=False):
     transmittance: Share of refracted light that passes each surface, per channel.
     """
 
-    transmittance: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    transmittance: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
 
 
 class _BlinnPhongRequired(TypedDict):
-    exponent: Either[float, str, PickItem]
-    specular: Either[float, str, PickItem]
+    exponent: Either[float, str, Pattern, PickItem]
+    specular: Either[float, str, Pattern, PickItem]
 
 
 class BlinnPhong(_BlinnPhongRequired, total=False):
     """Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
 
     albedo: Colour of both lobes.
-    exponent: alpha: 1 is dull, 100000 nearly a mirror.
+    exponent: alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1 only: `Multiply(a: Texture(..), b: 1000)` or a `Mix` between two numbers by it.
     specular: s: share of the glossy lobe, 0 to 1.
     energy_conserving: The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
     """
@@ -798,7 +798,7 @@ class Conductor(TypedDict, total=False):
     k: Any
     reflectance: Any
     edge_tint: Any
-    roughness: Either[float, str, PickItem]
+    roughness: Either[float, str, Pattern, PickItem]
     multiple_scattering: Either[bool, str, PickItem]
 
 

@@ -19,6 +19,14 @@ pub fn albedo(scene: &Scene, albedo: Albedo, s: &Surface) -> DVec3 {
     texel_at(scene, index, s.uv)
 }
 
+/// The number at a surface: of a texture the luminance.
+pub fn number(scene: &Scene, number: Albedo, s: &Surface) -> f64 {
+    match number {
+        Albedo::Color([number, ..]) => number,
+        texture => albedo(scene, texture, s).dot(DVec3::new(0.2126, 0.7152, 0.0722)),
+    }
+}
+
 /// The colour of a texture at coordinates before its own mapping.
 fn texel_at(scene: &Scene, index: u32, [u, v]: [f64; 2]) -> DVec3 {
     let texture = scene.texture(index).expect("a texture of the scene");

@@ -233,6 +233,9 @@ impl Converter<'_, '_> {
             }
             Type::OneOf(kinds) => {
                 let item = item.without_some();
+                if kind.is_texture() && item.kind() == Kind::Text {
+                    return Form::Text(item.text().into_owned());
+                }
                 match kinds.iter().find(|kind| fits(item, kind)) {
                     Some(kind) => self.form(item, *kind),
                     None => Form::Absent,

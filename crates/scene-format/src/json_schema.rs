@@ -212,7 +212,8 @@ fn number(kind: &str, rule: &Rule) -> Map<String, Value> {
     if range.low.is_finite() {
         out.insert(if range.above_low { "exclusiveMinimum" } else { "minimum" }.to_owned(), json_number(range.low));
     }
-    if range.high.is_finite() {
+    // Where a texture's own colours end, what it is of decides.
+    if range.high.is_finite() && !rule.of_texture {
         out.insert(if range.below_high { "exclusiveMaximum" } else { "maximum" }.to_owned(), json_number(range.high));
     }
     out

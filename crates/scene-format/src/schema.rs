@@ -49,10 +49,11 @@ impl Type {
         }
     }
 
-    /// Whether it is a colour that may differ from place to place: a text that is no colour is the name of a texture.
+    /// Whether it is a colour or a number that may differ from place to place: a text that is neither a colour nor an
+    /// expression is the name of a texture.
     pub fn is_texture(self) -> bool {
         match self.resolved() {
-            Type::OneOf([Type::Color, Type::Later(_)]) => true,
+            Type::OneOf([Type::Color | Type::Number, Type::Later(_)]) => true,
             Type::Optional(inner) => inner.is_texture(),
             _ => false,
         }
@@ -257,6 +258,8 @@ pub(crate) struct Rule {
     pub color: bool,
     /// What a file that is named here holds.
     pub file: Option<FileKind>,
+    /// A texture's own colour: its range is that of what the texture is of.
+    pub of_texture: bool,
 }
 
 /// Coordinates and lengths beyond this are refused: products of them would leave the range of 32-bit floats.
@@ -274,6 +277,7 @@ impl Rule {
         direction: false,
         color: false,
         file: None,
+        of_texture: false,
     };
 
     /// The name of a file.
@@ -312,12 +316,17 @@ impl Rule {
         Rule { color: true, ..Rule::within("a colour", 0.0, 1.0) }
     }
 
+    /// What a texture has at one end: a share of light, or whatever the texture is of.
+    pub const fn part() -> Rule {
+        Rule { of_texture: true, ..Rule::share() }
+    }
+
     /// Light, per channel.
     pub const fn light(unit: &'static str) -> Rule {
         Rule { color: true, unit, ..Rule::within("a colour", 0.0, MAX_LIGHT) }
     }
 
-    /// A number for each channel, none of which is light.
+    /// A number for each channel, or one that a texture gives, none of which is light.
     pub const fn per_channel(what: &'static str, low: f64, high: f64) -> Rule {
         Rule { color: true, ..Rule::within(what, low, high) }
     }

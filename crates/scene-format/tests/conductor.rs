@@ -30,10 +30,10 @@ fn three_ways() {
     assert!(matches!(load("Conductor(metal: Gold)").unwrap().reflectance, Reflectance::Metal(_)));
     let exact = load("Conductor(ior: (0.2, 0.9, 1.1), k: 3, roughness: 0.5)").unwrap();
     let Reflectance::Complex { ior, k } = exact.reflectance else { panic!() };
-    assert_eq!((ior.value, k.value, exact.roughness.value), ([0.2, 0.9, 1.1], [3.0; 3], 0.5));
+    assert_eq!((ior.value, k.value, exact.roughness.constant()), ([0.2, 0.9, 1.1], [3.0; 3], Some(0.5)));
     let tinted = load("Conductor(reflectance: \"#ffffff\", multiple_scattering: false)").unwrap();
     let Reflectance::Tinted { edge_tint, .. } = tinted.reflectance else { panic!() };
-    assert_eq!((edge_tint.value, tinted.multiple_scattering), ([1.0; 3], false));
+    assert_eq!((edge_tint, tinted.multiple_scattering), ([1.0; 3].into(), false));
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn same(a: &Albedo, b: &Albedo) -> bool {
 fn albedo(scene: &SceneDesc, name: &str) -> Albedo {
     let named = scene.materials.iter().find(|named| &*named.name.value == name);
     let material = &named.unwrap_or_else(|| panic!("no material {name}")).material;
-    material.color().unwrap_or_else(|| panic!("{name} has no colour")).clone()
+    material.varying().first().map_or_else(|| panic!("{name} has no colour"), |&color| color.clone())
 }
 
 /// A scene with these textures, whose ball has this colour.

@@ -31,7 +31,7 @@ pub use frame::Frame;
 pub use light::LightTable;
 pub use light::{CurvedLight, CurvedRow, FlatLight, Light};
 pub use materials::{Albedo, Material};
-pub use materials::{ConductorTable, GGX_STEPS, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
+pub use materials::{ConductorTable, GGX_STEPS, LEAST_ALPHA, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA};
 pub use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use met::{CameraSees, Met};
@@ -47,6 +47,7 @@ pub use shape::{OperandRow, ShapeTable};
 pub use sphere::Sphere;
 pub use sphere::{LargeSphere, SmallSphere, SphereTable};
 pub use statistics::{Statistics, WorldBounds};
+pub(crate) use table::Table;
 pub use texture::{Picture, Texels, TextureFilter, TextureTable, TextureUse, TextureWrap};
 pub use texture::{Texel, TextureView};
 

@@ -4,12 +4,13 @@ use super::Rough;
 use crate::random::{Random, about, polar};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use tracer_core::scene::materials;
 
 /// A diffuse surface with a glossy lobe on top.
 pub struct BlinnPhong {
     pub albedo: DVec3,
-    pub words: materials::BlinnPhong,
+    pub exponent: f64,
+    pub specular: f64,
+    pub energy_conserving: bool,
 }
 
 impl Rough for BlinnPhong {
@@ -17,10 +18,10 @@ impl Rough for BlinnPhong {
     /// 2)/(2 pi) cos^alpha theta), or, energy conserving (Ashikhmin and Shirley 2000, without the Fresnel factor), with
     /// s (alpha + 1)/(8 pi (wo.h) max(cos i, cos o)) cos^alpha theta.
     fn f(&self, n: DVec3, wo: DVec3, wi: DVec3) -> DVec3 {
-        let (alpha, s) = (self.words.exponent, self.words.specular);
+        let (alpha, s) = (self.exponent, self.specular);
         let h = (wo + wi).normalize();
         let lobe = n.dot(h).max(0.0).powf(alpha);
-        let specular = if self.words.energy_conserving {
+        let specular = if self.energy_conserving {
             (alpha + 1.0) / (8.0 * PI * wo.dot(h) * n.dot(wi).max(n.dot(wo))) * lobe
         } else {
             (alpha + 2.0) / TAU * lobe
@@ -32,7 +33,7 @@ impl Rough for BlinnPhong {
     /// theta.
     fn sample(&self, n: DVec3, wo: DVec3, random: &mut Random) -> DVec3 {
         if random.number() < 0.5 {
-            let cos = (1.0 - random.number()).powf(1.0 / (self.words.exponent + 1.0));
+            let cos = (1.0 - random.number()).powf(1.0 / (self.exponent + 1.0));
             let h = about(n, polar(cos, random.number()));
             2.0 * wo.dot(h) * h - wo
         } else {
@@ -44,7 +45,7 @@ impl Rough for BlinnPhong {
     fn density(&self, n: DVec3, wo: DVec3, wi: DVec3) -> f64 {
         let diffuse = n.dot(wi).max(0.0) / PI;
         let h = (wo + wi).normalize();
-        let of_h = (self.words.exponent + 1.0) / TAU * n.dot(h).max(0.0).powf(self.words.exponent);
+        let of_h = (self.exponent + 1.0) / TAU * n.dot(h).max(0.0).powf(self.exponent);
         0.5 * diffuse + 0.5 * of_h / (4.0 * wo.dot(h))
     }
 }

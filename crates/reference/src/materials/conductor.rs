@@ -13,13 +13,16 @@ use tracer_core::scene::materials::{self, Fresnel};
 pub struct Conductor {
     pub words: materials::Conductor,
     pub color: DVec3,
+    /// What Schlick's reflectance is multiplied by at the cosine 1/7.
+    pub tint: DVec3,
+    pub alpha: f64,
     /// What it reflects at once, if it were white.
     pub energy: Energy,
 }
 
 /// One direction where the metal is smooth, else its lobes.
 pub fn scatter(conductor: Conductor, s: &Surface, wo: DVec3) -> Scattered {
-    if conductor.words.alpha >= 1e-4 {
+    if conductor.alpha >= 1e-4 {
         return Scattered::Rough(Box::new(conductor));
     }
     let reflection = reflect(s, wo);
@@ -33,10 +36,10 @@ impl Conductor {
         let cos = cos.clamp(0.0, 1.0);
         match self.words.fresnel {
             Fresnel::Complex { ior, k } => DVec3::from_array([0, 1, 2].map(|c| complex_fresnel(ior[c], k[c], cos))),
-            Fresnel::Tinted { edge_tint, .. } => {
+            Fresnel::Tinted { .. } => {
                 let schlick = |cos: f64| self.color + (DVec3::ONE - self.color) * (1.0 - cos).powi(5);
                 // What has to go at the cosine 1/7.
-                let gone = schlick(1.0 / 7.0) * (DVec3::ONE - DVec3::from(edge_tint));
+                let gone = schlick(1.0 / 7.0) * (DVec3::ONE - self.tint);
                 let shape = |cos: f64| cos * (1.0 - cos).powi(6);
                 (schlick(cos) - gone * (shape(cos) / shape(1.0 / 7.0))).clamp(DVec3::ZERO, DVec3::ONE)
             }
@@ -58,7 +61,7 @@ impl Rough for Conductor {
         if cos_o <= 0.0 || cos_i <= 0.0 {
             return DVec3::ZERO;
         }
-        let alpha = self.words.alpha;
+        let alpha = self.alpha;
         let h = (wo + wi).normalize();
         let once = distribution(alpha, n.dot(h)) * masking(alpha, cos_o, cos_i) / (4.0 * cos_o * cos_i);
         let mut f = self.fresnel(wo.dot(h)) * once;
@@ -78,7 +81,7 @@ impl Rough for Conductor {
             return about(n, polar((1.0 - random.number()).sqrt(), random.number()));
         }
         let u = random.number();
-        let tan2 = self.words.alpha * self.words.alpha * u / (1.0 - u);
+        let tan2 = self.alpha * self.alpha * u / (1.0 - u);
         let h = about(n, polar(1.0 / (1.0 + tan2).sqrt(), random.number()));
         2.0 * wo.dot(h) * h - wo
     }
@@ -86,7 +89,7 @@ impl Rough for Conductor {
     fn density(&self, n: DVec3, wo: DVec3, wi: DVec3) -> f64 {
         let n = seen(n, wo);
         let h = (wo + wi).normalize();
-        let of_h = distribution(self.words.alpha, n.dot(h)) * n.dot(h).max(0.0);
+        let of_h = distribution(self.alpha, n.dot(h)) * n.dot(h).max(0.0);
         0.5 * n.dot(wi).max(0.0) / PI + 0.5 * of_h / (4.0 * wo.dot(h).abs())
     }
 }
@@ -141,6 +144,29 @@ pub struct Energy {
     /// At the cosines (k / 64)^2.
     by_cosine: Vec<f64>,
     average: f64,
+}
+
+/// Those of a material: one, or of the roughnesses k / (n - 1).
+pub struct Energies(Vec<Energy>);
+
+impl Energies {
+    /// Of one alpha, or of all.
+    pub fn new(alpha: Option<f64>) -> Self {
+        let steps = 40;
+        let of_step = |k: i32| (f64::from(k) / f64::from(steps)).powi(2);
+        Energies(alpha.map_or_else(|| (0..=steps).map(|k| Energy::new(of_step(k))).collect(), |a| vec![Energy::new(a)]))
+    }
+
+    /// Linear between the roughnesses.
+    pub fn at(&self, roughness: f64) -> Energy {
+        let [.., last] = &self.0[..] else { return Energy { by_cosine: vec![1.0; 65], average: 1.0 } };
+        let place = roughness * (self.0.len() - 1) as f64;
+        let (low, t) = (&self.0[place as usize], place.fract());
+        let high = self.0.get(place as usize + 1).unwrap_or(last);
+        let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        let by_cosine = low.by_cosine.iter().zip(&high.by_cosine).map(|(&a, &b)| mix(a, b)).collect();
+        Energy { by_cosine, average: mix(low.average, high.average) }
+    }
 }
 
 impl Energy {

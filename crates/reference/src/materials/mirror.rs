@@ -3,11 +3,10 @@
 use super::{Incident, Scattered};
 use crate::surface::Surface;
 use glam::DVec3;
-use tracer_core::scene::materials::Mirror;
 
-/// The mirrored direction with the material's colour.
-pub fn sample(material: Mirror, s: &Surface, wo: DVec3) -> Scattered {
-    Scattered::Specular(Incident { direction: reflect(s, wo).direction, weight: material.reflectance.into() })
+/// The mirrored direction with this colour.
+pub fn sample(reflectance: DVec3, s: &Surface, wo: DVec3) -> Scattered {
+    Scattered::Specular(Incident { direction: reflect(s, wo).direction, weight: reflectance })
 }
 
 /// A mirrored direction and the normal that mirrors it.

@@ -13,6 +13,7 @@ use crate::texture;
 use glam::DVec3;
 use tracer_core::Scene;
 use tracer_core::scene::Material;
+use tracer_core::scene::materials::Fresnel;
 
 /// What scatters to more than one direction.
 pub trait Rough {
@@ -45,14 +46,14 @@ pub enum Scattered {
 /// What is reckoned once for each material.
 pub struct Materials {
     /// What conductors reflect at once.
-    energy: Vec<Option<conductor::Energy>>,
+    energy: Vec<Option<conductor::Energies>>,
 }
 
 impl Materials {
     /// Of a scene.
     pub fn new(scene: &Scene) -> Self {
         let energy = scene.materials.iter().map(|material| match material {
-            Material::Conductor(words) => Some(conductor::Energy::new(words.alpha)),
+            Material::Conductor(words) => Some(conductor::Energies::new(words.alpha())),
             _ => None,
         });
         Materials { energy: energy.collect() }
@@ -62,21 +63,29 @@ impl Materials {
 /// What the surface's material does with light to wo: one line a material.
 pub fn scatter(scene: &Scene, known: &Materials, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
     let color = |albedo| texture::albedo(scene, albedo, s);
+    let number = |albedo| texture::number(scene, albedo, s);
     match scene.materials[s.material as usize] {
         // Its surface is a light's.
         Material::Emissive(_) => Scattered::Nothing,
-        Material::Mirror(material) => mirror::sample(material, s, wo),
-        Material::Transparent(material) => transparent::sample(material, s, wo, random),
+        Material::Mirror(material) => mirror::sample(color(material.reflectance), s, wo),
+        Material::Transparent(glass) => transparent::sample(glass.ior, color(glass.transmittance), s, wo, random),
         Material::Diffuse(material) => Scattered::Rough(Box::new(diffuse::Diffuse { albedo: color(material.albedo) })),
         Material::Conductor(words) => {
-            let (color, energy) =
-                (color(Material::Conductor(words).traits().color), known.energy[s.material as usize].clone());
-            energy.map_or(Scattered::Nothing, |energy| {
-                conductor::scatter(conductor::Conductor { words, color, energy }, s, wo)
-            })
+            let Some(energies) = &known.energy[s.material as usize] else { return Scattered::Nothing };
+            let roughness = number(words.roughness).clamp(0.0, 1.0);
+            let tint = match words.fresnel {
+                Fresnel::Tinted { edge_tint, .. } => color(edge_tint),
+                Fresnel::Complex { .. } => DVec3::ONE,
+            };
+            let (color, energy) = (color(Material::Conductor(words).traits().color), energies.at(roughness));
+            let conductor = conductor::Conductor { words, color, tint, alpha: roughness * roughness, energy };
+            conductor::scatter(conductor, s, wo)
         }
-        Material::BlinnPhong(words) => {
-            Scattered::Rough(Box::new(blinn_phong::BlinnPhong { albedo: color(words.albedo), words }))
-        }
+        Material::BlinnPhong(words) => Scattered::Rough(Box::new(blinn_phong::BlinnPhong {
+            albedo: color(words.albedo),
+            exponent: number(words.exponent).clamp(0.0, 1e7),
+            specular: number(words.specular).clamp(0.0, 1.0),
+            energy_conserving: words.energy_conserving,
+        })),
     }
 }

@@ -5,16 +5,15 @@ use super::{Incident, Scattered};
 use crate::random::Random;
 use crate::surface::Surface;
 use glam::DVec3;
-use tracer_core::scene::materials::Transparent;
 
 /// A smooth dielectric: reflection with the probability F, else refraction, whose radiance is scaled by (n_i/n_t)^2
 /// (Veach 1997, 5.2).
-pub fn sample(material: Transparent, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
-    let (direction, weight) = dielectric(s, wo, material.ior, material.transmittance, random);
+pub fn sample(ior: f64, transmittance: DVec3, s: &Surface, wo: DVec3, random: &mut Random) -> Scattered {
+    let (direction, weight) = dielectric(s, wo, ior, transmittance, random);
     Scattered::Specular(Incident { direction, weight })
 }
 
-fn dielectric(s: &Surface, wo: DVec3, ior: f64, transmittance: [f64; 3], random: &mut Random) -> (DVec3, DVec3) {
+fn dielectric(s: &Surface, wo: DVec3, ior: f64, transmittance: DVec3, random: &mut Random) -> (DVec3, DVec3) {
     let mut reflection = reflect(s, wo);
     let eta = if s.outside { 1.0 / ior } else { ior };
     // From within a smooth mesh: total reflection only where the triangle's own normal says so, too.
@@ -30,7 +29,7 @@ fn dielectric(s: &Surface, wo: DVec3, ior: f64, transmittance: [f64; 3], random:
     let refracted = refract(wo, reflection.normal, eta)
         .filter(|wi| !s.smooth || wi.dot(s.ng) <= -1e-3)
         .or_else(|| refract(wo, s.ng, eta));
-    refracted.map_or(reflected, |wi| (wi, eta * eta * DVec3::from(transmittance)))
+    refracted.map_or(reflected, |wi| (wi, eta * eta * transmittance))
 }
 
 /// Snell's law, eta = n_i/n_t: the tangential part of -wo times eta, and what makes it a unit vector along -n.

@@ -67,9 +67,9 @@ pub(crate) use stereo::Stereoscopy;
 pub use stereo::{Stereo, StereoLayout};
 pub use textures::{
     Albedo, Checkerboard, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Mix, Multiply,
-    NamedTexture, Noise, NoiseKind, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops, Texture,
-    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, VertexColor, VertexColorSpace,
-    Voronoi, VoronoiFeature, Wood,
+    NamedTexture, Noise, NoiseKind, Number, Pattern, Planar, RampInterpolation, SolidMapping, Spherical, Stop, Stops,
+    Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, VertexColor,
+    VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
 pub(crate) use textures::{MappingWords, Nested, PatternWords, is_texture};
 pub(crate) use transform::TransformWords;

@@ -285,7 +285,7 @@ impl Reader<'_> {
                 // Names of names go deeper, too.
                 let named = item.kind() == Kind::Text;
                 if named {
-                    self.textures.enter();
+                    self.textures.enter(&TEXTURE);
                 }
                 let texture = Albedo::read(self, item, &TEXTURE);
                 if named {

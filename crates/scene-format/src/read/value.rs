@@ -2,6 +2,7 @@
 
 use super::{Reader, elsewhere, plain, shortened};
 use crate::codes;
+use crate::desc::PatternWords;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::expression::Value;
 use crate::files::joined;
@@ -83,6 +84,11 @@ pub(crate) fn expected(at: &FieldDef) -> String {
             return format!(
                 "a colour with channels {words}: (r, g, b), one number for grey, \"#rrggbb\", or {choices}{named}"
             );
+        }
+        (Type::OneOf([Type::Number, Type::Later(_)]), what) => {
+            let Type::Enum(def) = PatternWords::TYPE else { return what.to_owned() };
+            let choices = super::variant::choices(def, Syntax::Ron);
+            return format!("{what} {words}, or {choices}, or a name from `textures`");
         }
         (Type::OneOf([Type::Number, Type::Pair]), what) => format!("{what}, or one per side: (x, y)"),
         (Type::OneOf([Type::Number, Type::List(_)]), what) => {

@@ -2,7 +2,7 @@
 
 use super::Random;
 use super::solid::solid;
-use super::textures::{albedo, named_textures};
+use super::textures::{albedo, named_textures, varying};
 use scene_format::SceneDesc;
 use scene_format::desc::*;
 use scene_format::diagnostic::{Span, Spanned};
@@ -43,9 +43,9 @@ fn material(random: &mut Random) -> Material {
             reflectance: match random.below(3) {
                 0 => Reflectance::Metal(*random.pick(&[Metal::Silver, Metal::Gold, Metal::Steel])),
                 1 => Reflectance::Complex { ior: share(random).into(), k: share(random).into() },
-                _ => Reflectance::Tinted { reflectance: albedo(random), edge_tint: share(random).into() },
+                _ => Reflectance::Tinted { reflectance: albedo(random), edge_tint: albedo(random) },
             },
-            roughness: random.unit().into(),
+            roughness: varying(random, 1.0),
             multiple_scattering: random.below(2) == 0,
         })),
         0 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
@@ -55,15 +55,15 @@ fn material(random: &mut Random) -> Material {
             let (two_sided, group) = (random.below(2) == 0, light_group(random));
             Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group }))
         }
-        1 => Material::Mirror(Mirror { reflectance: share(random).into() }),
+        1 => Material::Mirror(Mirror { reflectance: albedo(random) }),
         2 => Material::Transparent(Box::new(Transparent {
             ior: number(random, 1.0, 3.0).into(),
-            transmittance: share(random).into(),
+            transmittance: albedo(random),
         })),
         _ => Material::BlinnPhong(Box::new(BlinnPhong {
             albedo: albedo(random),
-            exponent: number(random, 0.0, 1e5).into(),
-            specular: random.unit().into(),
+            exponent: varying(random, 1e5),
+            specular: varying(random, 1.0),
             energy_conserving: random.below(2) == 0,
         })),
     }

@@ -43,6 +43,15 @@ fn part(random: &mut Random) -> Albedo {
     if random.below(8) == 0 { reckoned(random) } else { share(random).into() }
 }
 
+/// A number up to this, constant or by place.
+pub fn varying(random: &mut Random, high: f64) -> Number {
+    if random.below(4) > 0 {
+        return (high * random.unit()).into();
+    }
+    let [a, b] = [(); 2].map(|()| share(random).map(|channel| high * channel).into());
+    Number(Albedo::Gradient(Box::new(Gradient { a, b, axis: GradientAxis::X, mapping: solid_mapping(random) })))
+}
+
 fn solid_mapping(random: &mut Random) -> SolidMapping {
     let (scale, offset) = (PerAxis([(); 3].map(|()| number(random, -9.0, 9.0))), vector(random));
     match random.below(4) {

@@ -33,29 +33,29 @@ struct Loud<'d> {
     span: Span,
 }
 
-/// The largest channel that a colour or a texture may have anywhere.
-fn brightest<'t>(albedo: &Albedo, texture: &impl Fn(&desc::Texture) -> Option<&'t Texture>) -> f64 {
+/// The largest channel that a colour or a texture may have anywhere, or the largest number.
+fn brightest<'t>(albedo: &Albedo, number: bool, texture: &impl Fn(&desc::Texture, bool) -> Option<&'t Texture>) -> f64 {
     let most = |color: desc::Color| color.into_iter().fold(0.0, f64::max);
     match albedo.resolved() {
         Albedo::Color(color) => most(color.value),
-        Albedo::Texture(words) => texture(words).map_or(1.0, Texture::brightest),
+        Albedo::Texture(words) => texture(words, number).map_or(1.0, Texture::brightest),
         Albedo::ColorRamp(ramp) => ramp.stops.0.iter().map(|stop| most(stop.color.value)).fold(0.0, f64::max),
-        Albedo::Multiply(words) => brightest(&words.a, texture) * brightest(&words.b, texture),
+        Albedo::Multiply(words) => brightest(&words.a, number, texture) * brightest(&words.b, number, texture),
         // No vertex is brighter.
         Albedo::VertexColor(_) => 1.0,
         // Between the first two; what may follow says how much of either.
         pattern => {
             let parts = pattern.pattern().map_or_else(Vec::new, |pattern| pattern.parts());
-            parts.into_iter().take(2).map(|part| brightest(part, texture)).fold(0.0, f64::max)
+            parts.into_iter().take(2).map(|part| brightest(part, number, texture)).fold(0.0, f64::max)
         }
     }
 }
 
 /// Warns of the materials of the scene that reflect more than they get: once, with the loudest first. `texture`: a
-/// picture as it is read for colours.
+/// picture as it is read for colours, or for numbers.
 pub fn warn<'t>(
     desc: &SceneDesc,
-    texture: impl Fn(&desc::Texture) -> Option<&'t Texture>,
+    texture: impl Fn(&desc::Texture, bool) -> Option<&'t Texture>,
     diagnostics: &mut Diagnostics,
 ) {
     let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
@@ -67,13 +67,17 @@ pub fn warn<'t>(
     let mut loud: Vec<Loud<'_>> = Vec::new();
     for (name, material) in named.chain(inline) {
         let Material::BlinnPhong(words) = material else { continue };
+        let span = words.specular.span();
         let BlinnPhong { albedo, exponent, specular, energy_conserving: false } = &**words else { continue };
-        let (albedo, of_picture) = (brightest(albedo, &texture), !albedo.is_color());
-        let times = reflected_at_most(albedo, specular.value, exponent.value);
+        // A texture's most, of each: the more of any of them, the more is reflected.
+        let of_picture = [albedo, &exponent.0, &specular.0].into_iter().any(|value| !value.is_color());
+        let albedo = brightest(albedo, false, &texture);
+        let [exponent, specular] = [exponent, specular].map(|number| brightest(&number.0, true, &texture));
+        let times = reflected_at_most(albedo, specular.min(1.0), exponent.min(1e7));
         // Of the same material written many times one is told; what is above one by rounding only is not.
-        let key = [albedo, specular.value, exponent.value].map(f64::to_bits);
+        let key = [albedo, specular, exponent].map(f64::to_bits);
         if times > 1.0 + 1e-9 && (name.is_some() || known.insert(key)) {
-            loud.push(Loud { times, name, of_picture, span: specular.span });
+            loud.push(Loud { times, name, of_picture, span });
         }
     }
     loud.sort_by(|a, b| b.times.total_cmp(&a.times));

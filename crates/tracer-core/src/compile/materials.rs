@@ -16,46 +16,6 @@ use tracer_kernels::scene::{
     Albedo, Material, Pattern, PatternKey, Program, TextureFilter, TextureUse, TextureWrap, materials,
 };
 
-/// From the words to what is rendered, one line a material; `color` is what the words' own colour became.
-fn compiled(material: &desc::Material, color: Albedo) -> Material {
-    match material {
-        desc::Material::Diffuse(_) => Material::Diffuse(materials::Diffuse { albedo: color }),
-        desc::Material::Mirror(words) => Material::Mirror(mirror(words)),
-        desc::Material::Transparent(words) => Material::Transparent(transparent(words)),
-        desc::Material::BlinnPhong(words) => Material::BlinnPhong(blinn_phong(words, color)),
-        desc::Material::Conductor(words) => Material::Conductor(conductor(words, color)),
-        desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
-    }
-}
-
-fn mirror(words: &desc::Mirror) -> materials::Mirror {
-    materials::Mirror { reflectance: words.reflectance.value }
-}
-
-fn transparent(words: &desc::Transparent) -> materials::Transparent {
-    materials::Transparent { ior: words.ior.value, transmittance: words.transmittance.value }
-}
-
-fn blinn_phong(words: &desc::BlinnPhong, albedo: Albedo) -> materials::BlinnPhong {
-    let (exponent, specular) = (words.exponent.value, words.specular.value);
-    materials::BlinnPhong { albedo, exponent, specular, energy_conserving: words.energy_conserving }
-}
-
-fn conductor(words: &desc::Conductor, color: Albedo) -> materials::Conductor {
-    let fresnel = match &words.reflectance {
-        desc::Reflectance::Metal(metal) => {
-            let [ior, k] = metal.ior_and_k();
-            materials::Fresnel::Complex { ior, k }
-        }
-        desc::Reflectance::Complex { ior, k } => materials::Fresnel::Complex { ior: ior.value, k: k.value },
-        desc::Reflectance::Tinted { edge_tint, .. } => {
-            materials::Fresnel::Tinted { reflectance: color, edge_tint: edge_tint.value }
-        }
-    };
-    let alpha = words.roughness.value * words.roughness.value;
-    materials::Conductor { fresnel, alpha, multiple_scattering: words.multiple_scattering }
-}
-
 fn filter(word: desc::TextureFilter) -> TextureFilter {
     match word {
         desc::TextureFilter::Bilinear => TextureFilter::Bilinear,
@@ -234,20 +194,68 @@ impl<'a> MaterialBuilder<'a> {
         if let Some(emissive) = material.shines() {
             self.emissive.insert(self.materials.len() as u32, emissive.clone());
         }
-        let color = material.color().map(|albedo| self.albedo(albedo, base));
-        let compiled = compiled(material, color.unwrap_or(Albedo::Color([1.0; 3])));
+        let compiled = self.compiled(material, base);
         self.materials.push(compiled);
         self.materials.len() as u32 - 1
     }
 
-    fn albedo(&mut self, albedo: &desc::Albedo, base: Option<&Path>) -> Albedo {
+    /// From the words to what is rendered, one line a material.
+    fn compiled(&mut self, material: &desc::Material, base: Option<&Path>) -> Material {
+        match material {
+            desc::Material::Diffuse(words) => {
+                Material::Diffuse(materials::Diffuse { albedo: self.color(&words.albedo, base) })
+            }
+            desc::Material::Mirror(words) => {
+                Material::Mirror(materials::Mirror { reflectance: self.color(&words.reflectance, base) })
+            }
+            desc::Material::Transparent(words) => Material::Transparent(materials::Transparent {
+                ior: words.ior.value,
+                transmittance: self.color(&words.transmittance, base),
+            }),
+            desc::Material::BlinnPhong(words) => Material::BlinnPhong(materials::BlinnPhong {
+                albedo: self.color(&words.albedo, base),
+                exponent: self.number(&words.exponent, base),
+                specular: self.number(&words.specular, base),
+                energy_conserving: words.energy_conserving,
+            }),
+            desc::Material::Conductor(words) => Material::Conductor(self.conductor(words, base)),
+            desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
+        }
+    }
+
+    fn conductor(&mut self, words: &desc::Conductor, base: Option<&Path>) -> materials::Conductor {
+        let fresnel = match &words.reflectance {
+            desc::Reflectance::Metal(metal) => {
+                let [ior, k] = metal.ior_and_k();
+                materials::Fresnel::Complex { ior, k }
+            }
+            desc::Reflectance::Complex { ior, k } => materials::Fresnel::Complex { ior: ior.value, k: k.value },
+            desc::Reflectance::Tinted { reflectance, edge_tint } => materials::Fresnel::Tinted {
+                reflectance: self.color(reflectance, base),
+                edge_tint: self.color(edge_tint, base),
+            },
+        };
+        let roughness = self.number(&words.roughness, base);
+        materials::Conductor { fresnel, roughness, multiple_scattering: words.multiple_scattering }
+    }
+
+    fn color(&mut self, words: &desc::Albedo, base: Option<&Path>) -> Albedo {
+        self.albedo(words, false, base)
+    }
+
+    fn number(&mut self, words: &desc::Number, base: Option<&Path>) -> Albedo {
+        self.albedo(&words.0, true, base)
+    }
+
+    /// A colour, or a number where one is wanted.
+    fn albedo(&mut self, albedo: &desc::Albedo, number: bool, base: Option<&Path>) -> Albedo {
         let by_uv = |mapping: &SolidMapping| if let SolidMapping::Uv(uv) = mapping { Some(uv.rows()) } else { None };
         let albedo = albedo.resolved();
         let constants = constants(albedo);
         match albedo {
             desc::Albedo::Color(c) => return Albedo::Color(c.value),
             desc::Albedo::Texture(t) if let Some(uv) = t.mapping.by_uv() => {
-                return Albedo::Texture(self.picture(t, false, uv.rows(), base));
+                return Albedo::Texture(self.picture(t, number, uv.rows(), base));
             }
             desc::Albedo::Checkerboard(t) if let (Some(rows), Some(colors)) = (by_uv(&t.mapping), constants) => {
                 // The squares are the texels of a picture that is laid over two of them.
@@ -260,7 +268,7 @@ impl<'a> MaterialBuilder<'a> {
         if let (Some(colors), Some(Lying::Once(lies))) = (constants, mapping.as_ref().map(lying)) {
             return self.pattern(albedo, &lies, colors).map_or(Albedo::Color([1.0; 3]), Albedo::Pattern);
         }
-        self.program(albedo, base)
+        self.program(albedo, number, base)
     }
 
     /// A picture and how it is looked up.
@@ -366,8 +374,8 @@ impl<'a> MaterialBuilder<'a> {
             }
         }
         if images.len() == self.images.len() {
-            let texture = |words: &desc::Texture| {
-                let key = (self.desc.base_dir.join(&words.file.value), reading(words, false));
+            let texture = |words: &desc::Texture, number: bool| {
+                let key = (self.desc.base_dir.join(&words.file.value), reading(words, number));
                 self.index_of_file.get(&key).and_then(|&index| images.get(index)).map(|image: &Arc<Texture>| &**image)
             };
             super::energy::warn(self.desc, texture, diagnostics);

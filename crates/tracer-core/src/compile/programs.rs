@@ -59,8 +59,8 @@ fn need(of: Operand<'_>) -> usize {
 
 impl MaterialBuilder<'_> {
     /// A texture made of others.
-    pub(super) fn program(&mut self, words: &desc::Albedo, base: Option<&Path>) -> Albedo {
-        let whole = Operand::Of(words, false);
+    pub(super) fn program(&mut self, words: &desc::Albedo, number: bool, base: Option<&Path>) -> Albedo {
+        let whole = Operand::Of(words, number);
         if need(whole) > PLACES {
             let message = "a texture is made of too many others";
             self.faults.push(Diagnostic::error(codes::TOO_MUCH, Span::NONE, message).expected("at most 1024"));

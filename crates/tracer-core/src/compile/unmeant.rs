@@ -202,7 +202,7 @@ fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d Mate
 
 /// Whether a material has another colour at another place of a surface's texture coordinates.
 fn wants_uv(material: &Material) -> bool {
-    material.color().is_some_and(Albedo::wants_uv)
+    material.varying().into_iter().any(Albedo::wants_uv)
 }
 
 /// Whether a closed mesh has its inside outside: a negative volume.

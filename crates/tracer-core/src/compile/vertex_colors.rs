@@ -4,7 +4,7 @@ use super::loading::Loaded;
 use super::meshes::Built;
 use super::polygonal::{Geometry, polygonal};
 use rayon::prelude::*;
-use scene_format::desc::{Albedo, MaterialRef, Object, with_operands};
+use scene_format::desc::{MaterialRef, Object, with_operands};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,8 +21,7 @@ pub struct Readers<'d> {
 impl<'d> Readers<'d> {
     /// Of a scene.
     pub fn of(desc: &'d SceneDesc) -> Self {
-        let reads =
-            desc.materials.iter().filter(|named| named.material.color().is_some_and(Albedo::reads_vertex_colors));
+        let reads = desc.materials.iter().filter(|named| named.material.reads_vertex_colors());
         Readers { named: reads.map(|named| &*named.name.value).collect() }
     }
 
@@ -31,9 +30,7 @@ impl<'d> Readers<'d> {
         match material {
             MaterialRef::Default => None,
             MaterialRef::Named { name, span } => self.named.contains(&**name).then_some(*span),
-            MaterialRef::Inline(inline) => {
-                inline.value.color().is_some_and(Albedo::reads_vertex_colors).then_some(inline.span)
-            }
+            MaterialRef::Inline(inline) => inline.value.reads_vertex_colors().then_some(inline.span),
         }
     }
 }

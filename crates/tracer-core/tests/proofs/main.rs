@@ -46,4 +46,5 @@ mod solids;
 mod support;
 mod surfaces;
 mod textures;
+mod varying;
 mod vertex_color;

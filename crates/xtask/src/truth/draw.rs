@@ -1,14 +1,14 @@
 //! What is drawn at random for scenes of every kind: colours, materials, textures, lamps, lenses, filters.
 
 use super::meshes::{Point, Shape};
-use super::textures::albedo;
-use super::world::{World, diffuse, glossy, inline, tinted};
+use super::textures::{albedo, number};
+use super::world::{World, diffuse, inline};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Background, Color, Conductor, Diffuse, Emission, Emissive, Environment, Extent, Instances, Light, LightGroup,
-    Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements, Reflectance, ToneMap,
-    Transform,
+    Background, BlinnPhong, Color, Conductor, Diffuse, Emission, Emissive, Environment, Extent, Instances, Light,
+    LightGroup, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements,
+    Reflectance, ToneMap, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
@@ -93,8 +93,9 @@ pub fn background(world: &mut World, random: &mut Random) -> Background {
 pub fn shiny(world: &mut World, low: f64, high: f64, random: &mut Random) -> Material {
     let conserving = !once_in(random, 3);
     // The report's lobe reflects up to four times its share.
-    let share = random.between(0.05, if conserving { 1.0 } else { 0.25 });
-    glossy(albedo(world, random), magnitude(random, low, high), share, conserving)
+    let share = number(world, 0.05, if conserving { 1.0 } else { 0.25 }, random);
+    let (albedo, exponent) = (albedo(world, random), number(world, low, high, random));
+    Material::BlinnPhong(Box::new(BlinnPhong { albedo, exponent, specular: share, energy_conserving: conserving }))
 }
 
 /// Lambert, or dull enough to count as such.
@@ -129,10 +130,10 @@ pub fn metal(world: &mut World, low: f64, high: f64, random: &mut Random) -> Mat
         },
         _ => Reflectance::Tinted {
             reflectance: albedo(world, random),
-            edge_tint: if once_in(random, 2) { [1.0; 3] } else { color(random) }.into(),
+            edge_tint: if once_in(random, 2) { [1.0; 3].into() } else { albedo(world, random) },
         },
     };
-    let roughness = random.between(low, high).into();
+    let roughness = number(world, low, high, random);
     Material::Conductor(Box::new(Conductor { reflectance, roughness, multiple_scattering: !once_in(random, 4) }))
 }
 
@@ -141,17 +142,22 @@ pub fn caster(world: &mut World, random: &mut Random) -> Material {
     match random.below(7) {
         5 => metal(world, 0.05, 0.44, random),
         6 => metal(world, 0.0, 0.0, random),
-        0 => Material::Mirror(Mirror { reflectance: color(random).map(|c| (c + 0.1).min(1.0)).into() }),
+        0 => Material::Mirror(Mirror { reflectance: albedo(world, random) }),
         1 => Material::Mirror(Mirror { reflectance: [1.0; 3].into() }),
         2 => shiny(world, 50.0, 5000.0, random),
-        _ => clear(random),
+        _ => clear(world, random),
     }
 }
 
 /// Glass of any index, clear or coloured.
-pub fn clear(random: &mut Random) -> Material {
-    let ior = one_of(random, &[1.0, 1.05, 1.33, 1.5, 1.5, 2.4]);
-    tinted(ior, if once_in(random, 3) { [0; 3].map(|_| random.between(0.5, 1.0)) } else { [1.0; 3] })
+pub fn clear(world: &mut World, random: &mut Random) -> Material {
+    let ior: f64 = one_of(random, &[1.0, 1.05, 1.33, 1.5, 1.5, 2.4]);
+    let transmittance = match random.below(9) {
+        0 => albedo(world, random),
+        1 | 2 => [0; 3].map(|_| random.between(0.5, 1.0)).into(),
+        _ => [1.0; 3].into(),
+    };
+    Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance }))
 }
 
 /// Adds a thing of a material: a sphere, or a mesh placed by every kind of step.

@@ -89,9 +89,12 @@ impl Compiled {
         };
         let narrow = |object: &Object| match super::draw::material_of(world, object) {
             Some(Material::Diffuse(_) | Material::Emissive(_)) | None => false,
-            Some(Material::BlinnPhong(words)) => words.exponent.value > NARROW,
+            Some(Material::BlinnPhong(words)) => words.exponent.constant().is_none_or(|exponent| exponent > NARROW),
             // As a lobe of that exponent: alpha^2 = 2 / (exponent + 2).
-            Some(Material::Conductor(words)) => words.roughness.value.powi(4) * (NARROW + 2.0) < 2.0,
+            Some(Material::Conductor(words)) => {
+                let wide = |roughness: f64| roughness.powi(4) * (NARROW + 2.0) >= 2.0;
+                !words.roughness.constant().is_some_and(wide)
+            }
             Some(Material::Mirror(_) | Material::Transparent(_)) => true,
         };
         let objects = || world.desc.objects.iter().map(|object| &object.value);

@@ -140,10 +140,16 @@ fn casters(world: &mut World, random: &mut Random) {
 }
 
 /// Puts a bulb about a lamp, or one in another.
-fn bulb(world: &mut World, center: Point, lamp: f64, material: impl Fn(&mut Random) -> Material, random: &mut Random) {
+fn bulb(
+    world: &mut World,
+    center: Point,
+    lamp: f64,
+    material: impl Fn(&mut World, &mut Random) -> Material,
+    random: &mut Random,
+) {
     let mut radius = lamp * random.between(1.05, 4.0);
     for _ in 0..1 + random.below(2) {
-        let material = material(random);
+        let material = material(world, random);
         if once_in(random, 3) {
             // The inscribed ball of this mesh has four fifths of its radius: the lamp stays inside.
             let shape = Shape { normals: Vec::new(), ..Shape::ball(1) }.placed(radius / 0.8, center);
@@ -179,15 +185,17 @@ fn panes(world: &mut World, random: &mut Random) {
     match random.below(3) {
         0 => {
             let z = d * random.between(0.4, 0.7);
-            world.mesh("pane", &Shape::block([-w, 0.0, z], [w, h, z + 0.03]), draw::clear(random));
+            let glass = draw::clear(world, random);
+            world.mesh("pane", &Shape::block([-w, 0.0, z], [w, h, z + 0.03]), glass);
         }
         1 => {
             let x = w * random.between(-0.4, 0.4);
-            world.mesh("pane", &Shape::block([x, 0.0, -d], [x + 0.05, h, 0.9 * d]), draw::clear(random));
+            let glass = draw::clear(world, random);
+            world.mesh("pane", &Shape::block([x, 0.0, -d], [x + 0.05, h, 0.9 * d]), glass);
         }
         _ => {
             // A vitrine: glass around air cannot be said with an index below one, so five panes.
-            let material = draw::clear(random);
+            let material = draw::clear(world, random);
             let (a, y, t) = (random.between(1.0, 1.4), random.between(1.0, 1.5), 0.03);
             for (low, high) in [
                 ([-a, 0.0, -a], [-a + t, y, a]),
@@ -239,7 +247,7 @@ fn two_rooms(world: &mut World, hole: impl Fn(Room, &mut Random) -> Option<[[f64
     let place = room.place(0.4, 0.8, random);
     let lamp = draw::lamp(world, place, 0.25, random);
     if once_in(random, 4) {
-        bulb(world, place, lamp, |_| glass(1.5), random);
+        bulb(world, place, lamp, |_, _| glass(1.5), random);
     }
     if once_in(random, 3) && hole.is_some() {
         // A dim lamp in the dim room.
@@ -416,7 +424,7 @@ fn shells(world: &mut World, random: &mut Random) {
         let y = at[1] - 1.2 * lamp;
         world.mesh("pane", &Shape::block([-3.5, y - 0.05, -3.5], [3.5, y, 3.5]), glass(1.0));
     } else {
-        bulb(world, at, lamp, |_| glass(1.0), random);
+        bulb(world, at, lamp, |_, _| glass(1.0), random);
     }
 }
 
@@ -478,8 +486,8 @@ fn without_what_has_no_image(world: &mut World) {
         .iter()
         .map(|object| {
             let sphere = matches!(object.value, Object::Sphere(_));
-            let plain = |material: &Material| material.color().is_none_or(Albedo::is_color);
-            let in_world = |material: &Material| material.color().is_some_and(lies_in_the_world);
+            let plain = |material: &Material| material.varying().into_iter().all(Albedo::is_color);
+            let in_world = |material: &Material| material.varying().into_iter().any(lies_in_the_world);
             let material = draw::material_of(world, &object.value);
             sphere && !material.is_none_or(plain) || material.is_some_and(in_world)
         })

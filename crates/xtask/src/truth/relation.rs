@@ -50,7 +50,7 @@ impl Relation {
 fn without_shells(world: &World) -> World {
     let shell = |object: &Object| {
         matches!(material_of(world, object), Some(Material::Transparent(glass))
-            if glass.ior.value == 1.0 && glass.transmittance.value == [1.0; 3])
+            if glass.ior.value == 1.0 && glass.transmittance == [1.0; 3].into())
     };
     let mut other = world.clone();
     other.desc.objects.retain(|object| !shell(&object.value));

@@ -4,7 +4,7 @@ use super::draw::{material_of, set_material};
 use super::examine::{Finding, still};
 use super::kinds::Case;
 use super::world::{World, matt};
-use scene_format::desc::{Background, Effects, Instances, MaterialRef, Mesh, Object, Placements};
+use scene_format::desc::{Background, Effects, Instances, Material, MaterialRef, Mesh, Object, Placements};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -99,7 +99,7 @@ fn drop_unused_materials(world: &mut World) {
 fn plainer(world: &World, other: &mut World, k: usize) {
     let Some(object) = other.desc.objects.get_mut(k) else { return };
     let material = material_of(world, &object.value);
-    if material.is_some_and(|material| material.color().is_some()) {
+    if material.is_some_and(|material| matches!(material, Material::Diffuse(_) | Material::BlinnPhong(_))) {
         set_material(&mut object.value, matt(0.5));
     }
     if let Object::Mesh(Mesh { instances, placements: Placements::One, .. }) = &mut object.value {

@@ -6,9 +6,9 @@ use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
     Albedo, Checkerboard, Color, ColorRamp, Dots, Gradient, GradientAxis, Lines, LinesAlong, Mapping, Marble, Material,
-    MaterialRef, Mix, Multiply, NamedTexture, Noise, NoiseKind, PerAxis, Planar, RampInterpolation, Reflectance,
-    SolidMapping, Spherical, Stop, Stops, Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap,
-    Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
+    MaterialRef, Mix, Multiply, NamedTexture, Noise, NoiseKind, Number, PerAxis, Planar, RampInterpolation,
+    Reflectance, SolidMapping, Spherical, Stop, Stops, Texture, TextureChannel, TextureColorSpace, TextureFilter,
+    TextureWrap, Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
 use std::sync::Arc;
 use tracer_reference::Random;
@@ -185,11 +185,26 @@ pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
     }
 }
 
+/// A number between these, seldom by place.
+pub fn number(world: &mut World, low: f64, high: f64, random: &mut Random) -> Number {
+    let between =
+        |random: &mut Random| if low > 0.0 { magnitude(random, low, high) } else { random.between(low, high) };
+    let a = between(random);
+    if !once_in(random, 6) {
+        return a.into();
+    }
+    let [a, b] = [a, between(random)].map(|number| Albedo::from([number; 3]));
+    let weight = if once_in(random, 2) { texture(world, random) } else { pattern(world, random, 1) };
+    Number(Albedo::Mix(Box::new(Mix { a, b, weight })))
+}
+
 /// The colour of a material, to be written anew.
 fn color_of(material: &mut Material) -> Option<&mut Albedo> {
     match material {
         Material::Diffuse(words) => Some(&mut words.albedo),
         Material::BlinnPhong(words) => Some(&mut words.albedo),
+        Material::Mirror(words) => Some(&mut words.reflectance),
+        Material::Transparent(words) => Some(&mut words.transmittance),
         Material::Conductor(words) => match &mut words.reflectance {
             Reflectance::Tinted { reflectance, .. } => Some(reflectance),
             Reflectance::Metal(_) | Reflectance::Complex { .. } => None,

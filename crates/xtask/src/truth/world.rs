@@ -3,9 +3,8 @@
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material,
-    MaterialRef, Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform,
-    Transparent,
+    Albedo, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material, MaterialRef,
+    Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
@@ -198,10 +197,4 @@ pub fn glass(ior: f64) -> Material {
 /// Coloured glass.
 pub fn tinted(ior: f64, transmittance: Color) -> Material {
     Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance: transmittance.into() }))
-}
-
-/// Blinn-Phong.
-pub fn glossy(albedo: Albedo, exponent: f64, specular: f64, energy_conserving: bool) -> Material {
-    let [exponent, specular] = [exponent, specular].map(f64::into);
-    Material::BlinnPhong(Box::new(BlinnPhong { albedo, exponent, specular, energy_conserving }))
 }

@@ -7,10 +7,10 @@ use super::{Albedo, BxdfFlags, LEAST_EXPONENT, Lobe, MaterialKind, Row, Traits};
 pub struct BlinnPhong {
     /// Colour of both lobes.
     pub albedo: Albedo,
-    /// alpha.
-    pub exponent: f64,
-    /// s.
-    pub specular: f64,
+    /// alpha, 0 to 10^7.
+    pub exponent: Albedo,
+    /// s, 0 to 1.
+    pub specular: Albedo,
     /// The glossy lobe is s (alpha + 1)/(8 pi (wo.h) max(cos i, cos o)) cos^alpha theta_h.
     pub energy_conserving: bool,
 }
@@ -18,14 +18,16 @@ pub struct BlinnPhong {
 impl MaterialKind for BlinnPhong {
     fn row(&self) -> Row {
         let lobe = if self.energy_conserving { Lobe::BlinnPhongConserving } else { Lobe::BlinnPhong };
-        Row { lobe, color: self.albedo, parameters: [self.exponent, self.specular] }
+        Row { parameters: [self.exponent, self.specular], ..Row::new(lobe, self.albedo) }
     }
 
     fn traits(&self) -> Traits {
         let flags = BxdfFlags::REFLECTION.or(BxdfFlags::DIFFUSE).or(BxdfFlags::GLOSSY);
         // At normal incidence.
-        let lobe = if self.energy_conserving { self.specular } else { 4.0 * self.specular };
-        let narrow = self.exponent as f32 >= LEAST_EXPONENT;
+        let specular = self.specular.largest();
+        let lobe = if self.energy_conserving { specular } else { 4.0 * specular };
+        // A texture may be narrow somewhere.
+        let narrow = self.exponent.constant().is_none_or(|[exponent, ..]| exponent as f32 >= LEAST_EXPONENT);
         Traits { flags, color: self.albedo, casts: if narrow { self.albedo.largest() * lobe } else { 0.0 } }
     }
 }

@@ -11,7 +11,7 @@ pub struct Diffuse {
 
 impl MaterialKind for Diffuse {
     fn row(&self) -> Row {
-        Row { lobe: Lobe::Lambert, color: self.albedo, parameters: [0.0; 2] }
+        Row::new(Lobe::Lambert, self.albedo)
     }
 
     fn traits(&self) -> Traits {

@@ -8,7 +8,7 @@ pub struct Emissive;
 
 impl MaterialKind for Emissive {
     fn row(&self) -> Row {
-        Row { lobe: Lobe::Emitter, color: Albedo::Color([0.0; 3]), parameters: [0.0; 2] }
+        Row::new(Lobe::Emitter, Albedo::Color([0.0; 3]))
     }
 
     fn traits(&self) -> Traits {

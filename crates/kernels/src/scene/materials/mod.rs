@@ -31,7 +31,8 @@ pub const NARROWEST_ALPHA: f32 = 0.196;
 /// Below this alpha a rough lobe is a specular one.
 pub const LEAST_ALPHA: f64 = 1e-4;
 
-/// A colour, constant or from a texture.
+/// A colour or a number, constant or from a texture. Of a number every channel is the number; of a texture that stands
+/// for one the luminance counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Albedo {
     /// Linear RGB.
@@ -45,7 +46,20 @@ pub enum Albedo {
 }
 
 impl Albedo {
-    /// The largest channel that it may have.
+    /// A number.
+    pub const fn number(number: f64) -> Self {
+        Albedo::Color([number; 3])
+    }
+
+    /// Linear RGB, where it is the same everywhere.
+    pub const fn constant(&self) -> Option<[f64; 3]> {
+        match self {
+            Albedo::Color(color) => Some(*color),
+            Albedo::Texture(_) | Albedo::Pattern(_) | Albedo::Program(_) => None,
+        }
+    }
+
+    /// The largest channel that it may have, of those from 0 to 1.
     fn largest(&self) -> f64 {
         match self {
             Albedo::Color(color) => color.iter().fold(0.0, |a, &b| a.max(b)),
@@ -124,8 +138,18 @@ pub struct Row {
     pub lobe: Lobe,
     /// Their colour.
     pub color: Albedo,
-    /// What the lobe says.
-    pub parameters: [f64; 2],
+    /// What the lobe says: numbers. Of metals the first is alpha, or the texture of the roughness, and the second their
+    /// place in the table.
+    pub parameters: [Albedo; 2],
+    /// A colour beside the first: the tint of metals.
+    pub second: Albedo,
+}
+
+impl Row {
+    /// A lobe with nothing but a colour.
+    fn new(lobe: Lobe, color: Albedo) -> Self {
+        Row { lobe, color, parameters: [Albedo::number(0.0); 2], second: Albedo::number(1.0) }
+    }
 }
 
 /// What a compiled material has to tell.
@@ -186,6 +210,9 @@ pub struct MaterialTable {
     pub conductors: Option<ConductorTable>,
     /// Which lobes occur, one bit each: a stage skips what no material asks for.
     lobes: u32,
+    /// Of each material the numbers of the textures, as in `rows`, that its parameters and its second colour come from;
+    /// `None` where all of these are constants.
+    pub varying: Option<Table<3>>,
     /// Whether any material has a texture or a pattern.
     pub textured: bool,
     /// How many textures there are: numbers from here on are patterns'.
@@ -201,30 +228,33 @@ impl MaterialTable {
         let mut rows: Vec<Row> = materials.iter().map(|material| material.kind().row()).collect();
         let conductors =
             || materials.iter().enumerate().filter_map(|(k, material)| Some((k, material.kind().conductor()?)));
-        for (place, (k, _)) in conductors().enumerate() {
-            rows[k].parameters[1] = place as f64;
+        let mut place = 0;
+        for (k, conductor) in conductors() {
+            rows[k].parameters[1] = Albedo::number(f64::from(place));
+            place += conductor.rows() as u32;
         }
         let emitter = rows.len() as u32;
         rows.push(Emissive.row());
-        let texture = |row: &Row| match row.color {
+        let texture = |value: &Albedo| match *value {
             Albedo::Color(_) => 0,
             Albedo::Texture(t) => t + 1,
             Albedo::Pattern(p) => first_pattern + p + 1,
             Albedo::Program(p) => first_program + p + 1,
         };
+        let number = |value: Albedo| value.constant().unwrap_or([0.0; 3])[0] as f32;
+        let others = |row: &Row| [row.parameters[0], row.parameters[1], row.second];
+        let varies = rows.iter().flat_map(others).any(|value| texture(&value) != 0);
         MaterialTable {
             rows: Table::new(rows.iter().map(|row| {
-                let color = match row.color {
-                    Albedo::Color(color) => color,
-                    Albedo::Texture(_) | Albedo::Pattern(_) | Albedo::Program(_) => [1.0; 3],
-                };
-                let [r, g, b] = color.map(|x| x as f32);
-                [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(row))]
+                let [r, g, b] = row.color.constant().unwrap_or([1.0; 3]).map(|x| x as f32);
+                [r, g, b, f32::from_bits(row.lobe as u32), f32::from_bits(texture(&row.color))]
             })),
-            parameters: Table::new(rows.iter().map(|row| row.parameters.map(|x| x as f32))),
+            parameters: Table::new(rows.iter().map(|row| row.parameters.map(number))),
+            varying: varies
+                .then(|| Table::new(rows.iter().map(|row| others(row).map(|of| f32::from_bits(texture(&of)))))),
             conductors: ConductorTable::new(conductors().map(|(_, conductor)| conductor)),
             lobes: rows.iter().fold(0, |bits, row| bits | 1 << row.lobe as u32),
-            textured: rows.iter().any(|row| texture(row) != 0),
+            textured: varies || rows.iter().any(|row| texture(&row.color) != 0),
             first_pattern,
             emitter,
         }

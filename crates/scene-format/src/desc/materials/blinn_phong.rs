@@ -1,8 +1,7 @@
 //! Matt surfaces with a gloss.
 
 use super::MaterialWords;
-use crate::desc::Albedo;
-use crate::diagnostic::Spanned;
+use crate::desc::{Albedo, Number};
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
@@ -11,10 +10,11 @@ scene_struct! {
     pub struct BlinnPhong as "BlinnPhong", "a Blinn-Phong material" {
         /// Colour of both lobes.
         albedo: Albedo = Albedo::default() => Rule::share();
-        /// alpha: 1 is dull, 100000 nearly a mirror.
-        exponent: Spanned<f64> => Rule::within("a number", 0.0, 10_000_000.0);
+        /// alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1 only: `Multiply(a: Texture(..), b: 1000)`
+        /// or a `Mix` between two numbers by it.
+        exponent: Number => Rule::per_channel("a number", 0.0, 10_000_000.0);
         /// s: share of the glossy lobe, 0 to 1.
-        specular: Spanned<f64> => Rule::within("a share", 0.0, 1.0);
+        specular: Number => Rule::within("a share", 0.0, 1.0);
         /// The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
         energy_conserving: bool = false;
     }
@@ -26,7 +26,7 @@ impl Told for BlinnPhong {
 }
 
 impl MaterialWords for BlinnPhong {
-    fn color(&self) -> Option<&Albedo> {
-        Some(&self.albedo)
+    fn varying(&self) -> Vec<&Albedo> {
+        vec![&self.albedo, &self.exponent.0, &self.specular.0]
     }
 }

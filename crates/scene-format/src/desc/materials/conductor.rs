@@ -2,8 +2,8 @@
 
 use super::MaterialWords;
 use crate::codes;
-use crate::desc::{Albedo, Color};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::desc::{Albedo, Color, Number};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
@@ -76,7 +76,7 @@ pub enum Reflectance {
         /// At normal incidence.
         reflectance: Albedo,
         /// What Schlick's reflectance at about 82 degrees is multiplied by.
-        edge_tint: Spanned<Color>,
+        edge_tint: Albedo,
     },
 }
 
@@ -86,7 +86,7 @@ pub struct Conductor {
     /// How much it reflects.
     pub reflectance: Reflectance,
     /// r: alpha = r^2.
-    pub roughness: Spanned<f64>,
+    pub roughness: Number,
     /// Whether light that is reflected several times among its bumps counts.
     pub multiple_scattering: bool,
 }
@@ -105,9 +105,9 @@ scene_struct! {
         reflectance: Option<Albedo> = None => Rule::share();
         /// What the reflected share at about 82 degrees is multiplied by, per channel; with `reflectance` only.
         /// None: 1.
-        edge_tint: Option<Spanned<Color>> = None => Rule::share();
+        edge_tint: Option<Albedo> = None => Rule::share();
         /// r: 0 is a mirror, 1 dull. The width of the lobe is alpha = r^2.
-        roughness: Spanned<f64> = 0.0 => Rule::within("a roughness", 0.0, 1.0);
+        roughness: Number = 0.0 => Rule::within("a roughness", 0.0, 1.0);
         /// Whether light that is reflected several times among the bumps counts (Kulla and Conty 2017): without it
         /// rough metals are too dark.
         multiple_scattering: bool = true;
@@ -125,11 +125,13 @@ impl Words for Conductor {
             return None;
         }
         if let Some(k) = words.k.as_ref().filter(|_| words.ior.is_none()) {
-            reader.report(only_with(k, "k", "ior"));
+            reader.report(only_with(k.span, "k", "ior"));
             return None;
         }
-        if let Some(tint) = words.edge_tint.as_ref().filter(|_| words.reflectance.is_none()) {
-            reader.report(only_with(tint, "edge_tint", "reflectance"));
+        if words.edge_tint.is_some() && words.reflectance.is_none() {
+            let tint = item.fields().find(|(key, _)| key.text() == "edge_tint");
+            let span = tint.map_or(item.span(), |(_, tint)| tint.span());
+            reader.report(only_with(span, "edge_tint", "reflectance"));
             return None;
         }
         let reflectance = match (words.metal, words.ior, words.k, words.reflectance) {
@@ -148,7 +150,7 @@ impl Words for Conductor {
                 return None;
             }
             (_, _, _, Some(reflectance)) => {
-                let edge_tint = words.edge_tint.unwrap_or_else(|| Spanned::from([1.0; 3]));
+                let edge_tint = words.edge_tint.unwrap_or_else(|| [1.0; 3].into());
                 Reflectance::Tinted { reflectance, edge_tint }
             }
             _ => return None,
@@ -171,7 +173,7 @@ impl Words for Conductor {
             Reflectance::Complex { ior, k } => (words.ior, words.k) = (Some(ior.clone()), Some(k.clone())),
             Reflectance::Tinted { reflectance, edge_tint } => {
                 words.reflectance = Some(reflectance.clone());
-                words.edge_tint = (all || edge_tint.value != [1.0; 3]).then(|| edge_tint.clone());
+                words.edge_tint = (all || *edge_tint != [1.0; 3].into()).then(|| edge_tint.clone());
             }
         }
         let mut form = words.form(all);
@@ -183,8 +185,8 @@ impl Words for Conductor {
     }
 }
 
-fn only_with(value: &Spanned<Color>, field: &str, other: &str) -> Diagnostic {
-    Diagnostic::error(codes::UNKNOWN_FIELD, value.span, format!("a conductor without `{other}` has no `{field}`"))
+fn only_with(span: Span, field: &str, other: &str) -> Diagnostic {
+    Diagnostic::error(codes::UNKNOWN_FIELD, span, format!("a conductor without `{other}` has no `{field}`"))
         .expected(format!("`{field}` beside `{other}` only"))
         .hint(format!("remove `{field}`, or say what it reflects by `{other}`"))
 }
@@ -196,10 +198,10 @@ impl Told for Conductor {
 }
 
 impl MaterialWords for Conductor {
-    fn color(&self) -> Option<&Albedo> {
+    fn varying(&self) -> Vec<&Albedo> {
         match &self.reflectance {
-            Reflectance::Tinted { reflectance, .. } => Some(reflectance),
-            Reflectance::Metal(_) | Reflectance::Complex { .. } => None,
+            Reflectance::Tinted { reflectance, edge_tint } => vec![reflectance, edge_tint, &self.roughness.0],
+            Reflectance::Metal(_) | Reflectance::Complex { .. } => vec![&self.roughness.0],
         }
     }
 }

@@ -19,7 +19,7 @@ impl Told for Diffuse {
 }
 
 impl MaterialWords for Diffuse {
-    fn color(&self) -> Option<&Albedo> {
-        Some(&self.albedo)
+    fn varying(&self) -> Vec<&Albedo> {
+        vec![&self.albedo]
     }
 }

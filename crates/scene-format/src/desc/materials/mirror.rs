@@ -1,8 +1,7 @@
 //! Perfect mirrors.
 
 use super::MaterialWords;
-use crate::desc::Color;
-use crate::diagnostic::Spanned;
+use crate::desc::Albedo;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
@@ -10,7 +9,7 @@ scene_struct! {
     /// A perfect mirror.
     pub struct Mirror as "Mirror", "a mirror" {
         /// Reflected share per channel.
-        reflectance: Spanned<Color> = [1.0; 3] => Rule::share();
+        reflectance: Albedo = [1.0; 3] => Rule::share();
     }
 }
 
@@ -19,4 +18,8 @@ impl Told for Mirror {
     const EXAMPLE: &'static str = "Mirror(reflectance: 0.9)";
 }
 
-impl MaterialWords for Mirror {}
+impl MaterialWords for Mirror {
+    fn varying(&self) -> Vec<&Albedo> {
+        vec![&self.reflectance]
+    }
+}

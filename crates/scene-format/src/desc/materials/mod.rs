@@ -36,9 +36,9 @@ pub struct NamedMaterial {
 
 /// What is asked of a material's words.
 pub(crate) trait MaterialWords {
-    /// The colour of it that may differ from place to place.
-    fn color(&self) -> Option<&Albedo> {
-        None
+    /// What of it may differ from place to place.
+    fn varying(&self) -> Vec<&Albedo> {
+        Vec::new()
     }
 
     /// Whether light passes its surfaces: there may be something to be seen inside.
@@ -66,14 +66,19 @@ scene_kinds! {
 }
 
 impl Material {
-    /// The colour of it that may differ from place to place.
-    pub fn color(&self) -> Option<&Albedo> {
-        self.words().color()
+    /// What of it may differ from place to place.
+    pub fn varying(&self) -> Vec<&Albedo> {
+        self.words().varying()
     }
 
-    /// The pictures that it takes its colour from.
+    /// Whether any of it is the colours of vertices.
+    pub fn reads_vertex_colors(&self) -> bool {
+        self.varying().into_iter().any(Albedo::reads_vertex_colors)
+    }
+
+    /// The pictures that it is read from.
     pub fn textures(&self) -> Vec<&Texture> {
-        self.color().map_or_else(Vec::new, Albedo::images)
+        self.varying().into_iter().flat_map(Albedo::images).collect()
     }
 
     /// Whether light passes its surfaces.

@@ -1,7 +1,7 @@
 //! Glass, water, air bubbles.
 
 use super::MaterialWords;
-use crate::desc::Color;
+use crate::desc::Albedo;
 use crate::diagnostic::Spanned;
 use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
@@ -13,7 +13,7 @@ scene_struct! {
         /// bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
         ior: Spanned<f64> => Rule::within("an index of refraction", 0.01, 100.0);
         /// Share of refracted light that passes each surface, per channel.
-        transmittance: Spanned<Color> = [1.0; 3] => Rule::share();
+        transmittance: Albedo = [1.0; 3] => Rule::share();
     }
 }
 
@@ -23,6 +23,10 @@ impl Told for Transparent {
 }
 
 impl MaterialWords for Transparent {
+    fn varying(&self) -> Vec<&Albedo> {
+        vec![&self.transmittance]
+    }
+
     fn transmits(&self) -> bool {
         true
     }

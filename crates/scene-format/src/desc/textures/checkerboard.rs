@@ -9,9 +9,9 @@ scene_struct! {
     /// even. In space they are cubes.
     pub struct Checkerboard as "Checkerboard", "a checkerboard" {
         /// One colour.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The other one.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// How the squares lie: `Uv(scale: 8)` puts eight along each side of a rectangle, `Object(scale: 2)` two along
         /// a unit of length.
         mapping: SolidMapping = SolidMapping::Uv(Uv::default());

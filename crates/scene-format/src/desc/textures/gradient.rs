@@ -8,9 +8,9 @@ scene_struct! {
     /// From `a` where the mapped coordinate is 0 to `b` where it is 1, linear between, and constant beyond.
     pub struct Gradient as "Gradient", "a gradient" {
         /// The colour at 0.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour at 1.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// What runs from 0 to 1.
         axis: GradientAxis = GradientAxis::Y;
         /// How it lies.

@@ -67,8 +67,8 @@ scene_words! {
 scene_words! {
     /// What the numbers of a picture mean. Alpha is linear whatever is said here.
     pub enum TextureColorSpace, "colour space of a texture" {
-        /// `Srgb` where a colour is wanted, `Linear` where a number is: the `weight` of a `Mix`, the `input` of a
-        /// `ColorRamp`. HDR and EXR: `Linear`.
+        /// `Srgb` where a colour is wanted, `Linear` where a number is: a `roughness`, the `weight` of a `Mix`, the
+        /// `input` of a `ColorRamp`. HDR and EXR: `Linear`.
         Auto,
         /// Encoded as screens want it: photographs, and what is painted to look right.
         Srgb,

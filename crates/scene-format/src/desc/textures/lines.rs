@@ -8,9 +8,9 @@ scene_struct! {
     /// Lines where the mapped coordinates are whole: a grid, tiles with joints, stripes.
     pub struct Lines as "Lines", "a pattern of lines" {
         /// The colour of the lines.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour between them.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// How wide a line is; lines are one apart. 0.5 makes even stripes.
         width: f64 = 0.05 => Rule::within("a width", 0.0, 1.0);
         /// Which way the lines run.

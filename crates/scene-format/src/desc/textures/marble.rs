@@ -9,9 +9,9 @@ scene_struct! {
     /// Object()` they turn with the object's `transform`, as `Wood` does.
     pub struct Marble as "Marble", "marble" {
         /// The colour of the veins.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour between them.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// How far turbulence bends the veins, in veins.
         distortion: f64 = 1.0 => Rule::within("a distance", -1e3, 1e3);
         /// How it lies: `Object(scale: 4)` makes it four times finer.

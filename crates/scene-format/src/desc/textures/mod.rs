@@ -13,6 +13,7 @@ mod multiply;
 mod named;
 mod nested;
 mod noise;
+mod number;
 mod vertex_color;
 mod voronoi;
 mod wood;
@@ -31,6 +32,7 @@ pub use multiply::Multiply;
 pub use named::NamedTexture;
 pub(crate) use nested::Nested;
 pub use noise::{Noise, NoiseKind};
+pub use number::Number;
 pub use vertex_color::{VertexColor, VertexColorSpace};
 pub use voronoi::{Voronoi, VoronoiFeature};
 pub use wood::Wood;
@@ -75,7 +77,9 @@ macro_rules! textures {
         }
 
         scene_enum! {
-            /// A colour that differs from place to place.
+            /// A colour or a number that differs from place to place. Where a number is wanted (`exponent`, `roughness`,
+            /// `weight`), the luminance counts, and pictures are read as numbers. `a` and `b` go from 0 to 1; in a
+            /// texture that is written where a field takes larger numbers, as far as those.
             pub(crate) enum PatternWords, "texture" {
                 $(#[doc = $image_doc])+
                 $Image($Image);
@@ -222,10 +226,23 @@ impl Albedo {
             reader.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
             return None;
         }
-        reader.textures.enter();
+        reader.textures.enter(at);
         let words = PatternWords::read(reader, item, at);
         reader.textures.leave();
         words.map(Albedo::of)
+    }
+}
+
+/// Whether what stands where a number is due is a texture, or the name of one; `None`: it is something else that was
+/// reported.
+fn is_written_as_texture(reader: &mut Reader<'_>, item: Item<'_, '_>) -> Option<bool> {
+    match item.kind() {
+        Kind::Text => Some(!item.text().starts_with(['#', '='])),
+        Kind::Word if item.lexeme().starts_with(char::is_lowercase) => {
+            let told = reader.name_without_quotes(item) || reader.texture_elsewhere(item, &PatternWords::DEF);
+            (!told).then_some(false)
+        }
+        _ => Some(matches!(item.kind(), Kind::Struct | Kind::Map | Kind::Word) || item.name().is_some()),
     }
 }
 
@@ -243,12 +260,12 @@ impl Words for Albedo {
             return None;
         }
         if bare || item.name().is_some_and(|name| !is_texture(name) && is_color(name)) {
-            return <Spanned<Color>>::read(reader, item, at).map(Albedo::Color);
+            return <Spanned<Color>>::read(reader, item, reader.textures.range(at)).map(Albedo::Color);
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
             return Albedo::texture(reader, item, at);
         }
-        <Spanned<Color>>::read(reader, item, at).map(Albedo::Color)
+        <Spanned<Color>>::read(reader, item, reader.textures.range(at)).map(Albedo::Color)
     }
 
     fn form(&self, all: bool) -> Form {

@@ -8,9 +8,9 @@ scene_struct! {
     /// The product of two colours or textures, channel by channel: one tints the other, or darkens it.
     pub struct Multiply as "Multiply", "a product" {
         /// One.
-        a: Albedo = [1.0; 3] => Rule::share();
+        a: Albedo = [1.0; 3] => Rule::part();
         /// The other.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
     }
 }
 

@@ -1,4 +1,6 @@
-//! How many textures stand within each other.
+//! How many textures stand within each other, and what the outermost is of.
+
+use crate::schema::FieldDef;
 
 /// Textures in one, at most: with so many no program needs more places than the engine has.
 const MOST_TEXTURES: usize = 1024;
@@ -6,6 +8,8 @@ const MOST_TEXTURES: usize = 1024;
 /// Textures that are being read, one within the other; of one that was read, what it is made of.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Nested {
+    /// What the outermost is of.
+    of: Option<&'static FieldDef>,
     /// So many stand around what is read now.
     depth: usize,
     /// How many of the outermost were read so far.
@@ -19,7 +23,7 @@ impl Nested {
     pub const MOST: usize = 16;
 
     /// One texture, as far as it is known before it is read.
-    pub const ONE: Nested = Nested { depth: 0, count: 1, deepest: 1 };
+    pub const ONE: Nested = Nested { of: None, depth: 0, count: 1, deepest: 1 };
 
     /// Counts one that stands here, with all that it is made of. What is wrong with so many, told once.
     pub fn add(&mut self, other: Nested) -> Option<String> {
@@ -38,9 +42,21 @@ impl Nested {
             .then(|| format!("a texture is made of more than {MOST_TEXTURES} others"))
     }
 
-    /// What is read from now on stands within one more.
-    pub fn enter(&mut self) {
+    /// What is read from now on stands within one more, which is of this field.
+    pub fn enter(&mut self, at: &'static FieldDef) {
+        if self.depth == 0 {
+            self.of = Some(at);
+        }
         self.depth += 1;
+    }
+
+    /// The field whose range a constant has: what stands in place of a texture's colour is what the texture is of, and
+    /// may be as large.
+    pub fn range(&self, at: &'static FieldDef) -> &'static FieldDef {
+        match self.of {
+            Some(of) if self.depth > 0 && at.rule.of_texture && of.rule.range != at.rule.range => of,
+            _ => at,
+        }
     }
 
     /// That one has been read.

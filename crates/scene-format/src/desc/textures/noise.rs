@@ -11,9 +11,9 @@ scene_struct! {
     /// what is to be seen.
     pub struct Noise as "Noise", "noise" {
         /// The colour where the noise is lowest.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour where it is highest.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// How octaves are mixed.
         kind: NoiseKind = NoiseKind::Fbm;
         /// How many; Perlin has one whatever is said here.

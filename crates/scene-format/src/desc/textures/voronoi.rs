@@ -9,9 +9,9 @@ scene_struct! {
     /// scales, cracks.
     pub struct Voronoi as "Voronoi", "a pattern of cells" {
         /// The colour where the feature is 0.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour where it is 1.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// What goes from 0 to 1.
         feature: VoronoiFeature = VoronoiFeature::F1;
         /// How far points are from the middles of their cubes: at 0 they are there, at 1 anywhere in the cube.

@@ -12,9 +12,9 @@ scene_struct! {
     /// degrees: 90)])`. The heart of the tree is at x = 0, z = 0: an `offset` moves it.
     pub struct Wood as "Wood", "wood" {
         /// The colour in a ring's middle, and on the axis.
-        a: Albedo = [0.0; 3] => Rule::share();
+        a: Albedo = [0.0; 3] => Rule::part();
         /// The colour between.
-        b: Albedo = [1.0; 3] => Rule::share();
+        b: Albedo = [1.0; 3] => Rule::part();
         /// How far noise bends the rings, in rings.
         distortion: f64 = 0.2 => Rule::within("a distance", -1e3, 1e3);
         /// How it lies: `Object(scale: 4)` makes it four times finer.

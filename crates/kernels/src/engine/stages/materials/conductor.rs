@@ -16,6 +16,10 @@ const LEAST_COSINE: f32 = 1e-3;
 pub struct Conductor<F: Lanes> {
     /// Where it begins in the table of losses.
     losses: F::U,
+    /// Where the next roughness begins there, of those that have several.
+    more: F::U,
+    /// How far it is from the one to the other.
+    between: F,
     /// Width of the lobe.
     pub alpha: F,
     /// Lanes where Fresnel's equations hold; elsewhere the F82-tint model.
@@ -34,21 +38,52 @@ pub struct Conductor<F: Lanes> {
 }
 
 impl<F: Lanes> Conductor<F> {
-    /// Conductor `index` of the table with this colour.
+    /// Conductor `index` of the table with this width and these colours; the second counts where it is not below zero.
     #[inline(always)]
-    pub fn new(table: &ConductorTable, index: F::U, color: V3<F>) -> Self {
-        let [alpha, exact, n0, n1, n2, k0, k1, k2, f0, f1, f2, energy, scale] = table.rows.row::<F>(index);
-        Conductor {
-            losses: index * F::U::splat(GGX_STEPS as u32),
+    pub fn new(table: &ConductorTable, index: F::U, alpha: F, color: V3<F>, tint: V3<F>) -> Self {
+        let zero = F::splat(0.0);
+        let (mut index, mut next, mut between) = (index, index, zero);
+        if !table.several.is_empty() {
+            let several = F::U::gather(&table.several, index).eq(F::U::splat(1));
+            let place = alpha.sqrt() * F::splat((GGX_STEPS - 1) as f32);
+            let low = place.min(F::splat((GGX_STEPS - 2) as f32)).to_int();
+            between = F::select(several, place - F::from_int(low), zero);
+            index = F::U::select(several, index + low, index);
+            next = F::U::select(several, index + F::U::splat(1), index);
+        }
+        let [_, exact, n0, n1, n2, k0, k1, k2, f0, f1, f2, energy, scale] = table.rows.row::<F>(index);
+        let tinted = zero.le(tint.0);
+        let steps = F::U::splat(GGX_STEPS as u32);
+        let mut conductor = Conductor {
+            losses: index * steps,
+            more: next * steps,
+            between,
             alpha,
             exact: F::splat(0.5).lt(exact),
             color,
-            n: V3(n0, n1, n2),
+            n: V3::select(tinted, tint, V3(n0, n1, n2)),
             k: V3(k0, k1, k2),
             average: V3(f0, f1, f2),
             energy,
             scale,
+        };
+        if !table.several.is_empty() {
+            conductor.reckon_between(table, next);
         }
+        conductor
+    }
+
+    /// What lies between this row and the next one.
+    #[inline(always)]
+    fn reckon_between(&mut self, table: &ConductorTable, next: F::U) {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let (energy, scale) = (table.rows.column::<F>(next, 11), table.rows.column::<F>(next, 12));
+        self.energy = (energy - self.energy).fma(self.between, self.energy);
+        let left = one - self.energy;
+        let usable = zero.lt(scale) & c(1e-6).lt(left);
+        let reckoned = F::select(usable, c(FRAC_1_PI) / F::select(usable, left, one), zero);
+        self.scale = F::select(zero.lt(self.between), reckoned, self.scale);
     }
 
     /// Reflectance of a flat surface at a cosine from 0 to 1.
@@ -87,7 +122,13 @@ impl<F: Lanes> Conductor<F> {
         let t = place - F::from_int(low);
         let at = self.losses + low;
         let (a, b) = (F::gather(&table.losses, at), F::gather(&table.losses, at + F::U::splat(1)));
-        (b - a).fma(t, a)
+        let loss = (b - a).fma(t, a);
+        if table.several.is_empty() {
+            return loss;
+        }
+        let at = self.more + low;
+        let (a, b) = (F::gather(&table.losses, at), F::gather(&table.losses, at + F::U::splat(1)));
+        ((b - a).fma(t, a) - loss).fma(self.between, loss)
     }
 
     /// f and the density of [`Conductor::sample`]; both cosines are more than zero, elsewhere the density is zero.

@@ -20,6 +20,7 @@ mod blinn_phong;
 mod conductor;
 mod dielectric;
 mod specular_reflection;
+mod varying;
 
 pub use dielectric::Dielectric;
 #[cfg(test)]
@@ -37,6 +38,7 @@ use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWES
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
+use varying::{Texel, Varying};
 
 /// How lanes scatter.
 #[derive(Clone, Copy)]
@@ -55,6 +57,8 @@ pub struct Bsdf<'t, F: Lanes> {
     parameter: F,
     /// Of Blinn-Phong s, of metals the place in their table.
     share: F,
+    /// Of metals the tint that a texture gives; below zero where none does.
+    tint: V3<F>,
     /// Blinn-Phong, both kinds.
     blinn_phong: F::M,
     /// Blinn-Phong with the energy-conserving lobe.
@@ -107,6 +111,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             transparent,
             parameter,
             share,
+            tint: V3::grey(F::splat(-1.0)),
             blinn_phong,
             conserving,
             metal,
@@ -136,6 +141,9 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
                 let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
                 bsdf.color = V3::select(textured, texel, bsdf.color);
             }
+            if let Some(table) = &tables.materials.varying {
+                bsdf = F::apart(Varying { scene, table, s, bsdf, valid });
+            }
         }
         bsdf
     }
@@ -146,16 +154,17 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     pub fn met(scene: &'t Scene, s: &Surface<F>, valid: F::M, behind: &[u32], i: usize) -> Self {
         let mut bsdf = Self::at(scene, s, valid);
         if scene.has_touching() {
-            bsdf.touch(&scene.tables.materials, F::U::load(&behind[i..]));
+            bsdf.touch(scene, s, F::U::load(&behind[i..]));
         }
         bsdf
     }
 
     /// Takes what is behind transparent lanes for the body that begins there, by its material + 1; 0: there is none.
     /// Light passes from one body into the other, or into both at once ([`SAME_SIDE`]), and takes on the colour of
-    /// both.
+    /// both. What textures say there, they say by the coordinates of the face that stands for both.
     #[inline(always)]
-    fn touch(&mut self, table: &MaterialTable, behind: F::U) {
+    fn touch(&mut self, scene: &Scene, s: &Surface<F>, behind: F::U) {
+        let table = &scene.tables.materials;
         let none = F::U::splat(0);
         let on = self.transparent & !behind.eq(none);
         if !on.any() {
@@ -164,10 +173,18 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         let both = !(behind & F::U::splat(SAME_SIDE)).eq(none);
         let other = F::U::select(on, (behind & F::U::splat(!SAME_SIDE)) - F::U::splat(1), none);
         let [ior, _] = table.parameters.row::<F>(other);
-        let [red, green, blue, ..] = table.rows.row::<F>(other);
+        let [red, green, blue, _, number] = table.rows.row::<F>(other);
+        let mut color = V3(red, green, blue);
+        if table.textured {
+            let number = number.to_bits();
+            let mask = on & !number.eq(none);
+            if mask.any() {
+                color = V3::select(mask, F::apart(Texel { scene, number, s, mask }), color);
+            }
+        }
         let touching = F::select(both, self.parameter * ior, self.parameter / ior);
         self.parameter = F::select(on, touching, self.parameter);
-        self.color = V3::select(on, self.color.mul(V3(red, green, blue)), self.color);
+        self.color = V3::select(on, self.color.mul(color), self.color);
     }
 
     /// Lanes with a lobe that is not specular: [`Bsdf::evaluate`] and [`Bsdf::sample_rough`] are for them.
@@ -223,7 +240,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     #[inline(always)]
     fn conductor(&self, table: &ConductorTable, lanes: F::M) -> Conductor<F> {
         let place = F::select(lanes, self.share, F::splat(0.0));
-        Conductor::new(table, place.to_int(), self.color)
+        Conductor::new(table, place.to_int(), self.parameter, self.color, self.tint)
     }
 
     /// Rough lanes whose f is their colour times a number: only those columns hold ([`Bsdf::pack`]). Metals' is another
@@ -383,6 +400,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             transparent: none,
             parameter,
             share,
+            tint: V3::grey(F::splat(-1.0)),
             blinn_phong: glossy,
             conserving: glossy & kind.eq(F::U::splat(packed::CONSERVING)),
             metal: none,

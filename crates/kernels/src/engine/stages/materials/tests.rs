@@ -42,6 +42,7 @@ impl Rough {
             None => Material::Diffuse(materials::Diffuse { albedo }),
             Some((exponent, specular)) => {
                 let energy_conserving = self.conserving;
+                let [exponent, specular] = [exponent, specular].map(Albedo::number);
                 Material::BlinnPhong(materials::BlinnPhong { albedo, exponent, specular, energy_conserving })
             }
         };

@@ -14,12 +14,14 @@ use tracer_reference::statistics::{Estimate, chi_square, sidak};
 
 type S = ArrayF<1>;
 
-const WHITE: Fresnel = Fresnel::Tinted { reflectance: Albedo::Color([1.0; 3]), edge_tint: [1.0; 3] };
+const WHITE: Fresnel = Fresnel::Tinted { reflectance: Albedo::Color([1.0; 3]), edge_tint: Albedo::Color([1.0; 3]) };
 const GOLD: Fresnel = Fresnel::Complex { ior: [0.081, 0.503, 1.464], k: [5.586, 2.268, 1.773] };
-const TINTED: Fresnel = Fresnel::Tinted { reflectance: Albedo::Color([0.9, 0.5, 0.1]), edge_tint: [1.0, 0.6, 0.2] };
+const TINTED: Fresnel =
+    Fresnel::Tinted { reflectance: Albedo::Color([0.9, 0.5, 0.1]), edge_tint: Albedo::Color([1.0, 0.6, 0.2]) };
 
 fn table(fresnel: Fresnel, alpha: f64, multiple_scattering: bool) -> MaterialTable {
-    MaterialTable::new(&[Material::Conductor(materials::Conductor { fresnel, alpha, multiple_scattering })], 0, 0)
+    let roughness = Albedo::number(alpha.sqrt());
+    MaterialTable::new(&[Material::Conductor(materials::Conductor { fresnel, roughness, multiple_scattering })], 0, 0)
 }
 
 fn bsdf(table: &MaterialTable) -> Bsdf<'_, S> {
@@ -240,4 +242,39 @@ fn fresnel_is_the_closed_form() {
     let schlick = DVec3::new(0.9, 0.5, 0.1).map(|f0| f0 + (1.0 - f0) * libm::pow(6.0 / 7.0, 5.0));
     let at_82 = schlick * DVec3::new(1.0, 0.6, 0.2);
     assert!((of(TINTED, 1.0 / 7.0) - at_82).abs().max_element() < 2e-6);
+}
+
+/// Where a texture says how rough a metal is, it is there the metal of that roughness: at the table's places, between
+/// them, and at both ends.
+#[test]
+fn a_roughness_by_a_texture_is_that_roughness() {
+    let mut random = Random::new(5);
+    for fresnel in [WHITE, GOLD, TINTED] {
+        let conductor = materials::Conductor { fresnel, roughness: Albedo::Texture(0), multiple_scattering: true };
+        // Behind another one, so that it does not begin the table.
+        let smooth = materials::Conductor { roughness: Albedo::number(0.0), ..conductor };
+        let varying = MaterialTable::new(&[Material::Conductor(smooth), Material::Conductor(conductor)], 1, 1);
+        for roughness in [0.02, 1.0 / 31.0, 0.1, 0.3, 0.5, 15.0 / 31.0, 0.77, 0.999, 1.0] {
+            let alpha = roughness * roughness;
+            let constant = table(fresnel, alpha, true);
+            let constant = bsdf(&constant);
+            let mut here = Bsdf::<S>::new(&varying, <S as Lanes>::U::splat(1), <S as Lanes>::M::from_bits(1)).0;
+            here.parameter = S::splat(alpha as f32);
+            for degrees in ANGLES {
+                let (n, wo) = (lanes(normal()), lanes(viewer(degrees)));
+                for _ in 0..50 {
+                    let wi = random.direction();
+                    let wi = lanes(if wi.dot(normal()) < 0.0 { -wi } else { wi });
+                    let (f, pdf) = here.evaluate(n, wo, wi, n.dot(wi));
+                    let (g, density) = constant.evaluate(n, wo, wi, n.dot(wi));
+                    // E is linear between the same places, once in f64 and once in f32: 1 - E is right to 1e-7, of
+                    // which the second lobe has at most the share (1 - E) / (pi (1 - E_avg)).
+                    let off = (vector(f) - vector(g)).abs().max_element();
+                    assert!(off < 1e-5 * vector(g).max_element() + 2e-6, "{roughness} at {degrees}: {off:e}");
+                    let off = (scalar(pdf) - scalar(density)).abs();
+                    assert!(off < 1e-5 * scalar(density) + 2e-6, "{roughness} at {degrees}: {off:e}");
+                }
+            }
+        }
+    }
 }
