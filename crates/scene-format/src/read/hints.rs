@@ -425,23 +425,23 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "paths end by chance where little would come of them: leave it out"
         }
         "time_limit" | "timeout" | "max_time" if has("max_bounces") => {
-            "how long it may take is said on the command line: tracer render scene.ron --time 60s"
+            "how long it may take is `time: 60` in seconds, or --time 60s on the command line"
         }
         "noise_threshold" | "noise" | "adaptive" | "adaptive_threshold" | "error_threshold" if has("max_bounces") => {
-            "how noisy it may be is said on the command line: tracer render scene.ron --noise 2%"
+            "how noisy it may be is `noise: 0.02`, or --noise 2% on the command line"
         }
         "gpu" | "device" | "tile_size" | "tiles" | "bucket_size" if has("max_bounces") => {
             "it is made by all of the processor's threads; how does not show in the picture: leave it out"
         }
-        "sampler" | "sampling_pattern" | "aa" | "antialias" | "antialiasing" | "light_samples" | "aa_samples"
+        "sampler" | "sampling_pattern" | "light_samples" | "aa_samples"
             if has("max_bounces") || def.name == "Scene" =>
         {
             "there is one sampler, and only `samples` of `render` says how many samples a pixel gets"
         }
-        "filter" | "pixel_filter" | "reconstruction_filter" | "rfilter"
-            if has("max_bounces") || def.name == "Image" =>
+        "filter" | "pixel_filter" | "reconstruction_filter" | "rfilter" | "aa" | "antialias" | "antialiasing"
+            if has("max_bounces") || def.name == "Image" || def.name == "Scene" =>
         {
-            "a pixel is the mean of the samples within it: leave it out"
+            "how samples become pixels is said by `effects: Effects(antialiasing: Gaussian(sigma: 0.5))`"
         }
         "format" | "filename" | "bits" | "gamma" | "dpi" | "file" | "output" if def.name == "Image" => {
             "how it is written is said on the command line: tracer render scene.ron -o picture.png, .exr, --bits 16"
