@@ -984,7 +984,7 @@ class Scatter(_ScatterRequired, total=False):
 
     count: How many.
     min: A corner of the box. Unit: the scene's unit.
-    max: The corner opposite; the same y gives copies on the ground. Unit: the scene's unit.
+    max: The corner opposite, greater or less along each axis; the same y gives copies on the ground. Unit: the scene's unit.
     seed: Another number gives other places.
     spacing: Least distance between copies. A copy that finds no room in 32 tries is left out, which is a warning. Unit: the scene's unit.
     turn: Axis about which each copy is turned by an angle of its own; `None`: none is.
