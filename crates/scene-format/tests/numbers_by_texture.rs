@@ -37,7 +37,9 @@ fn numbers_expressions_textures_and_names() {
     for (written, number) in [("1000", 1000.0), ("0.5", 0.5), ("\"=10*20\"", 200.0)] {
         assert_eq!(glossy(written).exponent.constant(), Some(number), "{written}");
     }
-    let Albedo::Checkerboard(squares) = glossy("Checkerboard(a: 10, b: (5000, 1, \"=2*3\"))").exponent.0 else { panic!() };
+    let Albedo::Checkerboard(squares) = glossy("Checkerboard(a: 10, b: (5000, 1, \"=2*3\"))").exponent.0 else {
+        panic!()
+    };
     assert_eq!([&squares.a, &squares.b], [&[10.0; 3].into(), &[5000.0, 1.0, 6.0].into()]);
     assert!(matches!(glossy("Multiply(a: \"dots\", b: 1000)").exponent.0, Albedo::Multiply(_)));
     let named = glossy("\"dots\"");

@@ -35,15 +35,16 @@ fn alone(material: &str, bounces: u32) -> SceneDesc {
 /// Pictures, patterns in the plane and in space, and what is made of these.
 const TEXTURES: [&str; 5] = [
     "Texture(file: \"assets/tile.png\", mapping: Uv(scale: (3, 2)))",
-    "Checkerboard(a: (0.1, 0.5, 0.9), b: (1, 0.4, 0.2), mapping: Object(scale: (3.1, 2.3, 1.7), offset: (0.2, 0.3, 0.4)))",
+    "Checkerboard(a: (0.1, 0.5, 0.9), b: (1, 0.4, 0.2), mapping: Object(scale: (3.1, 2.3, 1.7), offset: (0.2, 0.3, \
+     0.4)))",
     "Gradient(a: (0.9, 0.1, 0.3), b: (0.1, 0.9, 0.2), mapping: Object(scale: 0.5, offset: (0, 0.5, 0)))",
     "Mix(a: Marble(mapping: Object(scale: 2)), b: Texture(file: \"assets/tile.png\"), weight: Gradient())",
     "Multiply(a: Texture(file: \"assets/tile.png\", mapping: Triplanar()), b: (0.9, 0.5, 0.7))",
 ];
 
 /// A convex mirror under a white sky shows its reflectance, and glass of the index 1 its transmittance twice, without
-/// noise. The textures themselves are right to 4e-4 (`patterns`), and glass multiplies two of them; where colours jump a
-/// point may fall on the other side.
+/// noise. The textures themselves are right to 4e-4 (`patterns`), and glass multiplies two of them; where colours jump
+/// a point may fall on the other side.
 #[test]
 fn mirrors_and_glass_show_their_textures_point_by_point() {
     for texture in TEXTURES {

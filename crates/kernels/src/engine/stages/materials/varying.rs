@@ -12,8 +12,8 @@ use crate::scene::{LEAST_ALPHA, Scene, Table};
 /// The largest exponent of Blinn-Phong.
 const LARGEST_EXPONENT: f32 = 1e7;
 
-/// The colour of a texture by its number + 1 ([`crate::scene::MaterialTable::rows`]), in the lanes of the mask; anything
-/// elsewhere.
+/// The colour of a texture by its number + 1 (as in [`crate::scene::MaterialTable::rows`]), in the lanes of the mask;
+/// anything elsewhere.
 pub(super) struct Texel<'t, 's, F: Lanes> {
     pub scene: &'t Scene,
     pub number: F::U,
