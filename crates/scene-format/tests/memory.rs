@@ -3,6 +3,8 @@
 //! One test alone in its process, because the count is that of the whole process.
 
 use scene_format::Syntax::{self, Json, Ron, Toml};
+use scene_format::desc::{Object, Sphere};
+use scene_format::diagnostic::Spanned;
 use scene_format::load_bytes;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -230,8 +232,25 @@ fn read(syntax: Syntax, bytes: Vec<u8>) -> (usize, bool) {
     (PEAK.load(Relaxed) - before, right)
 }
 
+/// What a repetition makes: a million spheres take the memory of a million spheres, whatever their expressions are.
+/// Each is one piece of a `Sphere` and its place in the list, which has room for an eighth more at most, and is moved
+/// in place as it grows; what does not grow with their number is less than a megabyte.
+fn repeated_objects_take_what_they_are() {
+    let scene = |count: usize| {
+        let sphere =
+            r#"Sphere(center: ("=i%100", "=floor(i/100)", "=(i + 1)*2"), radius: "=0.2 + i/1e9", material: "a")"#;
+        let head = r#"Scene(background: 1, materials: { "a": Mirror() }, objects: "#;
+        format!("{head}[Repeat(count: {count}, items: [{sphere}])])").into_bytes()
+    };
+    let count = 100_000;
+    let (peak, right) = read(Ron, scene(count));
+    let each = taken(size_of::<Sphere>()) + size_of::<Spanned<Object>>() * 9 / 8;
+    assert!(right && peak <= count * each + (1 << 20), "{} bytes each instead of {each}", peak / count);
+}
+
 #[test]
 fn memory_is_in_proportion_to_the_file() {
+    repeated_objects_take_what_they_are();
     let megabytes =
         std::env::var("SCENE_MEMORY").ok().map(|text| text.parse::<usize>().expect("a number of megabytes"));
     let size = megabytes.map_or(SIZE, |megabytes| megabytes << 20);

@@ -44,9 +44,9 @@ fn repetitions_say_what_they_stand_for() {
     }
 }
 
-/// A million spheres of three lines.
+/// A million spheres of three lines. What they take is in `memory.rs`.
 #[test]
-fn a_million_items_are_read_in_time() {
+fn a_million_items_are_read() {
     let text = r#"Scene(background: 1, objects: [
         Repeat(count: 1000, index: "x", items: [Repeat(count: 1000, index: "z", items: [
             Sphere(center: ("=x", 0, "=z"), radius: "=0.2 + 0.2*random(x, z)")])])])"#;

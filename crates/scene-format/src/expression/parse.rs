@@ -121,7 +121,10 @@ impl Parser<'_, '_> {
 
     fn space(&mut self) {
         let rest = &self.text[self.at..];
-        self.at += rest.len() - rest.trim_start().len();
+        // Printing characters of ASCII, and the end, are no space: expressions are read a million times.
+        if rest.as_bytes().first().is_some_and(|byte| !byte.is_ascii_graphic()) {
+            self.at += rest.len() - rest.trim_start().len();
+        }
     }
 
     /// The next word or sign, for messages.
@@ -136,7 +139,8 @@ impl Parser<'_, '_> {
     fn take<'s>(&mut self, signs: &[&'s str]) -> Option<&'s str> {
         self.space();
         let rest = &self.text[self.at..];
-        let sign = signs.iter().find(|sign| rest.starts_with(**sign))?;
+        let first = rest.as_bytes().first()?;
+        let sign = signs.iter().find(|sign| sign.as_bytes().first() == Some(first) && rest.starts_with(**sign))?;
         self.at += sign.len();
         Some(sign)
     }
@@ -487,14 +491,15 @@ impl Parser<'_, '_> {
     /// What stands in brackets: one value, or the numbers of a vector.
     fn brackets(&mut self) -> Result<Value, Failure> {
         let start = self.at - 1;
-        let mut items = vec![self.or()?];
+        let only = self.or()?;
+        if self.take(&[")"]).is_some() {
+            return Ok(only);
+        }
+        let mut items = vec![only];
         while self.take(&[","]).is_some() {
             items.push(self.or()?);
         }
         self.need(")")?;
-        if items.len() == 1 {
-            return Ok(items.swap_remove(0));
-        }
         let numbers: Option<Vec<f64>> =
             items.iter().map(|item| if let Value::Number(x) = item { Some(*x) } else { None }).collect();
         let vector = numbers.and_then(|numbers| Value::of(&numbers));

@@ -77,20 +77,31 @@ impl Value {
 
     /// Number by number.
     pub fn map(&self, f: impl Fn(f64) -> f64) -> Option<Value> {
-        let numbers: Vec<f64> = self.numbers().iter().map(|&x| f(x)).collect();
-        Value::of(&numbers)
+        Some(match self {
+            Value::Number(x) => Value::Number(f(*x)),
+            Value::Pair(pair) => Value::Pair(pair.map(f)),
+            Value::Triple(triple) => Value::Triple(triple.map(f)),
+            Value::Bool(_) | Value::List(_) => return None,
+        })
     }
 
     /// Number by number of two; a single number goes with all of the other's.
     pub fn zip(&self, other: &Value, f: impl Fn(f64, f64) -> f64) -> Option<Value> {
+        // As nearly all of a million are.
+        if let (Value::Number(a), Value::Number(b)) = (self, other) {
+            return Some(Value::Number(f(*a, *b)));
+        }
         let (a, b) = (self.numbers(), other.numbers());
         let count = a.len().max(b.len());
         if a.is_empty() || b.is_empty() || (a.len() != b.len() && a.len() != 1 && b.len() != 1) {
             return None;
         }
         let of = |numbers: &[f64], k: usize| numbers[if numbers.len() == 1 { 0 } else { k }];
-        let numbers: Vec<f64> = (0..count).map(|k| f(of(a, k), of(b, k))).collect();
-        Value::of(&numbers)
+        let mut numbers = [0.0; 3];
+        for (k, number) in numbers[..count].iter_mut().enumerate() {
+            *number = f(of(a, k), of(b, k));
+        }
+        Value::of(&numbers[..count])
     }
 
     /// Whether all of its numbers are finite.

@@ -7,6 +7,7 @@ use crate::expression;
 use crate::schema::{FieldDef, Rule, StructDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
+use std::sync::Arc;
 
 /// Repetitions of one `Repeat`, at most.
 const MOST_TIMES: f64 = 1e6;
@@ -115,6 +116,7 @@ impl Reader<'_> {
             }
         }
         self.chosen |= count == 0;
+        let index: Arc<str> = index.into();
         for k in 0..count {
             let errors = self.sink.errors;
             self.vars.enter(&index, f64::from(k));

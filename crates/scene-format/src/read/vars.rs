@@ -81,10 +81,10 @@ impl Table {
     }
 
     /// Begins a repetition with this index.
-    pub fn enter(&mut self, index: &str, count: f64) {
+    pub fn enter(&mut self, index: &Arc<str>, count: f64) {
         self.frames.push(self.list.len());
         let state = State::Done(Value::Number(count));
-        self.list.push(Var { name: index.into(), span: Span::NONE, slot: 0, state, used: true });
+        self.list.push(Var { name: Arc::clone(index), span: Span::NONE, slot: 0, state, used: true });
     }
 
     /// Ends it.

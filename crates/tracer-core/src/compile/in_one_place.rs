@@ -62,36 +62,57 @@ fn rank(desc: &SceneDesc, object: &Curved, materials: &[Material]) -> (bool, u32
     (hidden, of_material)
 }
 
+/// The copies that are in the place of an earlier one of the same shape, as (turn, copy), rising; `order`: who has the
+/// first turn. Sixteen bytes a copy: there may be millions, hardly ever two in one place.
+fn covered(curved: &[Curved], order: &[usize]) -> Vec<(u32, u32)> {
+    let hash = |place: [u32; 12]| {
+        // FNV-1a, word by word; what it takes for one is looked at.
+        place.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, x| (h ^ u64::from(*x)).wrapping_mul(0x0100_0000_01b3))
+    };
+    let of = |turn: u32, copy: u32| {
+        let object = &curved[order[turn as usize]];
+        (place(object, &object.maps[copy as usize]), object.unit)
+    };
+    let bounded = (0u32..).zip(order).filter(|&(_, &k)| !curved[k].is_endless());
+    let copies = bounded.flat_map(|(turn, &k)| (0..curved[k].maps.len() as u32).map(move |copy| (turn, copy)));
+    let mut all: Vec<(u64, u32, u32)> = copies.map(|(turn, copy)| (hash(of(turn, copy).0), turn, copy)).collect();
+    all.sort_unstable();
+    let mut covered = Vec::new();
+    for alike in all.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+        let mut seen: Vec<([u32; 12], UnitShape)> = Vec::new();
+        for &(_, turn, copy) in alike {
+            let this = of(turn, copy);
+            if seen.contains(&this) {
+                covered.push((turn, copy));
+            } else {
+                seen.push(this);
+            }
+        }
+    }
+    covered.sort_unstable();
+    covered
+}
+
 /// Leaves out the copies that are in the place of others, and warns of them.
 pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material], diagnostics: &mut Diagnostics) {
     let mut order: Vec<usize> =
         (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
     order.sort_by_key(|&k| rank(desc, &curved[k], materials));
-    let mut taken: BTreeMap<[u32; 12], Vec<UnitShape>> = BTreeMap::new();
     let [eye, look_at] = [&desc.camera.position, &desc.camera.look_at].map(|point| DVec3::from(point.value));
     let mut planes = Planes { eye, look_at, taken: Vec::new() };
     let mut left_out: BTreeMap<Span, usize> = BTreeMap::new();
-    for k in order {
-        let unit = curved[k].unit;
-        let free: Vec<bool> = curved[k]
-            .maps
-            .iter()
-            .map(|map| {
-                if unit.is_endless() {
-                    return planes.is_free(map);
-                }
-                let there = taken.entry(place(&curved[k], map)).or_default();
-                let free = !there.contains(&unit);
-                if free {
-                    there.push(unit);
-                }
-                free
-            })
-            .collect();
-        let lost = free.iter().filter(|&&free| !free).count();
+    let mut covered = covered(curved, &order).into_iter().peekable();
+    for (turn, k) in order.into_iter().enumerate() {
+        let endless = curved[k].is_endless();
+        let before = curved[k].maps.len();
+        let mut copy = 0;
+        curved[k].maps.retain(|map| {
+            let is_covered = covered.next_if_eq(&(turn as u32, copy)).is_some();
+            copy += 1;
+            if endless { planes.is_free(map) } else { !is_covered }
+        });
+        let lost = before - curved[k].maps.len();
         if lost > 0 {
-            let mut free = free.into_iter();
-            curved[k].maps.retain(|_| free.next().unwrap_or(true));
             let span = desc.objects.get(curved[k].number as usize).map_or(Span::NONE, |object| object.span);
             *left_out.entry(span).or_default() += lost;
         }

@@ -11,6 +11,9 @@ use super::wide::WriteLeaves;
 use glam::{Affine3A, DMat3, DVec3, Mat3A, Vec3A, Vec4};
 use rayon::prelude::*;
 
+/// Meshes of fewer triangles are looked through by one thread.
+const SHORT: usize = 4096;
+
 /// The lists that a tree's leaves refer into, in the order of the leaves.
 #[derive(Default)]
 pub struct Contents<'a> {
@@ -216,18 +219,20 @@ impl<'a> TriangleList<'a> {
         Ok((items, bounds))
     }
 
-    /// Whether all corners are there; of several faults the first is told.
+    /// Whether all corners are there; of several faults the first is told. All threads are asked once, not mesh by
+    /// mesh: a million boxes are a million meshes of twelve triangles, and to wake the threads takes longer than those.
     fn check(&self) -> Result<(), BuildError> {
-        for (mesh, &index) in self.meshes.iter().zip(&self.indices) {
+        let fault = self.meshes.par_iter().zip(&self.indices).find_map_first(|(mesh, &index)| {
             let vertices = mesh.positions.len();
             let missing = |corners: &[u32; 3]| corners.iter().find(|&&vertex| vertex as usize >= vertices).copied();
-            if let Some(triangle) = mesh.triangles.par_iter().position_first(|corners| missing(corners).is_some())
-                && let Some(vertex) = missing(&mesh.triangles[triangle])
-            {
-                return Err(BuildError::Vertex { mesh: index, triangle: triangle as u32, vertex, vertices });
-            }
-        }
-        Ok(())
+            let triangle = match mesh.triangles.len() {
+                SHORT.. => mesh.triangles.par_iter().position_first(|corners| missing(corners).is_some()),
+                _ => mesh.triangles.iter().position(|corners| missing(corners).is_some()),
+            }?;
+            let vertex = missing(&mesh.triangles[triangle])?;
+            Some(BuildError::Vertex { mesh: index, triangle: triangle as u32, vertex, vertices })
+        });
+        fault.map_or(Ok(()), Err)
     }
 
     /// The box of a part, or of a triangle whose indices have been checked, if it can be hit.
