@@ -4,7 +4,8 @@
 const vscode = require("vscode");
 const { Client, Refused } = require("./client.js");
 
-const SCENES = ["ron", "toml", "json"].flatMap((name) => [{ language: name }, { pattern: `**/*.${name}` }]);
+const files = (name) => [{ language: name }, { pattern: `**/*.${name}` }];
+const SCENES = ["ron", "toml", "json"].flatMap(files);
 const isOurs = (document) => vscode.languages.match(SCENES, document) > 0;
 
 let client;
@@ -136,13 +137,23 @@ const PROVIDERS = {
       });
     },
   },
-  registerDocumentFormattingEditProvider: {
-    async provideDocumentFormattingEdits(document, options) {
-      const params = { ...named(document), options: { tabSize: options.tabSize, insertSpaces: options.insertSpaces } };
-      return ((await asked("textDocument/formatting", params)) ?? []).map(edit);
-    },
-  },
 };
+
+const laidOut = async (document, { tabSize, insertSpaces }) => {
+  const params = { ...named(document), options: { tabSize, insertSpaces } };
+  return ((await asked("textDocument/formatting", params)) ?? []).map(edit);
+};
+
+// For RON alone: of two for TOML or JSON the editor would ask everybody which to take. There is a command for those.
+const LAYOUT = { provideDocumentFormattingEdits: laidOut };
+
+async function format() {
+  const document = vscode.window.activeTextEditor?.document;
+  if (!document || !isOurs(document)) return;
+  const all = new vscode.WorkspaceEdit();
+  all.set(document.uri, await laidOut(document, { tabSize: 4, insertSpaces: true }));
+  await vscode.workspace.applyEdit(all);
+}
 
 const COMPLETION = {
   async provideCompletionItems(document, where) {
@@ -205,7 +216,9 @@ async function activate(context) {
       if (event.affectsConfiguration("tracer.path")) return start();
     }),
     vscode.commands.registerCommand("tracer.restart", start),
+    vscode.commands.registerCommand("tracer.format", format),
     vscode.commands.registerCommand("tracer.preview", preview),
+    vscode.languages.registerDocumentFormattingEditProvider(files("ron"), LAYOUT),
   );
   const capabilities = await start();
   for (const [register, provider] of Object.entries(PROVIDERS)) {

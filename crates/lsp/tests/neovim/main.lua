@@ -1,8 +1,7 @@
--- docs/editors/neovim/tracer.lua in Neovim without a screen, with the real server. Run by `cargo xtask prove editors`:
--- nvim --clean --headless -l crates/lsp/tests/neovim/main.lua, with 0.7 -c "luafile ..".
+-- docs/editors/neovim/tracer.lua in Neovim without a screen, with the real server. Run by `cargo xtask prove editors`.
 
 local root = vim.fn.getcwd()
-vim.g.tracer_path = vim.env.TRACER or root .. "/target/debug/tracer"
+vim.g.tracer_path = vim.fn.fnamemodify(vim.env.TRACER or "target/debug/tracer", ":p")
 local folder = vim.fn.tempname()
 vim.fn.mkdir(folder)
 

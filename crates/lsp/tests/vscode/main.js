@@ -51,6 +51,9 @@ function editor() {
     },
     workspace: {
       textDocuments: [],
+      applyEdit: async (all) => {
+        for (const [uri, edits] of all.all) vscode.workspace.textDocuments.find((one) => one.uri.toString() === uri).apply(edits);
+      },
       getConfiguration: () => ({ get: () => vscode.program }),
     },
     window: { showErrorMessage: (text) => { told.push(text); heard.marked?.(); }, createTerminal: () => assert.fail("no terminal") },
@@ -72,7 +75,7 @@ Module._load = (name, ...rest) => (name === "vscode" ? vscode : load(name, ...re
 
 /** Waits until it holds; looks again when marks or messages come. */
 async function until(holds, what) {
-  const end = setTimeout(() => { console.error(`in vain: ${what}`); process.exit(1); }, 60_000);
+  const end = setTimeout(() => { console.error(`in vain: ${what}`); process.exit(1); }, 20_000);
   while (!holds()) await new Promise((resolve) => { heard.marked = resolve; });
   clearTimeout(end);
 }
@@ -107,6 +110,11 @@ async function everything(folder) {
   const scene = opened("ron", `file://${folder}/a.ron`, SCENE);
   const { activate, deactivate } = require(join(extension, "extension.js"));
   await activate({ subscriptions: [] });
+  const manifest = JSON.parse(readFileSync(join(extension, "package.json"), "utf8"));
+  for (const { command } of manifest.contributes.commands) assert.ok(heard[command], `nobody does ${command}`);
+  const [{ configuration }] = manifest.contributes.languages;
+  const [{ path }] = manifest.contributes.grammars;
+  for (const name of [configuration, path]) JSON.parse(readFileSync(join(extension, name), "utf8"));
   const ask = (name, method, ...args) => providers[name].provider[method](...args);
   assert.ok(providers.Completion.more.includes("("));
 
@@ -155,12 +163,20 @@ async function everything(folder) {
     const other = opened(language, `file://${folder}/${name}`, text);
     await until(() => other.marks(), `an answer for ${name}`);
     assert.deepEqual(other.marks(), [], `${name} is marked`);
-    const options = { tabSize: 4, insertSpaces: true };
-    assert.deepEqual(await ask("DocumentFormattingEdit", "provideDocumentFormattingEdits", other, options), []);
+    vscode.window.activeTextEditor = { document: other };
+    await heard["tracer.format"]();
+    assert.equal(other.text, text);
     assert.deepEqual(await ask("Completion", "provideCompletionItems", other, other.at("name")), []);
   }
-  const toml = opened("toml", `file://${folder}/a.toml`, "[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }\n");
+  const toml = opened("toml", `file://${folder}/a.toml`, "background = 1\n\n[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }\n");
   await until(() => toml.marks()?.length === 1, "a mark of a scene in TOML");
+  toml.write(toml.text.replace("radus = 1", "radius =1"));
+  await until(() => toml.marks().length === 0, "no mark of the mended scene in TOML");
+  vscode.window.activeTextEditor = { document: toml };
+  await heard["tracer.format"]();
+  assert.match(toml.text, /radius = 1/);
+  toml.write(toml.text.replace("radius", "radus"));
+  await until(() => toml.marks().length === 1, "a mark again");
   heard.CloseTextDocument(toml);
   await until(() => toml.marks().length === 0, "no mark of what is closed");
 
