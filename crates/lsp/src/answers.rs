@@ -2,6 +2,7 @@
 
 use crate::diagnostics;
 use crate::documents::{Document, Documents};
+use crate::kin;
 use lsp_types::request::{
     CodeActionRequest, ColorPresentationRequest, Completion, DocumentColor, DocumentHighlightRequest,
     DocumentSymbolRequest, Formatting, GotoDefinition, HoverRequest, PrepareRenameRequest, References, Rename, Request,
@@ -57,9 +58,9 @@ fn asked<P: DeserializeOwned, A: serde::Serialize>(
     value(answer(parsed(params)?))
 }
 
-/// The document at a place, and the place's byte.
+/// The scene at a place, and the place's byte.
 fn at<'d>(documents: &'d Documents, place: &TextDocumentPositionParams) -> Option<(&'d Document, usize)> {
-    let document = documents.get(&place.text_document.uri)?;
+    let document = documents.scene(&place.text_document.uri)?;
     Some((document, document.lines.byte(&document.text, place.position)))
 }
 
@@ -68,7 +69,13 @@ fn markdown(value: String) -> MarkupContent {
 }
 
 fn completion(documents: &Documents, params: CompletionParams) -> Option<CompletionResponse> {
-    let (document, byte) = at(documents, &params.text_document_position)?;
+    // What is offered makes the first words of a scene, too.
+    let place = params.text_document_position;
+    let document = documents.get(&place.text_document.uri)?;
+    let byte = document.lines.byte(&document.text, place.position);
+    if !document.is_scene && !kin::may_become_scene(&document.text, document.syntax, byte) {
+        return None;
+    }
     let found = analysis::complete(&document.text, document.syntax, byte);
     let range = document.lines.range(&document.text, found.range.clone());
     let mut items: Vec<CompletionItem> = found
@@ -177,7 +184,7 @@ fn prepare_rename(documents: &Documents, params: TextDocumentPositionParams) -> 
 
 fn rename(documents: &Documents, params: RenameParams) -> Result<WorkspaceEdit, String> {
     let Some((document, byte)) = at(documents, &params.text_document_position) else {
-        return Err("the document is not open".to_owned());
+        return Err("this is no scene, or it is not open".to_owned());
     };
     let edits = analysis::rename(&document.text, document.syntax, byte, &params.new_name)?;
     Ok(in_document(document, edits.iter().map(|edit| diagnostics::edit(document, edit)).collect()))
@@ -191,7 +198,7 @@ fn in_document(document: &Document, edits: Vec<TextEdit>) -> WorkspaceEdit {
 }
 
 fn symbols(documents: &Documents, params: DocumentSymbolParams) -> Option<DocumentSymbolResponse> {
-    let document = documents.get(&params.text_document.uri)?;
+    let document = documents.scene(&params.text_document.uri)?;
     let outline = analysis::symbols(&document.text, document.syntax);
     Some(DocumentSymbolResponse::Nested(outline.into_iter().map(|symbol| in_outline(document, symbol)).collect()))
 }
@@ -227,7 +234,7 @@ fn decoded(x: f32) -> f64 {
 }
 
 fn colors(documents: &Documents, params: DocumentColorParams) -> Option<Vec<ColorInformation>> {
-    let document = documents.get(&params.text_document.uri)?;
+    let document = documents.scene(&params.text_document.uri)?;
     let found = analysis::colors(&document.text, document.syntax);
     let swatch = |place: analysis::ColorPlace| {
         let [red, green, blue] = place.linear.map(encoded);
@@ -238,7 +245,7 @@ fn colors(documents: &Documents, params: DocumentColorParams) -> Option<Vec<Colo
 }
 
 fn presentations(documents: &Documents, params: ColorPresentationParams) -> Option<Vec<ColorPresentation>> {
-    let document = documents.get(&params.text_document.uri)?;
+    let document = documents.scene(&params.text_document.uri)?;
     let Color { red, green, blue, .. } = params.color;
     let texts = analysis::color_texts([red, green, blue].map(decoded), document.syntax);
     let written = |text: String| ColorPresentation {
@@ -250,7 +257,7 @@ fn presentations(documents: &Documents, params: ColorPresentationParams) -> Opti
 }
 
 fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeActionOrCommand>> {
-    let document = documents.get(&params.text_document.uri)?;
+    let document = documents.scene(&params.text_document.uri)?;
     let overlaps = |range: &Range| range.start <= params.range.end && params.range.start <= range.end;
     let mut actions = Vec::new();
     for fault in diagnostics::found(document) {
@@ -278,7 +285,7 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
 
 /// Nothing where the scene is wrong: what is wrong is marked already.
 fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Option<Vec<TextEdit>> {
-    let document = documents.get(&params.text_document.uri)?;
+    let document = documents.scene(&params.text_document.uri)?;
     let tidy = scene_format::format(&document.name(), &document.text, document.syntax).ok()?;
     if *tidy == *document.text {
         return Some(Vec::new());

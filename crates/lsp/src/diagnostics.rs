@@ -26,8 +26,11 @@ fn load(document: &Document, set: &[Override]) -> Result<Loaded, LoadError> {
     }
 }
 
-/// The same as scene-format tells it.
+/// The same as scene-format tells it; nothing of what is no scene.
 pub fn found(document: &Document) -> Diagnostics {
+    if !document.is_scene {
+        return Diagnostics::new();
+    }
     match load(document, &[]) {
         Ok(loaded) => loaded.warnings,
         Err(LoadError::Invalid { diagnostics, .. }) => diagnostics,

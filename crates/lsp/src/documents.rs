@@ -1,5 +1,6 @@
 //! The texts that are open in the editor.
 
+use crate::kin;
 use crate::positions::{Encoding, Lines};
 use lsp_types::Uri;
 use scene_format::Syntax;
@@ -18,6 +19,8 @@ pub struct Document {
     pub text: Arc<str>,
     /// By its name, else by its looks.
     pub syntax: Syntax,
+    /// Whether it is a scene; of other files nothing is told.
+    pub is_scene: bool,
     /// Where it lies, if it lies on this machine.
     pub path: Option<PathBuf>,
     /// Its lines.
@@ -54,9 +57,10 @@ impl Documents {
     pub fn put(&mut self, uri: Uri, version: i32, text: String) {
         let path = path_of(&uri);
         let syntax = path.as_deref().and_then(Syntax::from_path).unwrap_or_else(|| Syntax::guess(&text));
+        let is_scene = kin::is_scene(&text, syntax);
         let lines = Lines::new(&text, self.encoding);
         let key = uri.as_str().to_owned();
-        self.open.insert(key, Document { uri, version, text: text.into(), syntax, path, lines });
+        self.open.insert(key, Document { uri, version, text: text.into(), syntax, is_scene, path, lines });
     }
 
     /// It is open no more.
@@ -67,6 +71,11 @@ impl Documents {
     /// A text that is open.
     pub fn get(&self, uri: &Uri) -> Option<&Document> {
         self.open.get(uri.as_str())
+    }
+
+    /// A scene that is open.
+    pub fn scene(&self, uri: &Uri) -> Option<&Document> {
+        self.get(uri).filter(|document| document.is_scene)
     }
 }
 

@@ -10,6 +10,7 @@ mod answers;
 mod diagnostics;
 mod documents;
 mod files;
+mod kin;
 mod positions;
 
 use documents::Documents;
@@ -175,7 +176,7 @@ fn tell(
     let diagnostics = diagnostics::of(document);
     let version = Some(document.version);
     publish(connection, PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version })?;
-    if files {
+    if files && document.is_scene {
         looker.look(document.clone());
     }
     Ok(())

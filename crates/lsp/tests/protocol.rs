@@ -209,3 +209,25 @@ fn other_frames_are_looked_at_and_no_camera_is_asked_for() {
     assert!(told[0]["message"].as_str().expect("text").contains("(frame 3)"), "{told:?}");
     editor.close();
 }
+
+/// Of files that are no scenes nothing is told, and nothing in them is changed.
+#[test]
+fn files_of_other_programs_are_left_alone() {
+    let text = "[package]\nname = \"a\"\nversion = \"0.1.0\"\n\n[dependencies]\nserde={version=\"1\"}\n";
+    let mut editor = Editor::open("file:///nowhere/Cargo.toml", text);
+    assert_eq!(editor.diagnostics(), Vec::<Value>::new());
+    for method in ["completion", "hover", "definition", "references"] {
+        assert_eq!(editor.at(&format!("textDocument/{method}"), 1, 2), Value::Null, "{method}");
+    }
+    let document = json!({ "uri": editor.uri });
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    let tidy = editor.ask("textDocument/formatting", json!({ "textDocument": document, "options": options }));
+    assert_eq!(tidy, Value::Null);
+    // It becomes one as soon as a scene's words stand in it.
+    editor.write("[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }\n");
+    assert_eq!(editor.diagnostics().len(), 1);
+    editor.write("# a room\n\nob");
+    let items = editor.at("textDocument/completion", 2, 2);
+    assert!(items.as_array().expect("a list").iter().any(|item| item["label"] == "objects"), "{items}");
+    editor.close();
+}

@@ -31,6 +31,9 @@ const MITSUBA: &[Need] =
 /// A browser, and what drives it: chromium of Debian, playwright-core of npm.
 const BROWSER: &[Need] = &[Program("chromium", "chromium"), Program("node", "nodejs"), Program("npm", "npm")];
 
+/// An editor, and what the extension of another one runs in.
+const EDITORS: &[Need] = &[Program("nvim", "neovim"), Program("node", "nodejs")];
+
 /// Slurm's daemons and its keys, GNU parallel.
 const SLURM: &[Need] =
     &[Program("sbatch", "slurm-wlm"), File("/usr/sbin/munged", "munge"), Program("parallel", "parallel")];
@@ -125,6 +128,18 @@ pub const PROOFS: &[Proof] = &[
             "python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
              target/prove/wheels/tracer_render-*.whl",
             "python -m pytest -q -c crates/python/pyproject.toml crates/python/tests/python --pyargs tracer",
+        ],
+    ),
+    proof(
+        "editors",
+        Always,
+        "`tracer lsp` with Neovim, and the extension for VS Code in an editor of its own; ten seconds, once the program \
+         is built with `--release`",
+        EDITORS,
+        &[
+            "cargo build --release --locked --workspace",
+            "TRACER=target/release/tracer node crates/lsp/tests/vscode/main.js",
+            "TRACER=target/release/tracer nvim --clean --headless -c 'luafile crates/lsp/tests/neovim/main.lua'",
         ],
     ),
     proof(
