@@ -88,7 +88,7 @@ pub(crate) struct Reader<'r> {
     /// Items that repetitions have made.
     repeated: u64,
     /// The indices of the repetitions that are being read, the outermost first.
-    indices: Vec<(String, u32)>,
+    indices: Vec<(Arc<str>, u32)>,
     /// Included files that are being read, one within the other.
     open: Vec<include::Open>,
     /// The number of the first source that is an included file.
