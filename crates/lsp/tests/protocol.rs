@@ -216,7 +216,7 @@ fn files_of_other_programs_are_left_alone() {
     let text = "[package]\nname = \"a\"\nversion = \"0.1.0\"\n\n[dependencies]\nserde={version=\"1\"}\n";
     let mut editor = Editor::open("file:///nowhere/Cargo.toml", text);
     assert_eq!(editor.diagnostics(), Vec::<Value>::new());
-    for method in ["completion", "hover", "definition", "references"] {
+    for method in ["completion", "hover", "definition", "prepareRename"] {
         assert_eq!(editor.at(&format!("textDocument/{method}"), 1, 2), Value::Null, "{method}");
     }
     let document = json!({ "uri": editor.uri });
@@ -224,7 +224,7 @@ fn files_of_other_programs_are_left_alone() {
     let tidy = editor.ask("textDocument/formatting", json!({ "textDocument": document, "options": options }));
     assert_eq!(tidy, Value::Null);
     // It becomes one as soon as a scene's words stand in it.
-    editor.write("[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }\n");
+    editor.write("background = 1\n\n[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }\n");
     assert_eq!(editor.diagnostics().len(), 1);
     editor.write("# a room\n\nob");
     let items = editor.at("textDocument/completion", 2, 2);

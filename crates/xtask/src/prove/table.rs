@@ -133,8 +133,8 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "editors",
         Always,
-        "`tracer lsp` with Neovim, and the extension for VS Code in an editor of its own; ten seconds, once the program \
-         is built with `--release`",
+        "`tracer lsp` with Neovim, and the extension for VS Code in an editor of its own; ten seconds, once the \
+         program is built with `--release`",
         EDITORS,
         &[
             "cargo build --release --locked --workspace",
