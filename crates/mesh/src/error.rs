@@ -53,7 +53,7 @@ pub enum MeshError {
         /// What was expected; may be empty.
         expected: String,
         /// The line, where it can be shown.
-        excerpt: Option<Excerpt>,
+        excerpt: Option<Box<Excerpt>>,
     },
     /// The file cannot be read without an extension of glTF that is not known here.
     #[error("{}: the file requires the glTF extension `{name}`", path.display())]
@@ -87,7 +87,7 @@ impl MeshError {
     /// A fault in a line of `text`.
     #[cold]
     pub(super) fn at_line(path: &Path, text: &[u8], fault: Fault) -> MeshError {
-        let (place, excerpt) = (Place::Line(fault.line_in(text)), Excerpt::around(text, fault.at));
+        let (place, excerpt) = (Place::Line(fault.line_in(text)), Excerpt::around(text, fault.at).map(Box::new));
         MeshError::Broken { path: path.to_owned(), place, message: fault.message, expected: fault.expected, excerpt }
     }
 
@@ -125,7 +125,7 @@ impl MeshError {
                 Diagnostic::error(codes::BROKEN_MESH, span, format!("the mesh file is broken{at}: {message}"))
                     .expected(expected.clone())
                     .at_line(path, line)
-                    .showing(excerpt.clone())
+                    .showing(excerpt.as_deref().cloned())
             }
             MeshError::Extension { path, name } => {
                 let message = format!("the mesh file requires the glTF extension `{name}`, which is not known here");

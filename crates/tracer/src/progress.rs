@@ -164,12 +164,14 @@ impl Pace {
     /// first passes are short, and come with what is made ready for all.
     fn left(&mut self, done: u64, all: u64, now: Instant) -> Option<Duration> {
         let first = self.0.first().map_or(done, |first| first.0);
-        if self.0.last().is_none_or(|last| done - first >= (last.0 - first) / 8 * 9 + 1) {
+        // Threads tell in any order.
+        let here = done.saturating_sub(first);
+        if self.0.last().is_none_or(|last| here > (last.0 - first) / 8 * 9) {
             self.0.push((done, now));
         }
-        let half = first + (done - first) / 2;
+        let half = first + here / 2;
         let since = self.0.iter().rev().find(|point| point.0 <= half)?;
-        let seconds = (now - since.1).as_secs_f64() / (done - since.0).max(1) as f64;
+        let seconds = (now - since.1).as_secs_f64() / done.saturating_sub(since.0).max(1) as f64;
         (done > since.0).then(|| Duration::try_from_secs_f64(seconds * all.saturating_sub(done) as f64).ok()).flatten()
     }
 }

@@ -254,7 +254,7 @@ enum Solid {
 fn reach_across(to_unit: &DAffine3, slope: f64) -> f64 {
     const NORMALS: u32 = 64;
     let reach = |k: u32| {
-        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(NORMALS)).sin_cos();
+        let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / f64::from(NORMALS));
         (to_unit.matrix3.transpose() * DVec3::new(cos, sin, -slope)).length()
     };
     1.005 * (0..NORMALS).map(reach).fold(0.0, f64::max)

@@ -195,7 +195,7 @@ impl Work<'_> {
         let plan = self.options.plan.filter(|plan| plan.whole == pass.start);
         let blocks = painter.grid.len() as u32;
         if let Some(plan) = &plan {
-            film.unfinished = Some(plan.to_do(blocks));
+            film.unfinished = Some(plan.pieces(blocks));
             painter.light_until = plan.light;
         }
         film.unfinished = painter.paint(film, pass.clone(), self.keeper.take());

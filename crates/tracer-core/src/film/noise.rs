@@ -2,8 +2,8 @@
 //!
 //! The samples of a pixel are stratified: the more of them, the better they are than independent ones, by a factor of
 //! eight in the variance at the borders of things after 64 of them. So what a pixel's samples scatter by
-//! ([`Film::variance`]) is an upper bound. The noise of the whole picture is told by what is seen instead. At each power
-//! of two h, when all pixels have so many samples, their means are put down; of 2 h samples the first half and the
+//! ([`Film::variance`]) is an upper bound. The noise of the whole picture is told by what is seen instead. At each
+//! power of two h, when all pixels have so many samples, their means are put down; of 2 h samples the first half and the
 //! second are nets of the sampler with scrambles of their own, and how much the two pictures differ tells the variance:
 //!
 //! with V(n) = c n^-r for the variance of n samples from a power of two on, and V(2 h) that of the mean of both halves,
@@ -32,13 +32,13 @@ impl Octave {
     /// r: how fast the variance falls with the number of samples.
     fn rate(&self) -> f64 {
         let [now, half, fourth] = self.differences;
-        let fell = if fourth > 0.0 { (fourth / now).log2() / 2.0 } else { (half / now).log2() };
+        let fell = if fourth > 0.0 { libm::log2(fourth / now) / 2.0 } else { libm::log2(half / now) };
         if fell.is_finite() { fell.clamp(1.0, 2.0) } else { 1.0 }
     }
 
     /// V of twice the samples of which D is of the halves, over D.
     fn of_difference(rate: f64) -> f64 {
-        (-rate).exp2() / (2.0 * (2.0 - (1.0 - rate).exp2()))
+        libm::exp2(-rate) / (2.0 * (2.0 - libm::exp2(1.0 - rate)))
     }
 
     /// What the square of the difference between the first h samples and k more is to be multiplied by to be the
@@ -46,10 +46,10 @@ impl Octave {
     fn of_more(&self, more: u32, rate: f64) -> Option<f64> {
         let (h, k) = (f64::from(self.samples), f64::from(more));
         let n = h + k;
-        let (of_first, of_more) = (h.powf(-rate), k.powf(-rate));
-        let independent = ((h / n).powi(2) * of_first + (k / n).powi(2) * of_more) / (of_first + of_more);
+        let (of_first, of_more) = (libm::pow(h, -rate), libm::pow(k, -rate));
+        let independent = (h * h * of_first + k * k * of_more) / (n * n) / (of_first + of_more);
         (4 * u64::from(more) >= self.samples.into())
-            .then(|| independent * (4.0 * Self::of_difference(rate)).powf(k / h))
+            .then(|| independent * libm::pow(4.0 * Self::of_difference(rate), k / h))
     }
 
     /// Whether it is one that a file can hold.
@@ -79,7 +79,8 @@ impl Film {
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
-                sum += 4.0 * (mean - f64::from(tile.octave[pixel])).powi(2);
+                let difference = mean - f64::from(tile.octave[pixel]);
+                sum += 4.0 * difference * difference;
                 tile.octave[pixel] = shortened(mean as f32);
             }
             sum
@@ -181,8 +182,8 @@ impl Tile {
 mod tests {
     use super::*;
 
-    /// Where both halves are independent, as where they are nets that together are a better one, what is seen at a power
-    /// of two is what the law says, and between two of them it goes from the one to the other.
+    /// Where both halves are independent, as where they are nets that together are a better one, what is seen at a
+    /// power of two is what the law says, and between two of them it goes from the one to the other.
     #[test]
     fn the_law_is_found_again() {
         for rate in [1.0, 1.3, 1.5, 2.0] {

@@ -27,7 +27,7 @@ impl Plan {
     }
 
     /// What of its last pass is to be done, where there are so many blocks.
-    pub(crate) fn to_do(&self, blocks: u32) -> Unfinished {
+    pub(crate) fn pieces(&self, blocks: u32) -> Unfinished {
         let places = 0..self.blocks.min(blocks);
         let pieces = if places.is_empty() { Vec::new() } else { vec![Piece { places, samples: self.whole..self.end }] };
         Unfinished { end: self.end, pieces }
@@ -96,7 +96,7 @@ mod tests {
         for (blocks, done, left) in [(0, 0, 10), (4, 4, 6), (10, 10, 0), (u32::MAX, 10, 0)] {
             let plan = Plan { blocks, ..plan };
             let count = |rest: &Unfinished| rest.pieces.iter().map(|piece| piece.places.len()).sum::<usize>();
-            assert_eq!((count(&plan.to_do(10)), plan.left(10).as_ref().map(count)), (done, Some(left)));
+            assert_eq!((count(&plan.pieces(10)), plan.left(10).as_ref().map(count)), (done, Some(left)));
         }
         assert_eq!(Plan { blocks: 10, light: 80, ..plan }.left(10), None);
     }
