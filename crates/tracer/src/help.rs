@@ -26,7 +26,7 @@ const WHOLE: &str = "{about}\n\n{usage-heading} {usage}\n\n{all-args}{after-help
 /// Headings of the whole help of `tracer render` and commands with the same options, and what stands under each.
 const HEADINGS: [(&str, &[&str]); 7] = [
     ("Picture", &["output", "size", "crop", "exposure", "layers", "show", "format", "bits", "no_metadata", "open"]),
-    ("Quality", &["samples", "noise", "time", "seed", "integrator", "threads"]),
+    ("Quality", &["samples", "noise", "time", "plan", "seed", "integrator", "threads"]),
     ("Denoising", &["denoise"]),
     ("Animation", &["frames", "skip_existing"]),
     ("Parts and checkpoints", &["part", "split", "checkpoint", "every", "resume"]),
@@ -136,6 +136,7 @@ pub fn command() -> Command {
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
             [
+                "plan",
                 "syntax",
                 "diagnostics",
                 "seed",

@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn what_scenes_have_many_of_is_small() {
         assert_eq!(size_of::<Spanned<Object>>(), 136);
-        assert_eq!(size_of::<NamedMaterial>(), 80);
+        assert_eq!(size_of::<NamedMaterial>(), 88);
         assert_eq!(size_of::<Spanned<Transform>>(), 64);
     }
 }

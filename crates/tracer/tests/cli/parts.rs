@@ -45,11 +45,11 @@ fn merged_pictures_are_those_of_one_machine() {
         assert_eq!(sandbox.read("all.png"), sandbox.read("one.png"), "kind {k}");
         assert_eq!(sandbox.read("all.exr"), sandbox.read("one.exr"), "kind {k}");
         let (all, one) = (json(&sandbox, "all.json"), json(&sandbox, "one.json"));
-        for what in
-            ["/scene", "/noise/relative", "/picture/samples_min", "/picture/crop", "/picture/layers", "/samples/total"]
-        {
+        for what in ["/scene", "/picture/samples_min", "/picture/crop", "/picture/layers", "/samples/total"] {
             assert_eq!(all.pointer(what), one.pointer(what), "kind {k}: {what}");
         }
+        // Of parts nobody knows by how much two halves of all samples differ.
+        assert!(all["noise"]["relative"].as_f64().is_some_and(|noise| noise > 0.0), "kind {k}");
         assert_eq!(all["clamped"], one["transport"]["clamped"]);
         // Parts by samples trace no ray twice, and count none twice.
         if k < 2 {

@@ -222,7 +222,7 @@ fn scenes() -> Vec<Case> {
 /// What must not be replaced is not, whatever fails while that is found out.
 fn spared() -> Vec<Case> {
     vec![
-        refused("a scene file that is there", "convert scene.ron -o b.toml", 1, with(&["b.toml"])),
+        refused("a scene file that is there", "convert scene.ron -o b.toml", 2, with(&["b.toml"])),
         refused("the scene's texture", "render scene.ron -o board.png", 2, scene()),
         refused("the scene's mesh as a report", "render scene.ron -o a.png --report tent.off", 2, scene()),
         refused("what is no checkpoint", "render scene.ron -o a.png --checkpoint tent.off", 2, scene()),

@@ -166,10 +166,11 @@ mod tests {
     use clap::{CommandFactory, Parser};
 
     /// Options of `render` that are none of the farm's, or not handed on as they are, and why.
-    const OWN: [(&str, &str); 15] = [
+    const OWN: [(&str, &str); 16] = [
         ("format", "pictures are files"),
         ("noise", "parts end at their samples"),
         ("time", "parts end at their samples"),
+        ("plan", "parts end at their samples"),
         ("part", "each part has its own"),
         ("threads", "Slurm gives cores"),
         ("checkpoint", "each part has its own"),
