@@ -27,7 +27,7 @@ pub use dielectric::Dielectric;
 use dielectric::fresnel;
 pub use specular_reflection::reflect_bent;
 
-use super::patterns::pattern_color;
+use super::patterns::{At, pattern_color};
 use super::surface::Surface;
 use super::textures::texture_color;
 use crate::bvh::SAME_SIDE;
@@ -38,7 +38,7 @@ use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWES
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
-use varying::{Texel, Varying};
+use varying::{Numbers, Texel, Varying};
 
 /// How lanes scatter.
 #[derive(Clone, Copy)]
@@ -142,7 +142,13 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
                 bsdf.color = V3::select(textured, texel, bsdf.color);
             }
             if let Some(table) = &tables.materials.varying {
-                bsdf = F::apart(Varying { scene, table, s, bsdf, valid });
+                let Bsdf { parameter, share, tint, metal, .. } = bsdf;
+                let numbers = Numbers { parameter, share, tint, specular: F::M::from_bits(0) };
+                let (at, normal, material) = (At::of(s), s.ns, s.material);
+                let told = F::apart(Varying { scene, table, at, normal, material, metal, numbers, valid });
+                (bsdf.parameter, bsdf.share, bsdf.tint) = (told.parameter, told.share, told.tint);
+                bsdf.glossy = bsdf.glossy & !told.specular;
+                bsdf.mirror = bsdf.mirror | told.specular;
             }
         }
         bsdf
@@ -179,7 +185,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             let number = number.to_bits();
             let mask = on & !number.eq(none);
             if mask.any() {
-                color = V3::select(mask, F::apart(Texel { scene, number, s, mask }), color);
+                color = V3::select(mask, F::apart(Texel { scene, number, at: At::of(s), normal: s.ns, mask }), color);
             }
         }
         let touching = F::select(both, self.parameter * ior, self.parameter / ior);

@@ -1,9 +1,7 @@
 //! What textures say of a material beside its colour: how wide its lobes are, what share they have, another colour.
 //! Calls, since only scenes that have such pay for them.
 
-use super::Bsdf;
-use crate::engine::stages::patterns::pattern_color;
-use crate::engine::stages::surface::Surface;
+use crate::engine::stages::patterns::{At, pattern_color_at};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
@@ -14,18 +12,19 @@ const LARGEST_EXPONENT: f32 = 1e7;
 
 /// The colour of a texture by its number + 1 (as in [`crate::scene::MaterialTable::rows`]), in the lanes of the mask;
 /// anything elsewhere.
-pub(super) struct Texel<'t, 's, F: Lanes> {
+pub(super) struct Texel<'t, F: Lanes> {
     pub scene: &'t Scene,
     pub number: F::U,
-    pub s: &'s Surface<F>,
+    pub at: At<F>,
+    pub normal: V3<F>,
     pub mask: F::M,
 }
 
-impl<F: Lanes> Part<F> for Texel<'_, '_, F> {
+impl<F: Lanes> Part<F> for Texel<'_, F> {
     type Out = V3<F>;
     #[inline(always)]
     fn run(self) -> V3<F> {
-        let Texel { scene, number, s, mask } = self;
+        let Texel { scene, number, at, normal, mask } = self;
         let one = F::U::splat(1);
         let mut color = V3::zero();
         let mut pictures = mask;
@@ -33,58 +32,72 @@ impl<F: Lanes> Part<F> for Texel<'_, '_, F> {
             let pattern = F::U::splat(scene.tables.materials.first_pattern);
             let reckoned = mask & pattern.lt(number);
             if reckoned.any() {
-                color = pattern_color(scene, number - one - pattern, s, reckoned);
+                color = pattern_color_at(scene, number - one - pattern, at, normal, reckoned);
             }
             pictures = mask & !reckoned;
         }
         if pictures.any() {
-            let texel = texture_color(&scene.tables.textures, number - one, s.u, s.v, pictures);
+            let [u, v] = at.uv();
+            let texel = texture_color(&scene.tables.textures, number - one, u, v, pictures);
             color = V3::select(pictures, texel, color);
         }
         color
     }
 }
 
-/// A material whose constants are known, and the numbers of its other textures.
-pub(super) struct Varying<'t, 's, F: Lanes> {
+/// A material whose constants are known, where it is met.
+pub(super) struct Varying<'t, F: Lanes> {
     pub scene: &'t Scene,
+    /// The numbers of its other textures.
     pub table: &'t Table<3>,
-    pub s: &'s Surface<F>,
-    pub bsdf: Bsdf<'t, F>,
+    pub at: At<F>,
+    pub normal: V3<F>,
+    pub material: F::U,
+    /// Lanes with metals.
+    pub metal: F::M,
+    /// As the constants have them.
+    pub numbers: Numbers<F>,
     pub valid: F::M,
 }
 
-impl<'t, F: Lanes> Part<F> for Varying<'t, '_, F> {
-    type Out = Bsdf<'t, F>;
+/// What textures may say of a material.
+pub(super) struct Numbers<F: Lanes> {
+    pub parameter: F,
+    pub share: F,
+    pub tint: V3<F>,
+    /// Metals that are smooth here.
+    pub specular: F::M,
+}
+
+impl<F: Lanes> Part<F> for Varying<'_, F> {
+    type Out = Numbers<F>;
     #[inline(always)]
-    fn run(self) -> Bsdf<'t, F> {
+    fn run(self) -> Numbers<F> {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let Varying { scene, table, s, mut bsdf, valid } = self;
-        let [width, share, second] = table.row::<F>(s.material).map(F::to_bits);
+        let Varying { scene, table, at, normal, material, metal: metals, mut numbers, valid } = self;
+        let [width, share, second] = table.row::<F>(material).map(F::to_bits);
         let on = valid & !width.eq(F::U::splat(0));
         if on.any() {
-            let number = luminance(F::apart(Texel { scene, number: width, s, mask: on })).max(zero);
+            let number = luminance(F::apart(Texel { scene, number: width, at, normal, mask: on })).max(zero);
             let roughness = number.min(one);
-            let metal = on & bsdf.metal;
+            let metal = on & metals;
             let width = F::select(metal, roughness * roughness, number.min(c(LARGEST_EXPONENT)));
-            bsdf.parameter = F::select(on, width, bsdf.parameter);
-            let specular = metal & width.lt(c(LEAST_ALPHA as f32));
-            bsdf.glossy = bsdf.glossy & !specular;
-            bsdf.mirror = bsdf.mirror | specular;
+            numbers.parameter = F::select(on, width, numbers.parameter);
+            numbers.specular = metal & width.lt(c(LEAST_ALPHA as f32));
         }
         let on = valid & !share.eq(F::U::splat(0));
         if on.any() {
-            let number = luminance(F::apart(Texel { scene, number: share, s, mask: on }));
-            bsdf.share = F::select(on, number.max(zero).min(one), bsdf.share);
+            let number = luminance(F::apart(Texel { scene, number: share, at, normal, mask: on }));
+            numbers.share = F::select(on, number.max(zero).min(one), numbers.share);
         }
         let on = valid & !second.eq(F::U::splat(0));
         if on.any() {
-            let V3(red, green, blue) = F::apart(Texel { scene, number: second, s, mask: on });
+            let V3(red, green, blue) = F::apart(Texel { scene, number: second, at, normal, mask: on });
             let color = V3(red.max(zero).min(one), green.max(zero).min(one), blue.max(zero).min(one));
-            bsdf.tint = V3::select(on, color, bsdf.tint);
+            numbers.tint = V3::select(on, color, numbers.tint);
         }
-        bsdf
+        numbers
     }
 }
 

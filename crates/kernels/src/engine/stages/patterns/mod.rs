@@ -22,22 +22,41 @@ use crate::scene::{PatternTable, STRIDE, Scene, pattern_kind as kind};
 /// anything elsewhere. A call, since all stages that meet materials look up their colours.
 #[inline(always)]
 pub fn pattern_color<F: Lanes>(scene: &Scene, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
+    pattern_color_at(scene, id, At::of(s), s.ns, mask)
+}
+
+/// The same at a place, with its shading normal.
+#[inline(always)]
+pub fn pattern_color_at<F: Lanes>(scene: &Scene, id: F::U, at: At<F>, normal: V3<F>, mask: F::M) -> V3<F> {
     let table = &scene.tables.patterns;
-    let at = At { p: s.p, u: s.u, v: s.v, body: s.body, primitive: s.primitive };
     if table.programs.is_empty() {
         return F::apart(Lookup { table, id, at, mask });
     }
-    F::apart(program::Mixed { scene, id, at, normal: s.ns, mask })
+    F::apart(program::Mixed { scene, id, at, normal, mask })
 }
 
-/// Where a surface is met.
+/// Where a surface is met. A copy of what parts need: were they handed the surface, it would lie in memory everywhere.
 #[derive(Clone, Copy)]
-struct At<F: Lanes> {
+pub struct At<F: Lanes> {
     p: V3<F>,
     u: F,
     v: F,
     body: F::U,
     primitive: F::U,
+}
+
+impl<F: Lanes> At<F> {
+    /// Of a surface.
+    #[inline(always)]
+    pub fn of(s: &Surface<F>) -> Self {
+        At { p: s.p, u: s.u, v: s.v, body: s.body, primitive: s.primitive }
+    }
+
+    /// Texture coordinates.
+    #[inline(always)]
+    pub fn uv(&self) -> [F; 2] {
+        [self.u, self.v]
+    }
 }
 
 /// What is looked up.
