@@ -209,6 +209,7 @@ fn a_light_in_a_mirror() {
 /// Straight through a glass slab: each face reflects R = ((n - 1)/(n + 1))^2. Two scatterings see (1 - R)^2 L, two more
 /// also the light that was reflected twice inside: (1 - R)^2 (1 + R^2) L; one sees nothing.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn a_light_through_glass() {
     let ior = 2.0;
     let r: f64 = 1.0 / 9.0;

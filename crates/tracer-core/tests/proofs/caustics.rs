@@ -64,6 +64,7 @@ fn glass_of_several_surfaces() {
 
 /// Rings and statues: flat mirrors, smooth mirrors, smooth glass.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn meshes() {
     let ring = torus(0.25, 48, 16).obj("fine-torus");
     let flat = solid(&ring, mirror([0.9, 0.8, 0.5]), Shading::Flat, 3.0);
@@ -98,6 +99,7 @@ fn seen_otherwise() {
 
 /// Light paths reach the film through all filters and lenses, and from the film's edge.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn on_any_film() {
     let seen = || {
         let statue = solid(&icosphere(3).obj("icosphere-3"), glass(1.5), Shading::Smooth, 2.0);
@@ -117,6 +119,7 @@ fn on_any_film() {
 /// Narrow glossy lobes, both kinds, beside mirrors; one so wide that paths bring its light; one with a texture. What
 /// they cast on each other, too.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn glossy_lobes() {
     let shiny = |exponent: f64, specular: f64, energy_conserving: bool, y: f64| {
         let lobe = glossy(Albedo::Color([0.9, 0.6, 0.3].into()), exponent, specular, energy_conserving);
@@ -135,6 +138,7 @@ fn glossy_lobes() {
 
 /// The lamp within glass, in a mirror's hollow, and a caster within the lamp beside a small one outside.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn lamps_anywhere() {
     let shade = sphere([6.0, 14.0, 0.0], 6.5, glass(1.5));
     assert_guiding_is_unbiased("lamp in glass", &on_the_floor(vec![shade]), 512, SCENES);
@@ -149,6 +153,7 @@ fn lamps_anywhere() {
 
 /// More casters than there may be pairs are taken together.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn many_casters() {
     let place =
         |k: i32| sphere([f64::from(k % 90) * 0.3 - 13.5, 0.15, f64::from(k / 90) * 0.3 - 7.5], 0.12, glass(1.5));

@@ -122,6 +122,7 @@ fn bodies_as_the_reference_sees_them() {
 
 /// Light of flat lamps over glass and mirrors is the same by guides and light paths as by paths alone.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn over_glass_and_mirrors() {
     let on_floor = |lamps: Vec<Object>, object: Object| {
         let floor = rectangle([0.0; 3], [0.0, 1.0, 0.0], [40.0, 40.0], diffuse([0.8, 0.6, 0.4]));

@@ -58,6 +58,7 @@ fn view(material: &str, bodies: &str, size: u32) -> SceneDesc {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn solids_as_the_reference_sees_them() {
     for (name, material, size, samples) in [
         ("matt", "Diffuse(albedo: (0.3, 0.5, 0.8))", 32, Samples { engine: 256, reference: 256 }),

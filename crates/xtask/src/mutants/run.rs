@@ -178,6 +178,7 @@ impl Copy {
         let file = std::fs::File::create(&log).with_context(|| format!("cannot write {}", log.display()))?;
         let mut child = Command::new(program)
             .args(filters)
+            .arg("--include-ignored")
             .current_dir(self.tree.join("crates").join(of.folder))
             .stdout(file)
             .stderr(Stdio::null())

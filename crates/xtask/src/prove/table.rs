@@ -48,6 +48,13 @@ pub const PROOFS: &[Proof] = &[
         &["cd bench && cargo bench --locked --bench instructions"],
     ),
     proof(
+        "proofs",
+        Always,
+        "the engine's proofs that take more than some seconds each; five minutes",
+        &[],
+        &["cargo test --locked --workspace --test proofs -- --ignored"],
+    ),
+    proof(
         "preview",
         Asked,
         "`tracer preview` in a real browser: saves, faults, keys, two pages, a phone's width; two minutes",
@@ -201,7 +208,7 @@ pub const PROOFS: &[Proof] = &[
         Asked,
         "the statistical proofs with 16 times the samples; an hour",
         &[],
-        &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs"],
+        &["TRACER_PROOFS=long cargo test --locked -p tracer-core --test proofs -- --include-ignored"],
     ),
     proof(
         "mutants",
