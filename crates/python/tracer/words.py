@@ -772,7 +772,7 @@ class BlinnPhong(_BlinnPhongRequired, total=False):
     """Blinn-Phong: albedo * ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h).
 
     albedo: Colour of both lobes.
-    exponent: alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1 only: `Multiply(a: Texture(..), b: 1000)` or a `Mix` between two numbers by it.
+    exponent: alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1: `Multiply(a: Texture(..), b: 1000)` or a `Mix` between two numbers by it.
     specular: s: share of the glossy lobe, 0 to 1.
     energy_conserving: The glossy lobe after Ashikhmin and Shirley, that never reflects more than it gets.
     """

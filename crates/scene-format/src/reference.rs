@@ -118,8 +118,8 @@ machine.
 
 ## Textures by name
 
-`textures` gives names to textures, and to colours, as `materials` does to materials. Wherever a colour or a number may \
-be a texture, the name may stand, in
+`textures` gives names to textures, and to colours, as `materials` does to materials. Wherever a colour or a number \
+may be a texture, the name may stand, in
 other textures too:
 
 ```ron
@@ -143,7 +143,8 @@ begins so.
 number is wanted a
   picture is read as numbers. They stand in any order and may use each other, but not in a circle; what is within \
 each other to sixteen deep counts through names.
-- Colours in `textures` go from 0 to 1. Where larger numbers are wanted, multiply: `exponent: Multiply(a: \"clouds\", b: 1000)`.
+- Colours in `textures` go from 0 to 1. Where larger numbers are wanted, multiply: \
+`exponent: Multiply(a: \"clouds\", b: 1000)`.
 - `--set textures.bricks.width=0.1` sets a part of one.
 
 ## Groups and other files

@@ -153,31 +153,18 @@ impl Parser<'_> {
             {
                 node.kind = Kind::Key;
             }
-        } else if let Some(inner) = self.single_quoted() {
-            let end = start + inner.len() + 2;
-            let found = self.span(start, end);
-            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between double quotes")
-                .expected("{ \"name\": value }")
-                .hint(format!("write \"{inner}\""));
-            fault.edit = Some(Edit { span: found, replacement: format!("\"{inner}\"") });
-            self.sink.push(fault);
-            self.builder.leaf(Kind::Key, start, end);
-            self.at = end;
+        } else if let Some(inner) = self.single_quoted().map(str::to_owned) {
+            self.at += inner.len() + 2;
+            self.key_not_quoted(start, &inner, "names in { } stand between double quotes");
         } else if length > 0 {
             // A name may have spaces; it ends before the colon.
             let line = super::line_ahead(self.text, start);
             let named = line.split_once(':').map_or("", |(name, _)| name.trim_end());
             let plain = named.chars().all(|c| c.is_alphanumeric() || matches!(c, ' ' | '_' | '-' | '.'));
             let length = if plain { length.max(named.len()) } else { length };
-            let found = self.span(start, start + length);
             let word = &self.text[start..start + length];
             self.at += length;
-            let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, "names in { } stand between quotes")
-                .expected("{ \"name\": value }")
-                .hint(format!("write \"{word}\""));
-            fault.edit = Some(Edit { span: found, replacement: format!("\"{word}\"") });
-            self.sink.push(fault);
-            self.builder.leaf(Kind::Key, start, self.at);
+            self.key_not_quoted(start, word, "names in { } stand between quotes");
         } else {
             let mark = self.builder.nodes.len();
             let errors = self.sink.errors;
@@ -218,6 +205,17 @@ impl Parser<'_> {
         }
         self.trivia();
         self.value();
+    }
+
+    /// Takes what stands from here to the reader's place for a name without its quotes, and says so.
+    fn key_not_quoted(&mut self, start: usize, name: &str, message: &str) {
+        let found = self.span(start, self.at);
+        let mut fault = Diagnostic::error(codes::KEY_NOT_QUOTED, found, message)
+            .expected("{ \"name\": value }")
+            .hint(format!("write \"{name}\""));
+        fault.edit = Some(Edit { span: found, replacement: format!("\"{name}\"") });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Key, start, self.at);
     }
 
     /// A text, or the name of a kind between quotes: `"Sphere"(..)`.

@@ -3,8 +3,9 @@
 //! The samples of a pixel are stratified: the more of them, the better they are than independent ones, by a factor of
 //! eight in the variance at the borders of things after 64 of them. So what a pixel's samples scatter by
 //! ([`Film::variance`]) is an upper bound. The noise of the whole picture is told by what is seen instead. At each
-//! power of two h, when all pixels have so many samples, their means are put down; of 2 h samples the first half and the
-//! second are nets of the sampler with scrambles of their own, and how much the two pictures differ tells the variance:
+//! power of two h, when all pixels have so many samples, their means are put down; of 2 h samples the first half and
+//! the second are nets of the sampler with scrambles of their own, and how much the two pictures differ tells the
+//! variance:
 //!
 //! with V(n) = c n^-r for the variance of n samples from a power of two on, and V(2 h) that of the mean of both halves,
 //!

@@ -10,6 +10,7 @@ const PLACING: &str = "crates/tracer-core/src/compile/placing.rs";
 const LIGHT: &str = "crates/kernels/src/scene/light.rs";
 const SPHERE: &str = "crates/kernels/src/scene/sphere.rs";
 const FILM: &str = "crates/tracer-core/src/film.rs";
+const NOISE: &str = "crates/tracer-core/src/film/noise.rs";
 const ENGINE: &str = "crates/tracer-core/src/engine/mod.rs";
 const DEVELOP: &str = "crates/tracer-core/src/develop/mod.rs";
 const SRGB: &str = "crates/tracer-core/src/develop/srgb.rs";
@@ -289,7 +290,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "variance-of-a-sample-not-of-the-mean",
-        file: FILM,
+        file: NOISE,
         find: "((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0)",
         replace: "(tile.squares.of(pixel) / n - mean * mean).max(0.0)",
         caught_by: proofs(&["compiling"]),

@@ -10,7 +10,7 @@ scene_struct! {
     pub struct BlinnPhong as "BlinnPhong", "a Blinn-Phong material" {
         /// Colour of both lobes.
         albedo: Albedo = Albedo::default() => Rule::share();
-        /// alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1 only: `Multiply(a: Texture(..), b: 1000)`
+        /// alpha: 1 is dull, 100000 nearly a mirror. A picture goes from 0 to 1: `Multiply(a: Texture(..), b: 1000)`
         /// or a `Mix` between two numbers by it.
         exponent: Number => Rule::per_channel("a number", 0.0, 10_000_000.0);
         /// s: share of the glossy lobe, 0 to 1.

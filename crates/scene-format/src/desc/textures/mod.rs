@@ -77,9 +77,9 @@ macro_rules! textures {
         }
 
         scene_enum! {
-            /// A colour or a number that differs from place to place. Where a number is wanted (`exponent`, `roughness`,
-            /// `weight`), the luminance counts, and pictures are read as numbers. `a` and `b` go from 0 to 1; in a
-            /// texture that is written where a field takes larger numbers, as far as those.
+            /// A colour or a number that differs from place to place. Where a number is wanted (`exponent`,
+            /// `roughness`, `weight`), the luminance counts, and pictures are read as numbers. `a` and `b` go from 0 to
+            /// 1; in a texture that is written where a field takes larger numbers, as far as those.
             pub(crate) enum PatternWords, "texture" {
                 $(#[doc = $image_doc])+
                 $Image($Image);
