@@ -101,9 +101,13 @@ impl Bits for U16 {
     }
     #[inline(always)]
     fn load(from: &[u32]) -> Self {
+        /// A vector that need not be aligned. To read it is no call: in large functions the compiler leaves that of
+        /// `_mm512_loadu_si512` where it is.
+        #[repr(C, packed)]
+        struct Loose(__m512i);
         let from = &from[..16];
         // SAFETY: the CPU; the slice was cut to 16 entries.
-        U16(unsafe { _mm512_loadu_si512(from.as_ptr().cast()) })
+        U16(unsafe { (*from.as_ptr().cast::<Loose>()).0 })
     }
     #[inline(always)]
     fn store(self, to: &mut [u32]) {

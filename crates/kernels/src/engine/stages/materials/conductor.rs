@@ -80,12 +80,10 @@ impl<F: Lanes> Conductor<F> {
         let (zero, one) = (c(0.0), c(1.0));
         let (energy, scale) = (table.rows.column::<F>(next, 11), table.rows.column::<F>(next, 12));
         // 1 - E_avg, by 1 / (pi (1 - E_avg)) where that is there: E_avg may be near one.
-        let left_of = |energy: F, scale: F| {
-            let told = zero.lt(scale);
-            F::select(told, c(FRAC_1_PI) / F::select(told, scale, one), one - energy)
-        };
-        let left = left_of(self.energy, self.scale);
-        let left = (left_of(energy, scale) - left).fma(self.between, left);
+        let (here, there) = (zero.lt(self.scale), zero.lt(scale));
+        let left = F::select(here, c(FRAC_1_PI) / F::select(here, self.scale, one), one - self.energy);
+        let next = F::select(there, c(FRAC_1_PI) / F::select(there, scale, one), one - energy);
+        let left = (next - left).fma(self.between, left);
         self.energy = (energy - self.energy).fma(self.between, self.energy);
         let usable = zero.lt(scale) & c(1e-6).lt(left);
         let reckoned = F::select(usable, c(FRAC_1_PI) / F::select(usable, left, one), zero);
