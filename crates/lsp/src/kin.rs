@@ -36,6 +36,7 @@ fn weight(text: &str, syntax: Syntax) -> usize {
 mod tests {
     use super::*;
     use Syntax::{Json, Ron, Toml};
+    use std::collections::BTreeSet;
 
     #[test]
     fn files_of_other_programs_are_no_scenes() {
@@ -72,6 +73,15 @@ mod tests {
         for (text, syntax) in scenes {
             assert!(is_scene(text, syntax), "{text}");
         }
+    }
+
+    /// Whoever gives scenes another word says which of both it is.
+    #[test]
+    fn all_words_of_scenes_are_known() {
+        let schema: serde_json::Value = serde_json::from_str(&scene_format::schema()).expect("JSON");
+        let words = schema["properties"].as_object().expect("fields").keys().map(String::as_str);
+        let words: BTreeSet<&str> = words.filter(|word| !["$schema", "version"].contains(word)).collect();
+        assert_eq!(words, OWN.into_iter().chain(SHARED).collect());
     }
 
     #[test]

@@ -4,7 +4,8 @@
 //! rendered. So the next pass begins at once, and each tile is packed before anything is added to it: by the thread
 //! that comes to it, or by one that goes over all tiles meanwhile, whichever is first.
 
-use super::file::{FilmHead, FilmWriter, Note};
+use super::file::{FilmWriter, Note};
+use super::head::FilmHead;
 use super::record::record;
 use super::{Film, Tile};
 use std::io::{self, Write};

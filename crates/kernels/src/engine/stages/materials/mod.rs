@@ -27,9 +27,8 @@ pub use dielectric::Dielectric;
 use dielectric::fresnel;
 pub use specular_reflection::reflect_bent;
 
-use super::patterns::{At, pattern_color};
+use super::patterns::At;
 use super::surface::Surface;
-use super::textures::texture_color;
 use crate::bvh::SAME_SIDE;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -38,7 +37,7 @@ use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWES
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
-use varying::{Numbers, Texel, Varying};
+use varying::{Numbers, Texel, Varying, texel};
 
 /// How lanes scatter.
 #[derive(Clone, Copy)]
@@ -126,21 +125,8 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         let tables = &scene.tables;
         let (mut bsdf, texture) = Bsdf::<'t, F>::new(&tables.materials, s.material, valid);
         if tables.materials.textured {
-            let mut textured = valid & !texture.eq(F::U::splat(0));
-            if !tables.patterns.is_empty() {
-                let pattern = F::U::splat(tables.materials.first_pattern);
-                let reckoned = textured & pattern.lt(texture);
-                if reckoned.any() {
-                    let id = texture - F::U::splat(1) - pattern;
-                    let color = pattern_color(scene, id, s, reckoned);
-                    bsdf.color = V3::select(reckoned, color, bsdf.color);
-                }
-                textured = textured & !reckoned;
-            }
-            if textured.any() {
-                let texel = texture_color(&tables.textures, texture - F::U::splat(1), s.u, s.v, textured);
-                bsdf.color = V3::select(textured, texel, bsdf.color);
-            }
+            let textured = valid & !texture.eq(F::U::splat(0));
+            bsdf.color = texel(scene, texture, (At::of(s), s.ns), textured, bsdf.color);
             if let Some(table) = &tables.materials.varying {
                 let Bsdf { parameter, share, tint, metal, .. } = bsdf;
                 let numbers = Numbers { parameter, share, tint, specular: F::M::from_bits(0) };

@@ -1,7 +1,7 @@
 //! What textures say of a material beside its colour: how wide its lobes are, what share they have, another colour.
 //! Calls, since only scenes that have such pay for them.
 
-use crate::engine::stages::patterns::{At, pattern_color_at};
+use crate::engine::stages::patterns::{At, pattern_color};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
@@ -11,7 +11,35 @@ use crate::scene::{LEAST_ALPHA, Scene, Table};
 const LARGEST_EXPONENT: f32 = 1e7;
 
 /// The colour of a texture by its number + 1 (as in [`crate::scene::MaterialTable::rows`]), in the lanes of the mask;
-/// anything elsewhere.
+/// elsewhere this one.
+#[inline(always)]
+pub(super) fn texel<F: Lanes>(
+    scene: &Scene,
+    number: F::U,
+    (at, normal): (At<F>, V3<F>),
+    mask: F::M,
+    mut color: V3<F>,
+) -> V3<F> {
+    let one = F::U::splat(1);
+    let mut pictures = mask;
+    if !scene.tables.patterns.is_empty() {
+        let pattern = F::U::splat(scene.tables.materials.first_pattern);
+        let reckoned = mask & pattern.lt(number);
+        if reckoned.any() {
+            let told = pattern_color(scene, number - one - pattern, at, normal, reckoned);
+            color = V3::select(reckoned, told, color);
+        }
+        pictures = mask & !reckoned;
+    }
+    if pictures.any() {
+        let [u, v] = at.uv();
+        let told = texture_color(&scene.tables.textures, number - one, u, v, pictures);
+        color = V3::select(pictures, told, color);
+    }
+    color
+}
+
+/// The same as a call, from black.
 pub(super) struct Texel<'t, F: Lanes> {
     pub scene: &'t Scene,
     pub number: F::U,
@@ -25,23 +53,7 @@ impl<F: Lanes> Part<F> for Texel<'_, F> {
     #[inline(always)]
     fn run(self) -> V3<F> {
         let Texel { scene, number, at, normal, mask } = self;
-        let one = F::U::splat(1);
-        let mut color = V3::zero();
-        let mut pictures = mask;
-        if !scene.tables.patterns.is_empty() {
-            let pattern = F::U::splat(scene.tables.materials.first_pattern);
-            let reckoned = mask & pattern.lt(number);
-            if reckoned.any() {
-                color = pattern_color_at(scene, number - one - pattern, at, normal, reckoned);
-            }
-            pictures = mask & !reckoned;
-        }
-        if pictures.any() {
-            let [u, v] = at.uv();
-            let texel = texture_color(&scene.tables.textures, number - one, u, v, pictures);
-            color = V3::select(pictures, texel, color);
-        }
-        color
+        texel(scene, number, (at, normal), mask, V3::zero())
     }
 }
 

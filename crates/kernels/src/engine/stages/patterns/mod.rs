@@ -18,16 +18,10 @@ use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::{V3, acos, atan2_turns};
 use crate::scene::{PatternTable, STRIDE, Scene, pattern_kind as kind};
 
-/// The colour of pattern `id`, or of a program numbered behind the patterns, at a surface, in the lanes of the mask;
-/// anything elsewhere. A call, since all stages that meet materials look up their colours.
+/// The colour of pattern `id`, or of a program numbered behind the patterns, at a place with its shading normal, in the
+/// lanes of the mask; anything elsewhere. A call, since all stages that meet materials look up their colours.
 #[inline(always)]
-pub fn pattern_color<F: Lanes>(scene: &Scene, id: F::U, s: &Surface<F>, mask: F::M) -> V3<F> {
-    pattern_color_at(scene, id, At::of(s), s.ns, mask)
-}
-
-/// The same at a place, with its shading normal.
-#[inline(always)]
-pub fn pattern_color_at<F: Lanes>(scene: &Scene, id: F::U, at: At<F>, normal: V3<F>, mask: F::M) -> V3<F> {
+pub fn pattern_color<F: Lanes>(scene: &Scene, id: F::U, at: At<F>, normal: V3<F>, mask: F::M) -> V3<F> {
     let table = &scene.tables.patterns;
     if table.programs.is_empty() {
         return F::apart(Lookup { table, id, at, mask });
